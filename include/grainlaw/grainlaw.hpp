@@ -1,0 +1,161 @@
+// grainlaw for C++20 hosts: owners of the C handles, spans for arrays, exceptions for faults.
+// Header only; it calls nothing but grainlaw.h, whose conventions (row-major, SI, tension positive)
+// hold here too.
+#ifndef GRAINLAW_GRAINLAW_HPP
+#define GRAINLAW_GRAINLAW_HPP
+
+#include <grainlaw/grainlaw.h>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace grainlaw::abi {
+
+// A status < 0, or a material that could not be made.
+class StatusError : public std::runtime_error {
+ public:
+  StatusError(grainlaw_status status, const std::string& message)
+      : std::runtime_error(message.empty() ? grainlaw_status_text(status) : message),
+        status_(status) {}
+  [[nodiscard]] grainlaw_status status() const { return status_; }
+
+ private:
+  grainlaw_status status_;
+};
+
+// Throws StatusError unless the status is OK.
+inline void check(grainlaw_status status, const std::string& message = {}) {
+  if (status != GRAINLAW_OK) throw StatusError(status, message);
+}
+
+class Material {
+ public:
+  // As grainlaw_material_load and _parse. Throw StatusError with the library's message.
+  static Material load(const std::string& path) {
+    return create([&](grainlaw_material** out, char* message, std::size_t size) {
+      return grainlaw_material_load(path.c_str(), out, message, size);
+    });
+  }
+  static Material parse(const std::string& toml_text, const std::string& base_directory) {
+    return create([&](grainlaw_material** out, char* message, std::size_t size) {
+      return grainlaw_material_parse(toml_text.c_str(), base_directory.c_str(), out, message, size);
+    });
+  }
+
+  [[nodiscard]] int dimension() const { return grainlaw_material_dimension(get()); }
+  [[nodiscard]] const grainlaw_material* get() const { return handle_.get(); }
+
+ private:
+  struct Destroy {
+    void operator()(grainlaw_material* handle) const { grainlaw_material_destroy(handle); }
+  };
+
+  template <class Call>
+  static Material create(Call&& call) {
+    std::array<char, 1024> message{};
+    grainlaw_material* handle = nullptr;
+    check(call(&handle, message.data(), message.size()), message.data());
+    Material material;
+    material.handle_.reset(handle);
+    return material;
+  }
+
+  Material() = default;
+  std::unique_ptr<grainlaw_material, Destroy> handle_;
+};
+
+// What an evaluation came to. A recoverable failure is an answer, not a fault: retry with a step
+// smaller by report.step_ratio.
+struct Evaluation {
+  grainlaw_status status = GRAINLAW_OK;
+  grainlaw_report report = grainlaw_report_default();
+  explicit operator bool() const { return status == GRAINLAW_OK; }
+};
+
+// One integration point. A copy is an independent state.
+class State {
+ public:
+  explicit State(const Material& material) : dimension_(material.dimension()) {
+    grainlaw_state* handle = nullptr;
+    check(grainlaw_state_create(material.get(), &handle));
+    handle_.reset(handle);
+  }
+  State(const State& other) : dimension_(other.dimension_) {
+    grainlaw_state* handle = nullptr;
+    check(grainlaw_state_clone(other.get(), &handle));
+    handle_.reset(handle);
+  }
+  State(State&&) noexcept = default;
+  State& operator=(State other) noexcept {
+    handle_ = std::move(other.handle_);
+    dimension_ = other.dimension_;
+    return *this;
+  }
+  ~State() = default;
+
+  // F[dim*dim], P[dim*dim] or empty, A[dim^4] or empty; want is none or one of GRAINLAW_WANT_*.
+  // Throws StatusError for a status < 0 and for spans of another size.
+  [[nodiscard]] Evaluation evaluate(std::span<const double> F, std::span<double> P,
+                                    unsigned want = 0, std::span<double> A = {}) {
+    const auto square = static_cast<std::size_t>(dimension_ * dimension_);
+    if (F.size() != square || (!P.empty() && P.size() != square) ||
+        (!A.empty() && A.size() != square * square))
+      throw StatusError(GRAINLAW_BAD_ARGUMENT, "F, P need dim^2 numbers and A dim^4");
+    Evaluation result;
+    result.status = grainlaw_evaluate(get(), F.data(), want, P.empty() ? nullptr : P.data(),
+                                      A.empty() ? nullptr : A.data(), &result.report);
+    if (result.status < 0) throw StatusError(result.status, result.report.message);
+    return result;
+  }
+
+  void commit() { check(grainlaw_commit(get())); }
+  void revert() { check(grainlaw_revert(get())); }
+
+  // The committed state as bytes, and back.
+  [[nodiscard]] std::vector<std::byte> save() const {
+    std::size_t size = 0;
+    check(grainlaw_state_save(get(), nullptr, &size));
+    std::vector<std::byte> bytes(size);
+    check(grainlaw_state_save(get(), bytes.data(), &size));
+    return bytes;
+  }
+  void load(std::span<const std::byte> bytes) {
+    check(grainlaw_state_load(get(), bytes.data(), bytes.size()));
+  }
+
+  // All components of a measure, in the unit of GRAINLAW_MEASURE_LIST.
+  [[nodiscard]] std::vector<double> measure(grainlaw_measure what) const {
+    std::size_t count = 0;
+    check(grainlaw_state_measure(get(), what, nullptr, &count));
+    std::vector<double> value(count);
+    check(grainlaw_state_measure(get(), what, value.data(), &count));
+    return value;
+  }
+
+  void write_vtk(const std::string& path) const {
+    check(grainlaw_state_write_vtk(get(), path.c_str()));
+  }
+  void write_packing(const std::string& prefix) const {
+    check(grainlaw_state_write_packing(get(), prefix.c_str()));
+  }
+
+  // For the C functions, e.g. grainlaw_evaluate_batch.
+  [[nodiscard]] grainlaw_state* get() const { return handle_.get(); }
+
+ private:
+  struct Destroy {
+    void operator()(grainlaw_state* handle) const { grainlaw_state_destroy(handle); }
+  };
+  std::unique_ptr<grainlaw_state, Destroy> handle_;
+  int dimension_;
+};
+
+}  // namespace grainlaw::abi
+
+#endif

@@ -1,0 +1,70 @@
+#include "api/evaluate_point.hpp"
+
+#include "api/guard.hpp"
+#include "api/report.hpp"
+#include "error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace grainlaw::api {
+namespace {
+
+double determinant(const double* F, int dimension) {
+  if (dimension == 2) return F[0] * F[3] - F[1] * F[2];
+  return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) +
+         F[2] * (F[3] * F[7] - F[4] * F[6]);
+}
+
+// Throws Error (NOT_FINITE, INVERTED, STEP_TOO_LARGE when the determinant overflows).
+void check_deformation(const double* F, int dimension) {
+  for (int i = 0; i < dimension; ++i)
+    for (int j = 0; j < dimension; ++j)
+      if (const double entry = F[i * dimension + j]; !std::isfinite(entry))
+        throw Error(GRAINLAW_NOT_FINITE, fmt::format("F{}{} is {}", i + 1, j + 1, entry));
+  const double det = determinant(F, dimension);
+  if (!std::isfinite(det)) throw Error(GRAINLAW_STEP_TOO_LARGE, "det F overflows");
+  if (det <= 0) throw Error(GRAINLAW_INVERTED, fmt::format("det F = {:.6g}, expected > 0", det));
+}
+
+TangentKind tangent_kind(unsigned want) {
+  switch (want) {
+    case GRAINLAW_WANT_TANGENT_EXACT:
+      return TangentKind::exact;
+    case GRAINLAW_WANT_TANGENT_ELASTIC:
+      return TangentKind::elastic;
+    case GRAINLAW_WANT_TANGENT_PERTURBED:
+      return TangentKind::perturbed;
+    default:
+      return TangentKind::none;
+  }
+}
+
+}  // namespace
+
+bool known_want(unsigned want) {
+  return want == 0 || want == GRAINLAW_WANT_TANGENT_EXACT ||
+         want == GRAINLAW_WANT_TANGENT_ELASTIC || want == GRAINLAW_WANT_TANGENT_PERTURBED;
+}
+
+grainlaw_status evaluate_point(grainlaw_state& handle, const double* F, unsigned want, double* P,
+                               double* A, void* report) noexcept {
+  grainlaw_report full = grainlaw_report_default();
+  const MessageBuffer message{full.message, sizeof full.message};
+  const grainlaw_status status = guarded(
+      [&] {
+        check_deformation(F, handle.state.material().packing.dimension);
+        const TangentKind kind = A == nullptr ? TangentKind::none : tangent_kind(want);
+        const grainlaw_status found = handle.state.evaluate(F, kind, P, A, full);
+        handle.last_cost = full.relaxation_steps;
+        return found;
+      },
+      message);
+  if (status != GRAINLAW_OK) handle.state.revert();
+  if (report != nullptr) copy_report(full, report);
+  return status;
+}
+
+}  // namespace grainlaw::api

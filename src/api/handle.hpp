@@ -1,0 +1,58 @@
+// What a C handle points to, and how a dead or foreign one is told.
+#pragma once
+
+#include "material/material.hpp"
+#include "state/state.hpp"
+
+#include <grainlaw/grainlaw.h>
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+namespace grainlaw::api {
+
+// First word of every handle; the destructor blanks it. A handle that was destroyed, or is of the
+// other kind, is told by it as long as its memory has not been given to something else.
+template <std::uint64_t value>
+class Magic {
+ public:
+  Magic() = default;
+  ~Magic() { *static_cast<volatile std::uint64_t*>(&word_) = 0; }  // volatile: not optimised away
+  Magic(const Magic&) = delete;
+  Magic& operator=(const Magic&) = delete;
+  [[nodiscard]] bool alive() const { return word_ == value; }
+
+ private:
+  std::uint64_t word_ = value;
+};
+
+}  // namespace grainlaw::api
+
+struct grainlaw_material {
+  explicit grainlaw_material(std::shared_ptr<const grainlaw::Material> shared)
+      : material(std::move(shared)) {}
+
+  grainlaw::api::Magic<0x6c61'6972'6574'616dULL> magic;
+  std::shared_ptr<const grainlaw::Material> material;
+};
+
+struct grainlaw_state {
+  explicit grainlaw_state(grainlaw::State initial, long cost = 0)
+      : state(std::move(initial)), last_cost(cost) {}
+
+  grainlaw::api::Magic<0x6574'6174'735f'6c67ULL> magic;
+  grainlaw::State state;
+  long last_cost;  // relaxation steps of the last evaluation; a batch begins with the dearest
+};
+
+namespace grainlaw::api {
+
+// OK, NULL_POINTER or BAD_HANDLE.
+template <class Handle>
+grainlaw_status check_handle(const Handle* handle) {
+  if (handle == nullptr) return GRAINLAW_NULL_POINTER;
+  return handle->magic.alive() ? GRAINLAW_OK : GRAINLAW_BAD_HANDLE;
+}
+
+}  // namespace grainlaw::api

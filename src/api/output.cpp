@@ -1,0 +1,25 @@
+// States as files.
+#include "state/output.hpp"
+
+#include "api/guard.hpp"
+#include "api/handle.hpp"
+#include "packing/packing_file.hpp"
+
+#include <grainlaw/grainlaw.h>
+
+using namespace grainlaw;
+
+grainlaw_status grainlaw_state_write_vtk(const grainlaw_state* handle, const char* path) {
+  if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
+  if (path == nullptr) return GRAINLAW_NULL_POINTER;
+  return api::guarded(
+      [&] { write_force_chains(path, handle->state.material(), handle->state.current()); });
+}
+
+grainlaw_status grainlaw_state_write_packing(const grainlaw_state* handle, const char* prefix) {
+  if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
+  if (prefix == nullptr) return GRAINLAW_NULL_POINTER;
+  return api::guarded([&] {
+    write_packing(prefix, as_packing(handle->state.material(), handle->state.current()));
+  });
+}

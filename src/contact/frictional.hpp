@@ -1,0 +1,51 @@
+// Forces and stiffness of frictional contacts of discs (Cundall & Strack 1979), friction by return
+// mapping from the start of the increment; kinematics objective and moment-balanced.
+#pragma once
+
+#include "contact/contact_list.hpp"
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace grainlaw {
+
+// Evaluate every contact at `coordinates` (component-major) and write force on j and couple d * ft to
+// the list: fn = kn overlap, ft = clamp(start_force - kt du, +-friction fn), both zero in tension.
+// du = d (turning of the branch - lambda_i dtheta_i - lambda_j dtheta_j).
+void evaluate_contacts(std::span<const double> coordinates, std::size_t particles,
+                       const std::array<double, 4>& cell, const ContactLaw& law,
+                       ContactList& list);
+
+// The same, and the history starts anew from here. Returns the energy dissipated since the old start:
+// sliding force times slip, and what the spring of an opened contact had stored [J].
+double advance_contacts(std::span<const double> coordinates, std::size_t particles,
+                        const std::array<double, 4>& cell, const ContactLaw& law,
+                        ContactList& list);
+
+// Sum the contacts' forces and moments onto their particles (component-major, overwritten).
+void accumulate_forces(const ContactList& list, std::size_t particles, bool rotating,
+                       std::span<double> forces);
+
+enum class ContactStatus : char { open, sticking, sliding };
+
+// One contact seen from its own frame: normal n, tangent t = (-n_y, n_x), distance, forces, and the
+// tangential displacement divided by the distance.
+struct ContactPoint {
+  double branch_x, branch_y, distance, normal_x, normal_y;
+  double normal_force, tangential_force;  // with the contact's weight [N]
+  double turn;                            // du / d [rad]
+  ContactStatus status;
+};
+
+ContactPoint contact_point(const ContactList& list, std::size_t c,
+                           std::span<const double> coordinates, std::size_t particles,
+                           const std::array<double, 4>& cell, const ContactLaw& law);
+
+// d(fn, ft, d ft) by (normal displacement, tangential displacement, lambda_i theta_i + lambda_j
+// theta_j) of the branch, 3 x 3 row-major; the first two rows are the force vector's components in
+// the turning frame of the contact. Exact derivative of the law within its status.
+std::array<double, 9> contact_stiffness(const ContactPoint& point, double normal_stiffness,
+                                        double tangential_stiffness, double friction);
+
+}  // namespace grainlaw

@@ -1,0 +1,177 @@
+#include "equilibrium/chain.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grainlaw {
+
+namespace {
+
+constexpr int most_subincrements = 64;
+
+// Relaxation hands over to Newton at this residual: Newton's reach shrinks with the packing's size.
+double switch_tolerance(std::size_t nodes) {
+  return 1e-4 * std::pow(std::min(1.0, 400.0 / static_cast<double>(nodes)), 1.66);
+}
+
+long relaxation_limit(std::size_t nodes) {
+  return static_cast<long>(4000 * std::sqrt(std::max(1.0, static_cast<double>(nodes) / 400)));
+}
+
+std::array<double, 4> between(const std::array<double, 9>& a, const std::array<double, 4>& b,
+                              double share) {
+  std::array<double, 4> f{};
+  for (std::size_t k = 0; k < 4; ++k) f[k] = a[k] + share * (b[k] - a[k]);
+  return f;
+}
+
+// Pi = |strain increment| kn / (p t), what makes an increment hard.
+double hardness(const Request& request) {
+  const auto& f0 = request.from->deformation;
+  const auto& packing = *request.problem->packing;
+  double strain = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    strain = std::max(strain, std::abs(request.deformation[k] - f0[k]));
+  }
+  const auto& p = request.from->stress;
+  const double det = f0[0] * f0[3] - f0[1] * f0[2];
+  const double trace = p[0] * f0[0] + p[1] * f0[1] + p[2] * f0[2] + p[3] * f0[3];
+  const double pressure = -0.5 * trace / det;
+  double radius = 0;
+  for (const double r : packing.radius) radius += r / static_cast<double>(packing.size());
+  const double line = std::max(pressure * packing.thickness, request.problem->force_floor / radius);
+  return line > 0 ? strain * request.problem->law->stiffness(radius, radius) / line : 0;
+}
+
+void start_iteration(const Request& request, double share, Increment& increment) {
+  increment.begin(*request.problem, *request.from,
+                  between(request.from->deformation, request.deformation, share));
+  if (request.guess != nullptr && share == 1) {
+    increment.coordinates = *request.guess;
+    increment.deformation = request.guess_deformation;
+    increment.deform(request.deformation);
+  }
+}
+
+enum class Relaxation { viscous, fire };
+
+// One sub-increment: relaxation, then Newton; when Newton does not get there, both again from where
+// they are, the relaxation ten times tighter.
+bool solve_part(const Request& request, Relaxation kind, Workspace& w) {
+  constexpr int rounds = 3;
+  constexpr int most_factorisations = 50;  // cost about as much as a round's relaxation
+  auto& increment = w.increment;
+  const long limit = relaxation_limit(increment.nodes());
+  increment.refresh_masses();
+  const double target = std::max(request.tolerance, increment.rounding_residual());
+  double hand_over = switch_tolerance(increment.nodes());
+  for (int round = 0; round < rounds; ++round, hand_over *= 0.1) {
+    const double tolerance = std::max(hand_over, target);
+    const bool relaxed =
+        kind == Relaxation::fire
+            ? relax_fire(increment, tolerance, limit, w.relaxation)
+            : relax(increment, tolerance, limit, History::committed, w.relaxation);
+    if (increment.touching == 0) return false;
+    if (relaxed && tolerance == target) return true;
+    if (flow_newton(increment, target, most_factorisations, w.newton)) return true;
+  }
+  return false;
+}
+
+bool solve_parts(const Request& request, int parts, Relaxation kind, Workspace& w,
+                 Outcome& outcome) {
+  auto& increment = w.increment;
+  w.sensitivity.reset();
+  outcome.subincrements = parts;
+  outcome.sensitivities = request.sensitivities;
+  for (int k = 1; k <= parts; ++k) {
+    const double share = static_cast<double>(k) / parts;
+    if (k == 1) {
+      start_iteration(request, share, increment);
+    } else {
+      increment.deform(between(request.from->deformation, request.deformation, share));
+    }
+    if (!solve_part(request, kind, w)) return false;
+    if (outcome.sensitivities) {
+      const double start = static_cast<double>(k - 1) / parts;
+      outcome.sensitivities = w.sensitivity.solve(increment, share, start, w.newton.stiffness);
+    }
+    if (k < parts) {
+      if (outcome.sensitivities) w.sensitivity.carry(increment);
+      increment.advance_history();
+    }
+  }
+  return true;
+}
+
+// Relaxation with advancing history, by the method asked for.
+bool solve_advancing(const Request& request, Method method, Workspace& w, Outcome& outcome) {
+  auto& increment = w.increment;
+  outcome.subincrements = 1;
+  outcome.history_advanced = true;
+  w.sensitivity.reset();
+  start_iteration(request, 1, increment);
+  bool done = false;
+  if (request.problem->space->options.method == BoundaryMethod::servo) {
+    done = solve_servo(increment, *request.options, request.tolerance, w.relaxation);
+  } else if (method == Method::published) {
+    done = relax_published(increment, request.tolerance, request.options->published, {},
+                           w.relaxation);
+  } else {
+    done = relax(increment, request.tolerance, 20 * relaxation_limit(increment.nodes()),
+                 History::advancing, w.relaxation);
+  }
+  outcome.sensitivities =
+      done && request.sensitivities && w.sensitivity.solve(increment, 1, 0, w.newton.stiffness);
+  return done;
+}
+
+}  // namespace
+
+Outcome solve(const Request& request, Workspace& w) {
+  Outcome outcome;
+  long steps = 0;
+  long corrections = 0;
+  int factorisations = 0;
+  const auto count = [&] {
+    steps += w.increment.relaxation_steps;
+    corrections += w.increment.servo_corrections;
+    factorisations += w.increment.factorisations;
+  };
+  const auto attempt = [&](bool done) {
+    count();
+    if (done) outcome.status = GRAINLAW_OK;
+    return done;
+  };
+
+  const double pi = hardness(request);
+  const int parts =
+      std::max(1, static_cast<int>(std::min<double>(
+                      std::ceil(pi / request.options->increment_limit), most_subincrements)));
+  const auto chain = [&] {
+    if (request.options->method != Method::chain) {
+      return attempt(solve_advancing(request, request.options->method, w, outcome));
+    }
+    for (const auto kind : {Relaxation::viscous, Relaxation::fire}) {
+      if (attempt(solve_parts(request, parts, kind, w, outcome))) return true;
+      if (w.increment.touching == 0) return false;
+    }
+    for (const int refinement : {2, 4, 8}) {
+      if (parts * refinement > most_subincrements) break;
+      if (attempt(solve_parts(request, parts * refinement, Relaxation::viscous, w, outcome))) return true;
+      if (w.increment.touching == 0) return false;
+    }
+    return attempt(solve_advancing(request, Method::advancing, w, outcome));
+  };
+  if (!chain()) {
+    outcome.status =
+        w.increment.touching == 0 ? GRAINLAW_CONTACTS_LOST : GRAINLAW_NOT_CONVERGED;
+    outcome.step_ratio = 0.5;
+  }
+  w.increment.relaxation_steps = steps;
+  w.increment.servo_corrections = corrections;
+  w.increment.factorisations = factorisations;
+  return outcome;
+}
+
+}  // namespace grainlaw

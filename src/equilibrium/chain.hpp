@@ -1,0 +1,54 @@
+// From an increment of deformation to its equilibrium: which solver, in which order, and what to do
+// when one fails.
+#pragma once
+
+#include "equilibrium/increment.hpp"
+#include "equilibrium/newton.hpp"
+#include "equilibrium/options.hpp"
+#include "equilibrium/relaxation.hpp"
+#include "equilibrium/sensitivity.hpp"
+
+#include <grainlaw/grainlaw.h>
+
+#include <array>
+
+namespace grainlaw {
+
+// All memory of one solving thread.
+struct Workspace {
+  Increment increment;
+  RelaxationMemory relaxation;
+  NewtonMemory newton;
+  Sensitivity sensitivity;
+};
+
+struct Request {
+  const Problem* problem = nullptr;
+  const SolverOptions* options = nullptr;
+  const Configuration* from = nullptr;
+  std::array<double, 4> deformation{};  // F to reach, without rotation against `from`
+  double tolerance = 1e-6;
+  bool sensitivities = false;
+  // Coordinates (rotations counted from `from`) to start the iteration from, at guess_deformation;
+  // null: the affine image.
+  const std::vector<double>* guess = nullptr;
+  std::array<double, 4> guess_deformation{};
+};
+
+struct Outcome {
+  grainlaw_status status = GRAINLAW_NOT_CONVERGED;
+  int subincrements = 1;
+  bool history_advanced = false;  // approximate: friction history advanced during the relaxation
+  bool sensitivities = false;     // they exist, and belong to this solution
+  double step_ratio = 1;
+};
+
+// On success workspace.increment holds the equilibrium, its history not yet advanced.
+Outcome solve(const Request& request, Workspace& workspace);
+
+// The published servo for frames (Liu, Bosco & Suiker 2017, Tables 2 and 3), in servo.cpp: boundary
+// nodes are moved by gain x residual between relaxations of the inner particles.
+bool solve_servo(Increment& increment, const SolverOptions& options, double tolerance,
+                 RelaxationMemory& memory);
+
+}  // namespace grainlaw

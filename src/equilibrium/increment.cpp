@@ -1,0 +1,272 @@
+#include "equilibrium/increment.hpp"
+
+#include "contact/frictional.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace grainlaw {
+
+namespace {
+
+// Neighbours are listed within this gap, in mean radii: wide enough that an increment of 0.1 % rarely
+// lists twice, narrow enough that few listed pairs never touch.
+constexpr double gap_in_radii = 0.1;
+
+std::array<double, 4> product(const std::array<double, 4>& a, const double* b) {
+  return {a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3], a[2] * b[0] + a[3] * b[2],
+          a[2] * b[1] + a[3] * b[3]};
+}
+
+std::array<double, 4> inverse(const std::array<double, 4>& a) {
+  const double det = a[0] * a[3] - a[1] * a[2];
+  return {a[3] / det, -a[1] / det, -a[2] / det, a[0] / det};
+}
+
+std::array<double, 4> cell_at(const Problem& problem, const std::array<double, 4>& f) {
+  if (problem.packing->frame) return {};
+  return product(f, problem.packing->cell.data());
+}
+
+}  // namespace
+
+void Increment::begin(const Problem& p, const Configuration& from,
+                      const std::array<double, 4>& target) {
+  problem = &p;
+  const auto n = particles();
+  const auto components = static_cast<std::size_t>(p.components());
+  start.resize(n * components);
+  std::copy_n(from.coordinates.begin(), 2 * n, start.begin());
+  std::fill(start.begin() + static_cast<std::ptrdiff_t>(2 * n), start.end(), 0.0);
+  start_deformation = {from.deformation[0], from.deformation[1], from.deformation[2],
+                       from.deformation[3]};
+  history.assign(from.contacts.begin(), from.contacts.end());
+  coordinates = start;
+  deformation = start_deformation;
+  cell = cell_at(p, deformation);
+  forces.resize(n * components);
+  if (!p.space->identity) node_residual.resize(unknowns());
+  mass.resize(unknowns());
+  node_radius.resize(nodes());
+  for (std::size_t q = 0; q < n; ++q) {
+    node_radius[static_cast<std::size_t>(p.space->node[q])] = p.packing->radius[q];
+  }
+  double mean_radius = 0;
+  for (const double r : p.packing->radius) mean_radius += r / static_cast<double>(n);
+  gap_ = gap_in_radii * mean_radius;
+  dissipated = 0;
+  relaxation_steps = servo_corrections = 0;
+  factorisations = 0;
+  deform(target);
+}
+
+void Increment::deform(const std::array<double, 4>& target) {
+  const auto g = product(target, inverse(deformation).data());
+  const auto n = particles();
+  double* x = coordinates.data();
+  double* y = x + n;
+  for (std::size_t p = 0; p < n; ++p) {
+    const double a = x[p];
+    const double b = y[p];
+    x[p] = g[0] * a + g[1] * b;
+    y[p] = g[2] * a + g[3] * b;
+  }
+  deformation = target;
+  cell = cell_at(*problem, deformation);
+  list_neighbours();
+}
+
+void Increment::list_neighbours() {
+  const auto& packing = *problem->packing;
+  listed_.assign(coordinates.begin(),
+                 coordinates.begin() + static_cast<std::ptrdiff_t>(2 * particles()));
+  search_.find(particles(), coordinates.data(), packing.radius.data(),
+               packing.frame ? nullptr : cell.data(), gap_, pairs);
+  if (packing.frame) problem->space->weigh(packing, pairs, pair_weights);
+  build_list();
+}
+
+void Increment::build_list() {
+  const HistoryStart from{start, cell_at(*problem, start_deformation), history};
+  build_contacts(pairs, pair_weights, problem->packing->radius, *problem->law, from, contacts);
+}
+
+void Increment::keep_neighbours() {
+  const auto n = particles();
+  double largest = 0;
+  for (std::size_t p = 0; p < n; ++p) {
+    const double dx = coordinates[p] - listed_[p];
+    const double dy = coordinates[n + p] - listed_[n + p];
+    largest = std::max(largest, dx * dx + dy * dy);
+  }
+  if (4 * largest > gap_ * gap_) list_neighbours();
+}
+
+void Increment::update_forces() {
+  evaluate_contacts(coordinates, particles(), cell, *problem->law, contacts);
+  project();
+}
+
+void Increment::update_forces_advancing() {
+  dissipated += advance_contacts(coordinates, particles(), cell, *problem->law, contacts);
+  project();
+}
+
+void Increment::project() {
+  const auto& space = *problem->space;
+  accumulate_forces(contacts, particles(), problem->law->rotating(), forces);
+  if (space.identity) return;
+  std::fill(node_residual.begin(), node_residual.end(), 0.0);
+  const auto n = particles();
+  const auto m = nodes();
+  const int components = problem->components();
+  for (int k = 0; k < components; ++k) {
+    const double* force = forces.data() + static_cast<std::size_t>(k) * n;
+    double* reduced = node_residual.data() + static_cast<std::size_t>(k) * m;
+    for (std::size_t p = 0; p < n; ++p) reduced[space.node[p]] += force[p];
+  }
+  for (std::size_t q = 0; q < m; ++q) {
+    if (space.fixed[q]) node_residual[q] = node_residual[m + q] = 0;
+  }
+}
+
+void Increment::refresh_masses() {
+  constexpr double factor = 0.8;
+  const auto n = particles();
+  const auto m = nodes();
+  const auto& law = *problem->law;
+  const auto& space = *problem->space;
+  const bool rotating = law.rotating();
+  std::fill(mass.begin(), mass.end(), 0.0);
+  double* translation = mass.data();
+  double* rotation = rotating ? translation + 2 * m : nullptr;
+  const double* x = coordinates.data();
+  const double* y = x + n;
+  double sum = 0;
+  double weights = 0;
+  touching = 0;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto p = static_cast<std::size_t>(contacts.i[c]);
+    const auto q = static_cast<std::size_t>(contacts.j[c]);
+    const double lx =
+        x[q] - x[p] + cell[0] * contacts.shift_x[c] + cell[1] * contacts.shift_y[c];
+    const double ly =
+        y[q] - y[p] + cell[2] * contacts.shift_x[c] + cell[3] * contacts.shift_y[c];
+    const double d2 = lx * lx + ly * ly;
+    if (d2 >= contacts.reach[c] * contacts.reach[c]) continue;
+    ++touching;
+    const double kn = contacts.normal_stiffness[c];
+    sum += kn * (contacts.reach[c] - std::sqrt(d2));
+    weights += contacts.weight_of(c);
+    const auto a = static_cast<std::size_t>(space.node[p]);
+    const auto b = static_cast<std::size_t>(space.node[q]);
+    translation[a] += kn;
+    translation[b] += kn;
+    if (rotating) {
+      const double turning = contacts.tangential_stiffness[c] * d2;
+      rotation[a] += contacts.lever_i[c] * turning;
+      rotation[b] += (1 - contacts.lever_i[c]) * turning;
+    }
+  }
+  mean_force = touching > 0 ? sum / weights : 0;
+  for (std::size_t q = 0; q < m; ++q) {
+    const double r = node_radius[q];
+    const double kn = law.stiffness(r, r);
+    translation[q] = factor * std::max(translation[q], kn);
+    translation[m + q] = translation[q];
+    if (rotating) rotation[q] = factor * std::max(rotation[q], 2 * law.ratio * kn * r * r);
+  }
+}
+
+double Increment::relative_scale() const { return std::max(mean_force, problem->force_floor); }
+
+double Increment::residual_norm() const {
+  if (touching == 0) return std::numeric_limits<double>::infinity();
+  const auto m = nodes();
+  const double* r = residual().data();
+  double largest = 0;
+  double sum = 0;  // catches NaN, which max does not
+  for (std::size_t q = 0; q < 2 * m; ++q) {
+    largest = std::max(largest, std::abs(r[q]));
+    sum += r[q];
+  }
+  if (problem->law->rotating()) {
+    for (std::size_t q = 0; q < m; ++q) {
+      const double moment = r[2 * m + q] / node_radius[q];
+      largest = std::max(largest, std::abs(moment));
+      sum += moment;
+    }
+  }
+  if (!std::isfinite(sum)) return std::numeric_limits<double>::infinity();
+  return largest / relative_scale();
+}
+
+double Increment::rounding_residual() const {
+  constexpr double contacts_of_a_particle = 8;
+  double extent = 0;
+  for (std::size_t k = 0; k < 2 * particles(); ++k) {
+    extent = std::max(extent, std::abs(coordinates[k]));
+  }
+  const double radius = *std::max_element(node_radius.begin(), node_radius.end());
+  const double force = contacts_of_a_particle * std::numeric_limits<double>::epsilon() * extent *
+                       problem->law->stiffness(radius, radius);
+  return touching > 0 ? force / relative_scale() : 0;
+}
+
+void Increment::move(std::span<const double> step, double factor) {
+  const auto& space = *problem->space;
+  if (space.identity) {
+    double* z = coordinates.data();
+    const double* dz = step.data();
+    for (std::size_t k = 0; k < step.size(); ++k) z[k] += factor * dz[k];
+    return;
+  }
+  const auto n = particles();
+  const auto m = nodes();
+  for (std::size_t k = 0; k < step.size() / m; ++k) {
+    const double* dz = step.data() + k * m;
+    double* z = coordinates.data() + k * n;
+    for (std::size_t p = 0; p < n; ++p) z[p] += factor * dz[space.node[p]];
+  }
+}
+
+void Increment::advance_history() {
+  dissipated += advance_contacts(coordinates, particles(), cell, *problem->law, contacts);
+  history.clear();
+  const bool tangential = problem->law->tangential();
+  const auto n = particles();
+  const double* x = coordinates.data();
+  const double* y = x + n;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto p = static_cast<std::size_t>(contacts.i[c]);
+    const auto q = static_cast<std::size_t>(contacts.j[c]);
+    const double lx =
+        x[q] - x[p] + cell[0] * contacts.shift_x[c] + cell[1] * contacts.shift_y[c];
+    const double ly =
+        y[q] - y[p] + cell[2] * contacts.shift_x[c] + cell[3] * contacts.shift_y[c];
+    const double overlap = contacts.reach[c] - std::sqrt(lx * lx + ly * ly);
+    if (overlap <= 0) continue;
+    const double force = tangential ? contacts.start_force[c] : 0.0;
+    const double bound = problem->law->friction * contacts.normal_stiffness[c] * overlap;
+    history.push_back({contacts.i[c], contacts.j[c], pairs[c].shift,
+                       tangential && std::abs(force) >= (1 - 1e-12) * bound,
+                       force / contacts.weight_of(c)});
+  }
+  start = coordinates;
+  start_deformation = deformation;
+  build_list();
+}
+
+void Increment::export_to(const Configuration& from, Configuration& to) const {
+  const auto n = particles();
+  to.deformation = {deformation[0], deformation[1], deformation[2], deformation[3]};
+  to.coordinates = coordinates;
+  for (std::size_t k = 2 * n; k < coordinates.size(); ++k) {
+    to.coordinates[k] += from.coordinates[k];
+  }
+  to.contacts.assign(history.begin(), history.end());
+  to.dissipated = from.dissipated + dissipated;
+}
+
+}  // namespace grainlaw

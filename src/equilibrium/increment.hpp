@@ -1,0 +1,107 @@
+// One increment of deformation being solved: unknowns, contacts, forces and residuals. Everything the
+// solvers share, and all their memory; sized once, reused from call to call by one thread.
+#pragma once
+
+#include "boundary/boundary_space.hpp"
+#include "contact/contact_list.hpp"
+#include "contact/law.hpp"
+#include "packing/neighbours.hpp"
+#include "state/configuration.hpp"
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace grainlaw {
+
+// What stays the same for every increment of a material.
+struct Problem {
+  const Packing* packing = nullptr;
+  const ContactLaw* law = nullptr;
+  const BoundarySpace* space = nullptr;
+  double force_floor = 0;  // residuals are relative to max(mean normal force, this) [N]
+
+  [[nodiscard]] int components() const { return law->rotating() ? 3 : 2; }
+};
+
+class Increment {
+ public:
+  // Start from a configuration; `deformation` is the F (row-major 2x2) to be reached without rotation,
+  // the guess is the affine image. Rotations are counted from here.
+  void begin(const Problem& problem, const Configuration& from,
+             const std::array<double, 4>& deformation);
+
+  // Reach for another F from the present history; the guess moves affinely with it.
+  void deform(const std::array<double, 4>& deformation);
+
+  // Forces at the present coordinates, and the reduced residual; relists neighbours when needed.
+  void update_forces();
+  // The same with the friction history advanced to here.
+  void update_forces_advancing();
+
+  // Mean normal force, and pseudo-masses of the nodes: 0.8 x the stiffness of the touching contacts,
+  // never below one contact's worth (mechanics of the relaxation: unit pseudo-time step).
+  void refresh_masses();
+
+  // Largest residual force (moment / R) over max(mean normal force, floor) [-]; infinite when no
+  // contact is left or a number is not finite.
+  [[nodiscard]] double residual_norm() const;
+
+  // The residual that the rounding of coordinates leaves at worst: no tolerance below it can be met [-].
+  [[nodiscard]] double rounding_residual() const;
+
+  // Move every particle by factor x its node's step (component-major over nodes).
+  void move(std::span<const double> step, double factor = 1);
+
+  // Make the present coordinates the start of the history; sums up the dissipated energy.
+  void advance_history();
+
+  // Put contacts, coordinates and dissipation into `to`, rotations added to those of `from`.
+  void export_to(const Configuration& from, Configuration& to) const;
+
+  // Relist neighbours when a particle may have come near one that is not listed.
+  void keep_neighbours();
+
+  [[nodiscard]] std::span<const double> residual() const {
+    return problem->space->identity ? std::span<const double>(forces) : node_residual;
+  }
+  [[nodiscard]] std::size_t particles() const { return problem->packing->size(); }
+  [[nodiscard]] std::size_t nodes() const { return problem->space->nodes; }
+  [[nodiscard]] std::size_t unknowns() const {
+    return nodes() * static_cast<std::size_t>(problem->components());
+  }
+  [[nodiscard]] double relative_scale() const;
+
+  const Problem* problem = nullptr;
+  std::array<double, 4> deformation{};        // F being solved, free of the increment's rotation
+  std::array<double, 4> start_deformation{};  // where the history starts
+  std::array<double, 4> cell{};               // F H0, zero on a frame [m]
+  std::vector<double> coordinates;            // component-major: positions, rotation increments
+  std::vector<double> start;                  // coordinates where the history starts
+  std::vector<ContactHistory> history;        // touching contacts there
+  std::vector<double> forces;                 // on particles, component-major [N, N m]
+  std::vector<double> node_residual;          // reduced; unused when the space is the identity
+  std::vector<double> mass;                   // nodes, component-major
+  std::vector<double> node_radius;            // [m]
+  ContactList contacts;
+  std::vector<NeighbourPair> pairs;
+  std::vector<double> pair_weights;
+  double mean_force = 0;  // [N]
+  int touching = 0;
+  double dissipated = 0;  // since begin [J]
+  long relaxation_steps = 0;
+  long servo_corrections = 0;
+  int factorisations = 0;
+
+ private:
+  void list_neighbours();
+  void build_list();
+  void project();
+
+  std::vector<double> listed_;  // positions when the neighbours were listed
+  double gap_ = 0;
+  NeighbourSearch search_;
+};
+
+}  // namespace grainlaw

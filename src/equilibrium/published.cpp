@@ -1,0 +1,110 @@
+#include "contact/frictional.hpp"
+#include "equilibrium/options.hpp"
+#include "equilibrium/relaxation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace grainlaw {
+
+namespace {
+
+// Masses of discs and their inertia, summed over the particles of a node (component-major).
+void physical_masses(const Increment& increment, std::vector<double>& mass) {
+  const auto& packing = *increment.problem->packing;
+  const auto m = increment.nodes();
+  mass.assign(increment.unknowns(), 0.0);
+  for (std::size_t p = 0; p < packing.size(); ++p) {
+    const auto q = static_cast<std::size_t>(increment.problem->space->node[p]);
+    const double r = packing.radius[p];
+    const double disc = packing.density * std::numbers::pi * r * r * packing.thickness;
+    mass[q] += disc;
+    mass[m + q] += disc;
+    if (increment.problem->law->rotating()) mass[2 * m + q] += 0.5 * disc * r * r;
+  }
+}
+
+// Critical step of the lightest particle on its stiffest contact, min sqrt(m / kn) [s].
+double critical_step(const Increment& increment) {
+  const auto& packing = *increment.problem->packing;
+  double smallest = 1e300;
+  for (const double r : packing.radius) {
+    const double disc = packing.density * std::numbers::pi * r * r * packing.thickness;
+    smallest = std::min(smallest, disc / increment.problem->law->stiffness(r, r));
+  }
+  return std::sqrt(smallest);
+}
+
+// Ek / Ep of eqs. 11-12, with the elastic part of the tangential displacement.
+double energy_ratio(const Increment& increment, const std::vector<double>& mass,
+                    const std::vector<double>& velocity) {
+  double kinetic = 0;
+  for (std::size_t k = 0; k < velocity.size(); ++k) {
+    kinetic += 0.5 * mass[k] * velocity[k] * velocity[k];
+  }
+  double potential = 0;
+  const auto& list = increment.contacts;
+  for (std::size_t c = 0; c < list.size(); ++c) {
+    const double ft = list.start_force[c];
+    const double f2 = list.force_x[c] * list.force_x[c] + list.force_y[c] * list.force_y[c];
+    potential += 0.5 * std::max(f2 - ft * ft, 0.0) / list.normal_stiffness[c];
+    if (ft != 0) potential += 0.5 * ft * ft / list.tangential_stiffness[c];
+  }
+  return kinetic / std::max(potential, 1e-300);
+}
+
+}  // namespace
+
+bool relax_published(Increment& increment, double tolerance, const PublishedOptions& options,
+                     std::span<const char> frozen, RelaxationMemory& memory) {
+  constexpr long check_interval = 20;
+  const std::size_t size = increment.unknowns();
+  const std::size_t nodes = increment.nodes();
+  auto& mass = memory.previous;
+  physical_masses(increment, mass);
+  memory.velocity.assign(size, 0.0);
+  double* v = memory.velocity.data();
+  const double dt = options.time_step_ratio * critical_step(increment);
+
+  double last_ratio = 0;
+  bool fallen = false;
+  for (long step = 0; step < options.max_steps; ++step) {
+    increment.update_forces_advancing();
+    const double* r = increment.residual().data();
+    if (step % check_interval == 0) {
+      increment.advance_history();
+      increment.keep_neighbours();
+      increment.refresh_masses();
+      increment.update_forces_advancing();
+      double largest = 0;
+      for (std::size_t k = 0; k < size; ++k) {
+        if (!frozen.empty() && frozen[k % nodes]) continue;
+        const double lever = k < 2 * nodes ? 1.0 : increment.node_radius[k % nodes];
+        largest = std::max(largest, std::abs(r[k]) / lever);
+      }
+      if (increment.touching == 0 || !std::isfinite(largest)) return false;
+      if (largest < tolerance * increment.relative_scale()) return true;
+      if (options.energy_tolerance > 0) {
+        const double ratio = energy_ratio(increment, mass, memory.velocity);
+        fallen = fallen || ratio < last_ratio;
+        if (fallen && ratio <= options.energy_tolerance) return true;
+        last_ratio = ratio;
+      }
+    }
+    for (std::size_t k = 0; k < size; ++k) {
+      const double damped = r[k] - options.damping * std::copysign(std::abs(r[k]), v[k]);
+      v[k] += dt * (v[k] != 0 ? damped : r[k]) / mass[k];
+    }
+    if (!frozen.empty()) {
+      for (std::size_t k = 0; k < size; ++k) {
+        if (frozen[k % nodes]) v[k] = 0;
+      }
+    }
+    increment.move(memory.velocity, dt);
+    ++increment.relaxation_steps;
+  }
+  return false;
+}
+
+}  // namespace grainlaw

@@ -1,0 +1,32 @@
+// What a configuration can tell: stress, void ratio, coordination, fabric, energies.
+#pragma once
+
+#include "material/material.hpp"
+#include "packing/neighbours.hpp"
+
+#include <grainlaw/grainlaw.h>
+
+#include <vector>
+
+namespace grainlaw {
+
+// One touching contact as it stands, for measures and output.
+struct ContactView {
+  int i, j;
+  std::array<int, 2> shift;
+  double branch_x, branch_y;  // x_j - x_i + F H0 shift [m]
+  double overlap;             // [m]
+  double normal_force;        // >= 0 [N]
+  double tangential_force;    // on j, along the normal turned by +90 degrees [N]
+  double weight;              // 1, or 1 / copies on a frame [-]
+};
+std::vector<ContactView> contact_views(const Material& material, const Configuration& at);
+
+// Number of components of a measure; -1 when unknown.
+int measure_count(const Material& material, grainlaw_measure what);
+
+// Fills value[measure_count]. Definitions in grainlaw.h.
+void measure(const Material& material, const Configuration& at, grainlaw_measure what,
+             double* value);
+
+}  // namespace grainlaw

@@ -1,0 +1,103 @@
+#include "homogenise/stress.hpp"
+
+#include "contact/frictional.hpp"
+
+namespace grainlaw {
+
+namespace {
+
+struct PullBack {
+  double a, b, c, d;
+  explicit PullBack(const std::array<double, 4>& f) {
+    const double det = f[0] * f[3] - f[1] * f[2];
+    a = f[3] / det;
+    b = -f[1] / det;
+    c = -f[2] / det;
+    d = f[0] / det;
+  }
+  [[nodiscard]] std::array<double, 2> operator()(double x, double y) const {
+    return {a * x + b * y, c * x + d * y};
+  }
+};
+
+// Calls visit(contact, point, L) for every touching contact.
+template <class Visit>
+void for_each_contact(const Increment& increment, Visit&& visit) {
+  const PullBack pull_back(increment.deformation);
+  for (std::size_t c = 0; c < increment.contacts.size(); ++c) {
+    const auto point =
+        contact_point(increment.contacts, c, increment.coordinates, increment.particles(),
+                      increment.cell, *increment.problem->law);
+    if (point.status == ContactStatus::open) continue;
+    visit(c, point, pull_back(point.branch_x, point.branch_y));
+  }
+}
+
+std::array<double, 2> force_on_j(const ContactPoint& point) {
+  return {point.normal_force * point.normal_x - point.tangential_force * point.normal_y,
+          point.normal_force * point.normal_y + point.tangential_force * point.normal_x};
+}
+
+}  // namespace
+
+std::array<double, 4> piola_stress(const Increment& increment) {
+  std::array<double, 4> p{};
+  const double volume = increment.problem->space->reference_volume;
+  for_each_contact(increment, [&](std::size_t, const ContactPoint& point, const auto& branch) {
+    const auto force = force_on_j(point);
+    for (std::size_t i = 0; i < 2; ++i) {
+      for (std::size_t j = 0; j < 2; ++j) p[2 * i + j] -= force[i] * branch[j] / volume;
+    }
+  });
+  return p;
+}
+
+std::array<double, 16> condensed_tangent(const Increment& increment,
+                                         const Sensitivity& sensitivity) {
+  std::array<double, 16> tangent{};
+  const double volume = increment.problem->space->reference_volume;
+  const PullBack pull_back(increment.deformation);
+  for_each_contact(increment, [&](std::size_t c, const ContactPoint& point, const auto& branch) {
+    const auto force = force_on_j(point);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto change = sensitivity.change(increment, c, point, k);
+      const std::array<double, 2> force_change{change.force_x, change.force_y};
+      // d(F^-1 l) = F^-1 (dl - dF L); the change of the branch holds both parts.
+      std::array<double, 2> fluctuation{change.branch_x, change.branch_y};
+      fluctuation[k / 2] -= branch[k % 2];
+      const auto branch_change = pull_back(fluctuation[0], fluctuation[1]);
+      for (std::size_t i = 0; i < 2; ++i) {
+        for (std::size_t j = 0; j < 2; ++j) {
+          tangent[(2 * i + j) * 4 + k] -=
+              (force_change[i] * branch[j] + force[i] * branch_change[j]) / volume;
+        }
+      }
+    }
+  });
+  return tangent;
+}
+
+std::array<double, 16> elastic_tangent(const Increment& increment) {
+  std::array<double, 16> tangent{};
+  const double volume = increment.problem->space->reference_volume;
+  const auto& list = increment.contacts;
+  for_each_contact(increment, [&](std::size_t c, const ContactPoint& point, const auto& branch) {
+    const std::array<double, 2> n{point.normal_x, point.normal_y};
+    const std::array<double, 2> t{-point.normal_y, point.normal_x};
+    for (std::size_t i = 0; i < 2; ++i) {
+      for (std::size_t j = 0; j < 2; ++j) {
+        for (std::size_t k = 0; k < 2; ++k) {
+          for (std::size_t l = 0; l < 2; ++l) {
+            tangent[((2 * i + j) * 2 + k) * 2 + l] +=
+                (list.normal_stiffness[c] * n[i] * n[k] +
+                 list.tangential_stiffness[c] * t[i] * t[k]) *
+                branch[j] * branch[l] / volume;
+          }
+        }
+      }
+    }
+  });
+  return tangent;
+}
+
+}  // namespace grainlaw

@@ -1,0 +1,159 @@
+#include "material/material.hpp"
+
+#include "consolidation/compaction.hpp"
+#include "equilibrium/chain.hpp"
+#include "error.hpp"
+#include "homogenise/stress.hpp"
+#include "packing/frame.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+namespace grainlaw {
+
+namespace {
+
+// The packing as it is given, in the order in which neighbours are listed.
+Configuration given_configuration(const Material& material) {
+  const auto& packing = material.packing;
+  const auto n = packing.size();
+  Configuration given;
+  given.deformation = {1, 0, 0, 1};
+  given.coordinates = packing.position;
+  if (material.law.rotating()) given.coordinates.resize(3 * n, 0.0);
+  for (const auto& contact : packing.contacts) {
+    ContactHistory history;
+    // Seen from the other side branch, normal, tangent and force all turn round; the component stays.
+    const bool turn = contact.i > contact.j || (contact.i == contact.j && contact.shift[0] < 0) ||
+                      (contact.i == contact.j && contact.shift[0] == 0 && contact.shift[1] < 0);
+    history.i = turn ? contact.j : contact.i;
+    history.j = turn ? contact.i : contact.j;
+    for (std::size_t k = 0; k < 2; ++k) {
+      history.shift[k] = static_cast<std::int16_t>(turn ? -contact.shift[k] : contact.shift[k]);
+    }
+    const auto i = static_cast<std::size_t>(contact.i);
+    const auto j = static_cast<std::size_t>(contact.j);
+    const auto& h = packing.cell;
+    const double s0 = packing.frame ? 0 : contact.shift[0];
+    const double s1 = packing.frame ? 0 : contact.shift[1];
+    const double lx = packing.position[j] - packing.position[i] + h[0] * s0 + h[1] * s1;
+    const double ly = packing.position[n + j] - packing.position[n + i] + h[2] * s0 + h[3] * s1;
+    const double d = std::hypot(lx, ly);
+    history.tangential_force =
+        (-ly * contact.tangential_force[0] + lx * contact.tangential_force[1]) / d;
+    given.contacts.push_back(history);
+  }
+  std::sort(given.contacts.begin(), given.contacts.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.i, a.j, a.shift) < std::tie(b.i, b.j, b.shift);
+  });
+  return given;
+}
+
+// Contact forces in the files must be those of this law: a packing made with another stiffness would
+// start from another equilibrium without a word.
+void check_given_forces(const Material& material) {
+  constexpr double tolerance = 0.01;
+  const auto& packing = material.packing;
+  const auto n = packing.size();
+  double given = 0;
+  double found = 0;
+  for (const auto& contact : packing.contacts) {
+    const auto i = static_cast<std::size_t>(contact.i);
+    const auto j = static_cast<std::size_t>(contact.j);
+    const auto& h = packing.cell;
+    const double s0 = packing.frame ? 0 : contact.shift[0];
+    const double s1 = packing.frame ? 0 : contact.shift[1];
+    const double lx = packing.position[j] - packing.position[i] + h[0] * s0 + h[1] * s1;
+    const double ly = packing.position[n + j] - packing.position[n + i] + h[2] * s0 + h[3] * s1;
+    const double overlap = packing.radius[i] + packing.radius[j] - std::hypot(lx, ly);
+    given += contact.normal_force;
+    found += std::max(overlap, 0.0) * material.law.stiffness(packing.radius[i], packing.radius[j]);
+  }
+  if (given > 0 && std::abs(found - given) > tolerance * given) {
+    throw Error(GRAINLAW_BAD_PACKING,
+                fmt::format("contact forces of the packing: their sum is {:.6g} N, but overlaps and "
+                            "stiffness of the material give {:.6g} N; expected the same within 1 %",
+                            given, found));
+  }
+}
+
+std::uint64_t fingerprint_of(const Material& material) {
+  XXH3_state_t state;
+  XXH3_64bits_reset(&state);
+  const auto add = [&](const void* data, std::size_t size) {
+    XXH3_64bits_update(&state, data, size);
+  };
+  const auto add_all = [&](const std::vector<double>& values) {
+    add(values.data(), values.size() * sizeof(double));
+  };
+  const double law[] = {material.law.young, material.law.normal_stiffness, material.law.ratio,
+                        material.law.friction, material.law.rotation ? 1.0 : 0.0,
+                        material.packing.thickness};
+  const int boundary[] = {static_cast<int>(material.space.options.type),
+                          static_cast<int>(material.space.options.weight)};
+  add(law, sizeof law);
+  add(boundary, sizeof boundary);
+  add(material.packing.cell.data(), sizeof material.packing.cell);
+  add_all(material.packing.radius);
+  add_all(material.packing.position);
+  return XXH3_64bits_digest(&state);
+}
+
+}  // namespace
+
+std::shared_ptr<const Material> make_material(MaterialDescription description) {
+  if (description.generator) {
+    description.packing = consolidate(*description.generator, description.law);
+  }
+  auto material = std::make_shared<Material>();
+  material->packing = std::move(description.packing);
+  material->law = description.law;
+  material->solver = description.solver;
+  if (description.boundary.type == BoundaryType::frame_p && !material->packing.frame) {
+    material->packing = cut_frame(material->packing);
+  } else if (description.boundary.type == BoundaryType::periodic_cell && material->packing.frame) {
+    throw Error(GRAINLAW_BAD_PACKING,
+                "the packing is a frame; expected a periodic packing, or boundary.type = \"frame-p\"");
+  }
+  material->space = make_boundary_space(material->packing, description.boundary);
+  material->fingerprint = fingerprint_of(*material);
+  check_given_forces(*material);
+
+  // The servo and the published relaxation start from the same equilibrium as everything else.
+  constexpr double tightest_needed = 1e-8;
+  BoundarySpace direct = material->space;
+  direct.options.method = BoundaryMethod::direct;
+  SolverOptions options = material->solver;
+  options.method = Method::chain;
+  const Problem problem{&material->packing, &material->law, &direct, 0};
+  const Configuration given = given_configuration(*material);
+  Request request{&problem, &options, &given, {1, 0, 0, 1}};
+  request.tolerance = std::min(options.tolerance, tightest_needed);
+  Workspace workspace;
+  const auto outcome = solve(request, workspace);
+  if (outcome.status == GRAINLAW_CONTACTS_LOST) {
+    throw Error(GRAINLAW_CONTACTS_LOST,
+                "the packing has no contacts at F = I; expected one that carries stress");
+  }
+  if (outcome.status != GRAINLAW_OK) {
+    throw Error(outcome.status, fmt::format("the packing found no equilibrium at F = I: residual "
+                                            "{:.3g} after {} relaxation steps, expected {:.3g}",
+                                            workspace.increment.residual_norm(),
+                                            workspace.increment.relaxation_steps,
+                                            request.tolerance));
+  }
+  const auto stress = piola_stress(workspace.increment);
+  workspace.increment.advance_history();
+  workspace.increment.export_to(given, material->initial);
+  std::copy_n(stress.begin(), 4, material->initial.stress.begin());
+  material->initial.dissipated = 0;
+  material->initial_mean_force = workspace.increment.mean_force;
+  return material;
+}
+
+}  // namespace grainlaw

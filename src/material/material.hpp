@@ -1,0 +1,40 @@
+// One immutable description of a constitutive law, shared by all its integration points.
+#pragma once
+
+#include "boundary/boundary_space.hpp"
+#include "equilibrium/options.hpp"
+#include "contact/law.hpp"
+#include "packing/generator.hpp"
+#include "packing/packing.hpp"
+#include "state/configuration.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+namespace grainlaw {
+
+struct Material {
+  Packing packing;
+  ContactLaw law;
+  BoundarySpace space;
+  SolverOptions solver;
+  Configuration initial;          // equilibrium at F = I
+  double initial_mean_force = 0;  // mean normal contact force there [N]
+  std::uint64_t fingerprint = 0;  // tells saved states of different materials apart
+};
+
+// What a material file says, before any equilibrium.
+struct MaterialDescription {
+  Packing packing;
+  ContactLaw law;
+  BoundaryOptions boundary;
+  SolverOptions solver;
+  std::optional<GeneratorOptions> generator;  // when set, the packing is still to be made
+};
+
+// Cut the frame if the boundary needs one, and bring the packing to equilibrium at F = I.
+// Throws Error (BAD_PACKING, NOT_CONVERGED, CONTACTS_LOST).
+std::shared_ptr<const Material> make_material(MaterialDescription description);
+
+}  // namespace grainlaw

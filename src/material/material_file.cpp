@@ -1,0 +1,178 @@
+#include "material/material_file.hpp"
+
+#include "error.hpp"
+#include "material/toml_table.hpp"
+#include "packing/generator.hpp"
+#include "packing/packing_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace grainlaw {
+namespace {
+
+ContactLaw read_contact(TomlTable table) {
+  ContactLaw law;
+  law.kind = table.required("law", one_of<LawKind>({{"frictional", LawKind::frictional}}));
+  table.require_either("young", "kn");
+  table.optional("young", number_above(0), law.young);
+  table.optional("kn", number_above(0), law.normal_stiffness);
+  law.ratio = table.required("ratio", number_at_least(0));
+  law.friction = table.required("friction", number_at_least(0));
+  table.optional("rotation", boolean(), law.rotation);
+  table.finish();
+  return law;
+}
+
+ServoOptions read_servo(TomlTable table) {
+  ServoOptions servo;
+  table.optional("gain_force", number_above(0), servo.gain_force);
+  table.optional("gain_moment", number_above(0), servo.gain_moment);
+  table.optional("inheritance", number_between(0, 1), servo.inheritance);
+  table.optional("tolerance", number_above(0), servo.tolerance);
+  table.optional("max_corrections", integer_between(1, 1000000000), servo.max_corrections);
+  table.finish();
+  return servo;
+}
+
+BoundaryOptions read_boundary(TomlTable table) {
+  BoundaryOptions boundary;
+  table.optional("type",
+                 one_of<BoundaryType>({{"periodic-cell", BoundaryType::periodic_cell},
+                                       {"frame-p", BoundaryType::frame_p}}),
+                 boundary.type);
+  table.optional("method",
+                 one_of<BoundaryMethod>(
+                     {{"direct", BoundaryMethod::direct}, {"servo", BoundaryMethod::servo}}),
+                 boundary.method);
+  table.optional(
+      "contact_weight",
+      one_of<ContactWeight>({{"copies", ContactWeight::copies}, {"one", ContactWeight::one}}),
+      boundary.weight);
+  boundary.servo = read_servo(table.optional_table("servo"));
+  table.finish();
+  if (boundary.method == BoundaryMethod::servo && boundary.type != BoundaryType::frame_p)
+    table.fail("method", "\"servo\" on a periodic cell", "type = \"frame-p\" with it");
+  return boundary;
+}
+
+PublishedOptions read_published(TomlTable table) {
+  PublishedOptions published;
+  table.optional("damping", number_above_up_to(0, 1), published.damping);
+  table.optional("time_step_ratio", number_above_up_to(0, 1), published.time_step_ratio);
+  table.optional("energy_tolerance", number_at_least(0), published.energy_tolerance);
+  table.optional("max_steps", integer_between(1), published.max_steps);
+  table.finish();
+  return published;
+}
+
+// The servo is a published algorithm around the published relaxation, and works with no other.
+SolverOptions read_solver(TomlTable table, BoundaryMethod boundary_method) {
+  const bool servo = boundary_method == BoundaryMethod::servo;
+  SolverOptions solver;
+  table.optional("tolerance", number_between(1e-14, 1e-1), solver.tolerance);
+  table.optional("start", one_of<Start>({{"committed", Start::committed}, {"trial", Start::trial}}),
+                 solver.start);
+  if (servo) solver.method = Method::published;
+  table.optional("method",
+                 one_of<Method>({{"chain", Method::chain},
+                                 {"advancing", Method::advancing},
+                                 {"published", Method::published}}),
+                 solver.method);
+  if (servo && solver.method != Method::published)
+    table.fail("method", "another method", "\"published\" because boundary.method is \"servo\"");
+  table.optional("increment_limit", number_above(0), solver.increment_limit);
+  solver.published = read_published(table.optional_table("published"));
+  table.finish();
+  return solver;
+}
+
+GeneratorOptions read_generator(TomlTable& table) {
+  GeneratorOptions generator;
+  table.required("generator", one_of<bool>({{"compaction", true}}));
+  table.required("count", integer_between(2, 1000000), generator.count);
+  const auto radii = table.required("radii", positive_range());
+  generator.radius_min = radii[0];
+  generator.radius_max = radii[1];
+  table.required("seed", integer_between(0), generator.seed);
+  table.require_either("pressure", "void_ratio");
+  table.optional("pressure", number_above(0), generator.pressure);
+  table.optional("void_ratio", number_above(0), generator.void_ratio);
+  table.optional("friction", number_at_least(0), generator.friction);
+  return generator;
+}
+
+PackingPaths read_paths(TomlTable& table, const std::filesystem::path& directory) {
+  const auto path = text("a path relative to this file");
+  const auto below = [&](const std::string& name) { return (directory / name).string(); };
+  PackingPaths paths;
+  paths.particles = below(table.required("particles", path));
+  paths.cell = below(table.required("cell", path));
+  if (const auto contacts = table.optional("contacts", path)) paths.contacts = below(*contacts);
+  return paths;
+}
+
+// The cell file has a thickness; one in the material file too must be the same.
+void check_thickness(const TomlTable& top, double given, double of_cell, const std::string& cell) {
+  constexpr double tolerance = 1e-9;  // relative: decimal places lost in one of the files
+  if (std::abs(given - of_cell) > tolerance * of_cell)
+    top.fail("thickness", fmt::format("{}", given), fmt::format("{} as in {}", of_cell, cell));
+}
+
+MaterialDescription read_description(TomlTable& top, const std::filesystem::path& directory) {
+  MaterialDescription description;
+  if (const long dimension = top.required("dimension", integer_between(2, 3)); dimension != 2)
+    top.fail("dimension", "3, which is not supported yet", "2");
+  const auto thickness = top.optional("thickness", number_above(0));
+  TomlTable packing = top.required_table("packing");
+  description.law = read_contact(top.required_table("contact"));
+  description.boundary = read_boundary(top.optional_table("boundary"));
+  description.solver = read_solver(top.optional_table("solver"), description.boundary.method);
+  top.finish();
+
+  packing.require_either("particles", "generator");
+  if (packing.has("generator")) {
+    description.generator = read_generator(packing);
+    packing.optional("density", number_above(0), description.generator->density);
+    packing.finish();
+    if (!thickness) top.fail("thickness", "nothing", "a number > 0 with a generator");
+    description.generator->thickness = *thickness;
+    return description;
+  }
+  const PackingPaths paths = read_paths(packing, directory);
+  const auto density = packing.optional("density", number_above(0));
+  packing.finish();
+  description.packing = read_packing(paths);
+  if (density) description.packing.density = *density;
+  if (thickness) check_thickness(top, *thickness, description.packing.thickness, paths.cell);
+  return description;
+}
+
+}  // namespace
+
+MaterialDescription read_material_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path))
+    throw Error(GRAINLAW_FILE_ERROR, fmt::format("{}: cannot be read", path));
+  const std::string content{std::istreambuf_iterator<char>(file), {}};
+  return parse_material(content, std::filesystem::path(path).parent_path().string(), path);
+}
+
+MaterialDescription parse_material(std::string_view text, const std::string& base_directory,
+                                   const std::string& name) {
+  toml::table table;
+  try {
+    table = toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    throw Error(GRAINLAW_BAD_MATERIAL,
+                fmt::format("{}:{}: {}", name, error.source().begin.line, error.description()));
+  }
+  TomlTable top(table, name);
+  return read_description(top, base_directory);
+}
+
+}  // namespace grainlaw

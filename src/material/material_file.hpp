@@ -1,0 +1,21 @@
+// Material files: TOML in which every key is checked.
+#pragma once
+
+#include "material/material.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace grainlaw {
+
+// Reads a material file and the packing it names; paths in it are relative to its directory. Throws
+// Error (FILE_ERROR, BAD_MATERIAL, BAD_PACKING); the message of BAD_MATERIAL is
+//   path:line: table.key: found X, expected Y
+[[nodiscard]] MaterialDescription read_material_file(const std::string& path);
+
+// The same from text; name stands for the path in messages.
+[[nodiscard]] MaterialDescription parse_material(std::string_view text,
+                                                 const std::string& base_directory,
+                                                 const std::string& name);
+
+}  // namespace grainlaw

@@ -1,0 +1,120 @@
+// A table of a TOML file in which every key is checked, and none is overlooked.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <array>
+#include <functional>
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace grainlaw {
+
+// What a value must be: a text for messages ("a number > 0"), and how to read it. read() gives
+// nothing when the value is something else.
+template <class T>
+struct Expectation {
+  std::string text;
+  std::function<std::optional<T>(const toml::node&)> read;
+};
+
+// Finite numbers; integers are numbers too.
+Expectation<double> number_above(double low);
+Expectation<double> number_at_least(double low);
+Expectation<double> number_between(double low, double high);      // both included
+Expectation<double> number_above_up_to(double low, double high);  // low excluded
+Expectation<long> integer_between(long low, long high = std::numeric_limits<long>::max());
+Expectation<bool> boolean();
+Expectation<std::string> text(std::string meaning);
+// [smallest, largest] with 0 < smallest <= largest.
+Expectation<std::array<double, 2>> positive_range();
+
+// One of some words, each of which stands for a value.
+template <class T>
+Expectation<T> one_of(std::initializer_list<std::pair<std::string_view, T>> words) {
+  std::string expected = words.size() > 1 ? "one of" : "";
+  for (const auto& word : words) {
+    if (!expected.empty()) expected += word.first == words.begin()->first ? " " : ", ";
+    expected += '"' + std::string(word.first) + '"';
+  }
+  return {expected, [allowed = std::vector(words)](const toml::node& node) -> std::optional<T> {
+            const auto found = node.value_exact<std::string_view>();
+            for (const auto& word : allowed)
+              if (found == word.first) return word.second;
+            return std::nullopt;
+          }};
+}
+
+// Every failure is an Error (BAD_MATERIAL) with the text
+//   file:line: table.key: found X, expected Y
+class TomlTable {
+ public:
+  // The file's top table. The file is only a name here; table must outlive this.
+  TomlTable(const toml::table& table, std::string file) : table_(&table), file_(std::move(file)) {}
+
+  template <class T>
+  T required(std::string_view key, const Expectation<T>& expectation) {
+    const toml::node* node = find(key);
+    if (node == nullptr) fail(key, "nothing", expectation.text);
+    return read(key, *node, expectation);
+  }
+
+  template <class T, class U>
+  void required(std::string_view key, const Expectation<U>& expectation, T& value) {
+    value = static_cast<T>(required(key, expectation));
+  }
+
+  // Nothing when the key is absent.
+  template <class T>
+  std::optional<T> optional(std::string_view key, const Expectation<T>& expectation) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return std::nullopt;
+    return read(key, *node, expectation);
+  }
+
+  // Sets value when the key is there, else leaves its default.
+  template <class T, class U>
+  void optional(std::string_view key, const Expectation<U>& expectation, T& value) {
+    if (const std::optional<U> found = optional(key, expectation)) value = static_cast<T>(*found);
+  }
+
+  TomlTable required_table(std::string_view key);
+  TomlTable optional_table(std::string_view key);  // empty when absent
+
+  // One of the two keys must be there, not both.
+  void require_either(std::string_view one, std::string_view other);
+
+  // No key is left that nobody asked for.
+  void finish() const;
+
+  [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
+  [[noreturn]] void fail(std::string_view key, std::string_view found,
+                         std::string_view expected) const;
+
+ private:
+  template <class T>
+  T read(std::string_view key, const toml::node& node, const Expectation<T>& expectation) const {
+    std::optional<T> value = expectation.read(node);
+    if (!value) fail(key, describe(node), expectation.text);
+    return std::move(*value);
+  }
+
+  const toml::node* find(std::string_view key);
+  [[nodiscard]] TomlTable child(std::string_view key, const toml::node& node) const;
+  [[nodiscard]] std::string path(std::string_view key) const;
+  [[nodiscard]] unsigned line(std::string_view key) const;
+  static std::string describe(const toml::node& node);
+
+  const toml::table* table_;
+  std::string file_;
+  std::string prefix_;              // "contact."
+  std::vector<std::string> asked_;  // in the order of asking, for the message
+};
+
+}  // namespace grainlaw

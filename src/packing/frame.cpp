@@ -1,0 +1,140 @@
+#include "packing/frame.hpp"
+
+#include "error.hpp"
+#include "packing/frame_geometry.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace grainlaw {
+
+namespace {
+
+[[noreturn]] void wrong(const std::string& message) {
+  throw Error(GRAINLAW_BAD_PACKING, "frame: " + message);
+}
+
+Point centre(const Packing& packing, int particle) {
+  const auto p = static_cast<std::size_t>(particle);
+  return {packing.position[p], packing.position[packing.size() + p]};
+}
+
+// Where the corners stand in the boundary.
+std::array<std::size_t, 4> corner_places(const Frame& frame) {
+  std::array<std::size_t, 4> place{};
+  std::size_t k = 0;
+  for (std::size_t q = 0; q < frame.boundary.size() && k < 4; ++q)
+    if (frame.boundary[q] == frame.corner[k]) place[k++] = q;
+  if (k < 4 || place[0] != 0)
+    wrong("the boundary must start at corner 0 and pass the others in order");
+  return place;
+}
+
+// The boundary particle at place `upper` must be that at `lower`, shifted by lattice vector k.
+void check_copy(const Packing& packing, std::size_t lower, std::size_t upper, std::size_t k) {
+  const int a = packing.frame->boundary[lower];
+  const int b = packing.frame->boundary[upper];
+  const Point x = centre(packing, a);
+  const Point y = centre(packing, b);
+  const Point vector = {packing.cell[k], packing.cell[2 + k]};
+  const double error = std::hypot(y[0] - x[0] - vector[0], y[1] - x[1] - vector[1]);
+  if (!(error <= 1e-9 * std::hypot(vector[0], vector[1])))
+    wrong(
+        fmt::format("particle {} must be particle {} shifted by lattice vector {}, but is {} m off",
+                    b, a, k, error));
+  if (packing.radius[static_cast<std::size_t>(a)] != packing.radius[static_cast<std::size_t>(b)])
+    wrong(fmt::format("particles {} and {} are copies but differ in radius", a, b));
+}
+
+// Liu, Bosco & Suiker (2017) eq. 2, per unit thickness.
+void set_areas(const Packing& packing, Frame& frame) {
+  const std::size_t count = frame.boundary.size();
+  const auto share = [&](int q, int neighbour) {
+    const double own = packing.radius[static_cast<std::size_t>(q)];
+    return own / (own + packing.radius[static_cast<std::size_t>(neighbour)]);
+  };
+  frame.area.resize(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const int q = frame.boundary[k];
+    const int before = frame.boundary[(k + count - 1) % count];
+    const int after = frame.boundary[(k + 1) % count];
+    const Point x = centre(packing, q);
+    const Point x_before = centre(packing, before);
+    const Point x_after = centre(packing, after);
+    const double vx =
+        share(q, before) * (x[0] - x_before[0]) + share(q, after) * (x_after[0] - x[0]);
+    const double vy =
+        share(q, before) * (x[1] - x_before[1]) + share(q, after) * (x_after[1] - x[1]);
+    frame.area[k] = {vy, -vx};
+  }
+}
+
+// Number the periodic identities in order of appearance; all copies of one particle share theirs.
+void set_sources(std::size_t particles, Frame& frame) {
+  std::vector<int> first_copy(particles);
+  for (std::size_t p = 0; p < particles; ++p) first_copy[p] = static_cast<int>(p);
+  for (std::size_t q = 0; q < frame.boundary.size(); ++q) {
+    const auto p = static_cast<std::size_t>(frame.boundary[q]);
+    if (frame.partner[q] < 0) {
+      first_copy[p] = frame.corner[0];
+    } else if (frame.offset[p] != std::array{0, 0}) {
+      first_copy[p] = frame.partner[q];
+    }
+  }
+  std::vector<int> number(particles, -1);
+  int sources = 0;
+  frame.source.resize(particles);
+  for (std::size_t p = 0; p < particles; ++p) {
+    int& source = number[static_cast<std::size_t>(first_copy[p])];
+    if (source < 0) source = sources++;
+    frame.source[p] = source;
+  }
+}
+
+}  // namespace
+
+void complete_frame(Packing& packing) {
+  if (packing.dimension != 2) wrong("only 2D packings have one");
+  Frame& frame = *packing.frame;
+  const auto [c0, c1, c2, c3] = corner_places(frame);
+  const std::size_t count = frame.boundary.size();
+  if (c1 - c0 != c3 - c2 || c2 - c1 != count - c3)
+    wrong("opposite sides differ in their particles");
+
+  frame.partner.assign(count, -1);
+  frame.offset.assign(packing.size(), {0, 0});
+  frame.extent.assign(packing.size(), {0, 0});
+  const auto pair_up = [&](std::size_t lower, std::size_t upper, std::size_t k) {
+    const auto a = static_cast<std::size_t>(frame.boundary[lower]);
+    const auto b = static_cast<std::size_t>(frame.boundary[upper]);
+    check_copy(packing, lower, upper, k);
+    frame.offset[b][k] = frame.extent[a][k] = frame.extent[b][k] = 1;
+    return std::pair(static_cast<int>(b), static_cast<int>(a));
+  };
+  for (std::size_t q = c0; q <= c1; ++q) {
+    const std::size_t opposite = c3 - (q - c0);
+    std::tie(frame.partner[q], frame.partner[opposite]) = pair_up(q, opposite, 1);
+  }
+  for (std::size_t q = c1; q <= c2; ++q) {
+    const std::size_t opposite = (count - (q - c1)) % count;
+    std::tie(frame.partner[opposite], frame.partner[q]) = pair_up(opposite, q, 0);
+  }
+  for (const std::size_t corner : {c0, c1, c2, c3}) frame.partner[corner] = -1;
+
+  if (!(polygon_area(packing) > 0)) wrong("the boundary must be numbered anticlockwise");
+  set_areas(packing, frame);
+  set_sources(packing.size(), frame);
+}
+
+double polygon_area(const Packing& packing) {
+  std::vector<Point> polygon;
+  for (const int q : packing.frame->boundary) polygon.push_back(centre(packing, q));
+  return signed_area(polygon);
+}
+
+}  // namespace grainlaw

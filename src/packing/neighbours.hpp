@@ -1,0 +1,58 @@
+// Which particles are near enough to touch, images of the periodic cell included.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace grainlaw {
+
+// Branch x_j - x_i + H shift.
+struct NeighbourPair {
+  std::int32_t i = 0;
+  std::int32_t j = 0;
+  std::array<std::int16_t, 2> shift{};
+  bool operator==(const NeighbourPair&) const = default;
+};
+
+// Neighbour search of discs in O(n): bins in the fractional coordinates of the cell, padded with
+// images, so that all candidates of a particle lie in a few contiguous runs.
+class NeighbourSearch {
+ public:
+  // All pairs with |x_j - x_i + H shift| < R_i + R_j + gap, each once, ordered by (i, j, shift)
+  // with i <= j; of a particle with its own image only the lexicographically positive shift.
+  //   position  x[0..n), y[0..n) [m], not wrapped into the cell
+  //   radius    [n] [m]
+  //   cell      H, 2x2 row-major, lattice vectors as columns [m]; null: no images
+  //   gap       >= 0 [m]
+  //   pairs     overwritten; nothing is allocated once the vectors have grown
+  // The cell may be sheared strongly and smaller than a particle. Throws Error (NOT_CONVERGED) when
+  // there is no answer: a position that is not finite, a flat cell, particles more than 2^15 cells
+  // apart.
+  void find(std::size_t n, const double* position, const double* radius, const double* cell,
+            double gap, std::vector<NeighbourPair>& pairs);
+
+ private:
+  struct Grid;
+  Grid make_grid(std::size_t n, const double* position, const double* radius, const double* cell,
+                 double gap) const;
+  void fill_bins(const Grid& grid, std::size_t n, const double* position, const double* radius);
+
+  // A particle or an image of one. The key orders by (particle, shift) as one integer.
+  struct Entry {
+    double x, y, radius;
+    std::uint64_t key;
+  };
+  struct Home {
+    double x, y;                          // wrapped into the cell
+    std::array<std::int32_t, 2> bin;      // in the padded grid
+    std::array<std::int64_t, 2> wrapped;  // x = wrapped position + H wrapped
+  };
+  std::vector<Home> home_;
+  std::vector<std::uint32_t> bin_end_;
+  std::vector<Entry> entry_;
+  std::vector<std::uint64_t> hit_;
+};
+
+}  // namespace grainlaw

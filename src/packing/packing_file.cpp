@@ -1,0 +1,218 @@
+#include "packing/packing_file.hpp"
+
+#include "error.hpp"
+#include "packing/csv_table.hpp"
+#include "packing/frame.hpp"
+#include "packing/text_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace grainlaw {
+
+namespace {
+
+constexpr std::int64_t largest_shift = 32767;
+
+using Ids = std::unordered_map<std::int64_t, int>;
+
+enum ParticleColumn : std::size_t { id, x, y, r, role, partner, frame_order };
+enum ContactColumn : std::size_t { i, j, shift_x, shift_y, fn, ftx, fty };
+enum CellColumn : std::size_t { h00, h01, h10, h11, thickness, rho };
+
+void read_cell(const std::string& path, Packing& packing) {
+  CsvTable<6> table(path, {"H00", "H01", "H10", "H11", "thickness", "rho"});
+  table.require(h00, rho);
+  if (!table.next()) table.fail("expected one line of numbers after the header");
+  packing.cell = {table.real(h00), table.real(h01), table.real(h10), table.real(h11)};
+  packing.thickness = table.positive(thickness);
+  if (table.has(rho)) packing.density = table.positive(rho);
+  const auto& h = packing.cell;
+  const double area = h[0] * h[3] - h[1] * h[2];
+  if (!(area > 0) || !std::isfinite(area))
+    table.fail(fmt::format("found a cell of area {} m2, expected det H > 0", area));
+  if (table.next()) table.fail("expected one line of numbers after the header, found another");
+}
+
+// What the particle file says of the frame, before it is one.
+struct FrameRows {
+  std::map<std::int64_t, int> particle_at;  // frame_order -> particle
+  int corners = 0;
+  std::map<int, std::int64_t> partner_id;  // edge particle -> id
+};
+
+template <class Table>
+void read_frame_row(const Table& table, int particle, FrameRows& rows) {
+  if (table.text(role) == "inner") return;
+  const bool corner = table.text(role) == "corner";
+  if (!corner && table.text(role) != "edge") table.complain(role, "inner, edge or corner");
+  if (!rows.particle_at.emplace(table.integer(frame_order), particle).second)
+    table.complain(frame_order, "a place that no other particle has");
+  if (corner) {
+    ++rows.corners;
+  } else {
+    rows.partner_id.emplace(particle, table.integer(partner));
+  }
+}
+
+void build_frame(const std::string& path, const FrameRows& rows, const Ids& ids, Packing& packing) {
+  const auto wrong = [&](const std::string& message) {
+    throw Error(GRAINLAW_BAD_PACKING, fmt::format("{}: {}", path, message));
+  };
+  if (rows.corners != 4)
+    wrong(fmt::format("found {} particles of role 'corner', expected 4", rows.corners));
+  Frame frame;
+  std::size_t corners = 0;
+  for (const auto& [order, particle] : rows.particle_at) {
+    frame.boundary.push_back(particle);
+    if (!rows.partner_id.contains(particle)) frame.corner[corners++] = particle;
+  }
+  packing.frame = std::move(frame);
+  try {
+    complete_frame(packing);
+  } catch (const Error& error) {
+    wrong(error.what());
+  }
+  for (std::size_t q = 0; q < packing.frame->boundary.size(); ++q) {
+    const auto given = rows.partner_id.find(packing.frame->boundary[q]);
+    if (given == rows.partner_id.end()) continue;
+    const auto found = ids.find(given->second);
+    if (found == ids.end() || found->second != packing.frame->partner[q])
+      wrong(fmt::format("the particle at frame_order {} has partner {}, expected its opposite copy",
+                        q, given->second));
+  }
+}
+
+Ids read_particles(const std::string& path, Packing& packing) {
+  CsvTable<7> table(path, {"id", "x", "y", "r", "role", "partner", "frame_order"});
+  const bool framed = table.has(role) || table.has(partner) || table.has(frame_order);
+  table.require(id, framed ? frame_order + 1 : role);
+  Ids ids;
+  std::vector<double> ys;
+  FrameRows frame;
+  while (table.next()) {
+    const auto particle = static_cast<int>(packing.radius.size());
+    if (!ids.emplace(table.integer(id), particle).second)
+      table.complain(id, "an id that no other particle has");
+    packing.position.push_back(table.real(x));
+    ys.push_back(table.real(y));
+    packing.radius.push_back(table.positive(r));
+    if (framed) read_frame_row(table, particle, frame);
+  }
+  if (ids.empty()) table.fail("found no particle");
+  packing.position.insert(packing.position.end(), ys.begin(), ys.end());
+  if (framed) build_frame(path, frame, ids, packing);
+  return ids;
+}
+
+double branch_length(const Packing& packing, const InitialContact& contact) {
+  const auto a = static_cast<std::size_t>(contact.i);
+  const auto b = static_cast<std::size_t>(contact.j);
+  const auto& h = packing.cell;
+  const std::size_t n = packing.size();
+  const double s0 = contact.shift[0];
+  const double s1 = contact.shift[1];
+  return std::hypot(packing.position[b] - packing.position[a] + h[0] * s0 + h[1] * s1,
+                    packing.position[n + b] - packing.position[n + a] + h[2] * s0 + h[3] * s1);
+}
+
+void read_contacts(const std::string& path, const Ids& ids, Packing& packing) {
+  CsvTable<7> table(path, {"i", "j", "shift_x", "shift_y", "fn", "ftx_on_j", "fty_on_j"});
+  table.require(i, fty + 1);
+  const auto particle = [&](std::size_t column) {
+    const auto found = ids.find(table.integer(column));
+    if (found == ids.end()) table.complain(column, "the id of a particle");
+    return found->second;
+  };
+  const auto shift = [&](std::size_t column) {
+    const std::int64_t value = table.integer(column);
+    if (std::abs(value) > largest_shift) table.complain(column, "at most 32767 cells");
+    if (value != 0 && packing.frame) table.complain(column, "0, since a frame has no images");
+    return static_cast<int>(value);
+  };
+  using Key = std::array<int, 4>;
+  std::map<Key, std::pair<unsigned, InitialContact>> contacts;
+  while (table.next()) {
+    InitialContact contact{particle(i),
+                           particle(j),
+                           {shift(shift_x), shift(shift_y)},
+                           table.real(fn),
+                           {table.real(ftx), table.real(fty)}};
+    if (contact.i > contact.j ||
+        (contact.i == contact.j &&
+         std::pair(contact.shift[0], contact.shift[1]) < std::pair(0, 0))) {
+      std::swap(contact.i, contact.j);
+      contact.shift = {-contact.shift[0], -contact.shift[1]};
+      contact.tangential_force = {-contact.tangential_force[0], -contact.tangential_force[1]};
+    }
+    if (contact.i == contact.j && contact.shift[0] == 0 && contact.shift[1] == 0)
+      table.fail(fmt::format("a particle (id {}) in contact with itself", table.text(i)));
+    const double reach = packing.radius[static_cast<std::size_t>(contact.i)] +
+                         packing.radius[static_cast<std::size_t>(contact.j)];
+    const double length = branch_length(packing, contact);
+    if (!(length < 1.5 * reach))
+      table.fail(
+          fmt::format("centres are {} m apart, radii add up to {} m: these do not touch; "
+                      "expected x_j - x_i + H shift to be the branch",
+                      length, reach));
+    const Key key = {contact.i, contact.j, contact.shift[0], contact.shift[1]};
+    const auto [other, fresh] = contacts.emplace(key, std::pair(table.line(), contact));
+    if (!fresh) table.fail(fmt::format("the contact of line {} again", other->second.first));
+  }
+  for (const auto& [key, value] : contacts) packing.contacts.push_back(value.second);
+}
+
+// Per particle, the text of its columns role, partner and frame_order.
+std::vector<std::string> frame_columns(const Packing& packing) {
+  std::vector<std::string> text(packing.size(), ",inner,-1,-1");
+  const Frame& frame = *packing.frame;
+  for (std::size_t q = 0; q < frame.boundary.size(); ++q)
+    text[static_cast<std::size_t>(frame.boundary[q])] =
+        fmt::format(",{},{},{}", frame.partner[q] < 0 ? "corner" : "edge", frame.partner[q], q);
+  return text;
+}
+
+}  // namespace
+
+Packing read_packing(const PackingPaths& paths) {
+  Packing packing;
+  read_cell(paths.cell, packing);
+  const Ids ids = read_particles(paths.particles, packing);
+  if (!paths.contacts.empty()) read_contacts(paths.contacts, ids, packing);
+  return packing;
+}
+
+void write_packing(const std::string& prefix, const Packing& packing) {
+  // fmt prints the shortest digits that read back to the same bits.
+  const std::size_t n = packing.size();
+  const auto framed = packing.frame ? frame_columns(packing) : std::vector<std::string>(n);
+  fmt::memory_buffer text;
+  auto out = fmt::appender(text);
+  fmt::format_to(out, "id,x,y,r{}\n", packing.frame ? ",role,partner,frame_order" : "");
+  for (std::size_t p = 0; p < n; ++p)
+    fmt::format_to(out, "{},{},{},{}{}\n", p, packing.position[p], packing.position[n + p],
+                   packing.radius[p], framed[p]);
+  write_text(prefix + "_particles.csv", {text.data(), text.size()});
+
+  text.clear();
+  fmt::format_to(out, "i,j,shift_x,shift_y,fn,ftx_on_j,fty_on_j\n");
+  for (const InitialContact& c : packing.contacts)
+    fmt::format_to(out, "{},{},{},{},{},{},{}\n", c.i, c.j, c.shift[0], c.shift[1], c.normal_force,
+                   c.tangential_force[0], c.tangential_force[1]);
+  write_text(prefix + "_contacts.csv", {text.data(), text.size()});
+
+  text.clear();
+  const auto& h = packing.cell;
+  fmt::format_to(out, "H00,H01,H10,H11,thickness,rho\n{},{},{},{},{},{}\n", h[0], h[1], h[2], h[3],
+                 packing.thickness, packing.density);
+  write_text(prefix + "_cell.csv", {text.data(), text.size()});
+}
+
+}  // namespace grainlaw

@@ -1,0 +1,33 @@
+// Packings on disk: three comma-separated files with one header line each, columns found by name,
+// others ignored. Lengths in m, forces in N, density in kg/m3.
+//   particles  id, x, y, r                       ids are any distinct integers; order is kept
+//              role, partner, frame_order        of a frame: inner|edge|corner, id of the opposite
+//              copy
+//                                                or -1, place along the boundary or -1
+//   contacts   i, j, shift_x, shift_y            branch x_j - x_i + H shift; the forces act on j
+//              fn, ftx_on_j, fty_on_j
+//   cell       H00, H01, H10, H11, thickness     lattice vectors as columns of H; rho is optional
+#pragma once
+
+#include "packing/packing.hpp"
+
+#include <string>
+
+namespace grainlaw {
+
+struct PackingPaths {
+  std::string particles;
+  std::string contacts;  // may be empty: no initial forces
+  std::string cell;
+};
+
+// Contacts come out with i <= j, ordered by (i, j, shift). Throws Error: FILE_ERROR when a file
+// cannot be opened, BAD_PACKING when its content is wrong (message with file, line, what was found
+// and expected).
+Packing read_packing(const PackingPaths& paths);
+
+// Write prefix_particles.csv, prefix_contacts.csv and prefix_cell.csv, so that reading them gives
+// the same bits. Throws Error (FILE_ERROR).
+void write_packing(const std::string& prefix, const Packing& packing);
+
+}  // namespace grainlaw

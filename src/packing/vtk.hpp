@@ -1,0 +1,31 @@
+// Particles and force chains for ParaView.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+
+namespace grainlaw {
+
+// A contact as drawn: a line from the centre of particle i along the branch (to the image of j that
+// it touches).
+struct VtkContact {
+  int i = 0;
+  int j = 0;
+  std::array<double, 3> branch{};  // [m], third component 0 in 2D
+  double normal_force = 0;         // [N]
+  double tangential_force = 0;     // [N]
+};
+
+// One VTK XML PolyData file (.vtp, ascii). Particles are vertices with point data radius [m],
+// rotation [rad] and coordination [-]; contacts are lines with cell data normal_force and
+// tangential_force [N]. The far end of a line is a point of its own with radius 0, the vertices
+// carry no force.
+//   position  component-major, 2 or 3 components x radius.size() [m]
+//   rotation  [radius.size()], or empty for none [rad]
+// Throws Error (FILE_ERROR).
+void write_vtk(const std::string& path, std::span<const double> position,
+               std::span<const double> radius, std::span<const double> rotation,
+               std::span<const VtkContact> contacts);
+
+}  // namespace grainlaw

@@ -1,0 +1,189 @@
+// Layout, little-endian:
+//   "GRAINLAW"  u32 version  u32 contacts  u64 material fingerprint
+//   F [dim*dim]  P [dim*dim]  dissipated  coordinates [as many as the material has] doubles
+//   contacts: i32 i  i32 j  i16 shift[2]  u8 sliding  double tangential force
+//   u64 XXH3 of everything before
+// Every version begins with the first two and ends with the last, so that damage and another
+// version are told apart.
+#include "state/serialise.hpp"
+
+#include "error.hpp"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <type_traits>
+
+namespace grainlaw {
+namespace {
+
+constexpr std::array<char, 8> magic{'G', 'R', 'A', 'I', 'N', 'L', 'A', 'W'};
+constexpr std::uint32_t format_version = 1;
+constexpr std::size_t version_end = magic.size() + sizeof(std::uint32_t);
+constexpr std::size_t header_size = version_end + sizeof(std::uint32_t) + sizeof(std::uint64_t);
+constexpr std::size_t contact_size =
+    2 * sizeof(std::int32_t) + 2 * sizeof(std::int16_t) + sizeof(std::uint8_t) + sizeof(double);
+constexpr std::size_t checksum_size = sizeof(std::uint64_t);
+
+template <std::size_t size>
+using Word = std::conditional_t<
+    size == 1, std::uint8_t,
+    std::conditional_t<size == 2, std::uint16_t,
+                       std::conditional_t<size == 4, std::uint32_t, std::uint64_t>>>;
+
+class Writer {
+ public:
+  explicit Writer(std::span<std::byte> bytes) : next_(bytes.data()) {}
+
+  template <class T>
+  void put(T value) {
+    const auto word = std::bit_cast<Word<sizeof(T)>>(value);
+    for (std::size_t k = 0; k < sizeof(T); ++k) *next_++ = static_cast<std::byte>(word >> (8 * k));
+  }
+
+ private:
+  std::byte* next_;
+};
+
+// The caller has checked that the bytes suffice.
+class Reader {
+ public:
+  explicit Reader(std::span<const std::byte> bytes) : next_(bytes.data()) {}
+
+  template <class T>
+  T get() {
+    Word<sizeof(T)> word = 0;
+    for (std::size_t k = 0; k < sizeof(T); ++k)
+      word = static_cast<Word<sizeof(T)>>(word | static_cast<Word<sizeof(T)>>(*next_++) << (8 * k));
+    return std::bit_cast<T>(word);
+  }
+
+  double get_finite() {
+    const double value = get<double>();
+    if (!std::isfinite(value)) throw Error(GRAINLAW_BAD_BYTES, "saved state: not a finite number");
+    return value;
+  }
+
+ private:
+  const std::byte* next_;
+};
+
+// Of a tensor.
+std::size_t components(const Material& material) {
+  const auto dimension = static_cast<std::size_t>(material.packing.dimension);
+  return dimension * dimension;
+}
+
+std::size_t size_without_contacts(const Material& material) {
+  return header_size + checksum_size +
+         sizeof(double) * (2 * components(material) + 1 + material.initial.coordinates.size());
+}
+
+std::uint64_t checksum(std::span<const std::byte> bytes) {
+  return XXH3_64bits(bytes.data(), bytes.size());
+}
+
+void require(bool condition, grainlaw_status status, const char* found) {
+  if (!condition) throw Error(status, std::string("saved state: ") + found);
+}
+
+void check_envelope(std::span<const std::byte> bytes) {
+  require(bytes.size() >= version_end + checksum_size, GRAINLAW_BAD_BYTES, "truncated");
+  Reader begin(bytes);
+  for (const char letter : magic)
+    require(begin.get<char>() == letter, GRAINLAW_BAD_BYTES, "not a saved state");
+  const auto content = bytes.first(bytes.size() - checksum_size);
+  require(Reader(bytes.last(checksum_size)).get<std::uint64_t>() == checksum(content),
+          GRAINLAW_BAD_BYTES, "damaged or truncated");
+  require(begin.get<std::uint32_t>() == format_version, GRAINLAW_WRONG_VERSION,
+          "of another format version");
+}
+
+void check_deformation(const Configuration& configuration, int dimension) {
+  // Only 2D materials exist.
+  const auto& F = configuration.deformation;
+  require(dimension == 2 && F[0] * F[3] - F[1] * F[2] > 0, GRAINLAW_BAD_BYTES, "det F <= 0");
+}
+
+// As the contact list keeps them: i <= j, ascending (i, j, shift), each once.
+void check_contacts(const std::vector<ContactHistory>& contacts, std::size_t particles) {
+  constexpr std::array<std::int16_t, 2> none{};
+  const auto key = [](const ContactHistory& c) { return std::tie(c.i, c.j, c.shift); };
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const auto& [i, j, shift, sliding, force] = contacts[c];
+    require(i >= 0 && i <= j && static_cast<std::size_t>(j) < particles, GRAINLAW_BAD_BYTES,
+            "a contact of particles that do not exist");
+    require(i != j || shift > none, GRAINLAW_BAD_BYTES, "a contact of a particle with itself");
+    require(c == 0 || key(contacts[c - 1]) < key(contacts[c]), GRAINLAW_BAD_BYTES,
+            "contacts out of order");
+  }
+}
+
+}  // namespace
+
+std::size_t saved_size(const Material& material, const Configuration& configuration) {
+  return size_without_contacts(material) + configuration.contacts.size() * contact_size;
+}
+
+void save_configuration(const Material& material, const Configuration& configuration,
+                        std::span<std::byte> bytes) {
+  const std::size_t square = components(material);
+  Writer out(bytes);
+  for (const char letter : magic) out.put(letter);
+  out.put(format_version);
+  out.put(static_cast<std::uint32_t>(configuration.contacts.size()));
+  out.put(material.fingerprint);
+  for (std::size_t k = 0; k < square; ++k) out.put(configuration.deformation[k]);
+  for (std::size_t k = 0; k < square; ++k) out.put(configuration.stress[k]);
+  out.put(configuration.dissipated);
+  for (const double coordinate : configuration.coordinates) out.put(coordinate);
+  for (const ContactHistory& contact : configuration.contacts) {
+    out.put(contact.i);
+    out.put(contact.j);
+    for (const std::int16_t shift : contact.shift) out.put(shift);
+    out.put(static_cast<std::uint8_t>(contact.sliding));
+    out.put(contact.tangential_force);
+  }
+  out.put(checksum(bytes.first(bytes.size() - checksum_size)));
+}
+
+Configuration load_configuration(const Material& material, std::span<const std::byte> bytes) {
+  check_envelope(bytes);
+  require(bytes.size() >= header_size + checksum_size, GRAINLAW_BAD_BYTES, "truncated");
+  Reader in(bytes.subspan(version_end));
+  const std::size_t contacts = in.get<std::uint32_t>();
+  require(in.get<std::uint64_t>() == material.fingerprint, GRAINLAW_WRONG_MATERIAL,
+          "of another material");
+  const std::size_t fixed_size = size_without_contacts(material);
+  require(bytes.size() >= fixed_size && bytes.size() - fixed_size == contacts * contact_size,
+          GRAINLAW_BAD_BYTES, "its length does not fit its content");
+
+  Configuration found;
+  const std::size_t square = components(material);
+  for (std::size_t k = 0; k < square; ++k) found.deformation[k] = in.get_finite();
+  for (std::size_t k = 0; k < square; ++k) found.stress[k] = in.get_finite();
+  found.dissipated = in.get_finite();
+  found.coordinates.resize(material.initial.coordinates.size());
+  for (double& coordinate : found.coordinates) coordinate = in.get_finite();
+  found.contacts.resize(contacts);
+  for (ContactHistory& contact : found.contacts) {
+    contact.i = in.get<std::int32_t>();
+    contact.j = in.get<std::int32_t>();
+    for (std::int16_t& shift : contact.shift) shift = in.get<std::int16_t>();
+    const auto sliding = in.get<std::uint8_t>();
+    require(sliding <= 1, GRAINLAW_BAD_BYTES, "a contact neither sliding nor sticking");
+    contact.sliding = sliding == 1;
+    contact.tangential_force = in.get_finite();
+  }
+  check_deformation(found, material.packing.dimension);
+  check_contacts(found.contacts, material.packing.size());
+  return found;
+}
+
+}  // namespace grainlaw

@@ -1,0 +1,41 @@
+// One integration point: the committed equilibrium, and the trial one found for the last F.
+#pragma once
+
+#include "material/material.hpp"
+
+#include <grainlaw/grainlaw.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+
+namespace grainlaw {
+
+enum class TangentKind { none, exact, elastic, perturbed };
+
+class State {
+ public:
+  explicit State(std::shared_ptr<const Material> material);
+
+  // Find the equilibrium at F (dim x dim row-major, finite, det F > 0) from the committed state and
+  // keep it as the trial. P [dim*dim] and A [dim^4] may be null; both and the trial are written on
+  // success only. Every field of report but its size is filled. Throws bad_alloc at most.
+  grainlaw_status evaluate(const double* F, TangentKind kind, double* P, double* A,
+                           grainlaw_report& report);
+
+  bool commit();  // false: there is no trial
+  void revert() { has_trial_ = false; }
+  [[nodiscard]] bool has_trial() const { return has_trial_; }
+  [[nodiscard]] const Configuration& committed() const { return committed_; }
+  [[nodiscard]] const Configuration& current() const { return has_trial_ ? trial_ : committed_; }
+  void restore(Configuration committed);
+  [[nodiscard]] const Material& material() const { return *material_; }
+
+ private:
+  std::shared_ptr<const Material> material_;
+  Configuration committed_;
+  Configuration trial_;
+  bool has_trial_ = false;
+};
+
+}  // namespace grainlaw

@@ -1,0 +1,88 @@
+// What the tests through the C ABI share: the small packing, its material, and bits to compare.
+#pragma once
+
+#include <grainlaw/grainlaw.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace grainlaw::test {
+
+using abi::Material;
+using abi::State;
+using Tensor = std::array<double, 4>;
+using Tangent = std::array<double, 16>;
+
+inline const std::string data_directory = GRAINLAW_TEST_DATA;
+inline const std::string material_path = data_directory + "/rve400.toml";
+
+// 400 discs at 100 kPa; loaded once, as it never changes.
+inline const Material& material() {
+  static const Material instance = Material::load(material_path);
+  return instance;
+}
+
+inline constexpr Tensor identity{1, 0, 0, 1};
+inline constexpr Tensor compressed{1.0002, 1e-4, -2e-4, 0.999};
+inline constexpr Tensor further{1.0004, 3e-4, -1e-4, 0.998};
+
+template <class Array>
+bool same_bits(const Array& a, const Array& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
+}
+
+// Stress at F, which must be found.
+inline Tensor stress(State& state, const Tensor& F) {
+  Tensor P{};
+  EXPECT_TRUE(state.evaluate(F, P));
+  return P;
+}
+
+inline std::string read_text(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline void write_text(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+// A directory of this process that is gone at the end.
+class TemporaryDirectory {
+ public:
+  TemporaryDirectory() {
+    std::string name = testing::TempDir() + "grainlaw-XXXXXX";
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
+    path_ = name;
+  }
+  ~TemporaryDirectory() { std::filesystem::remove_all(path_); }
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
+    return path_ / name;
+  }
+  [[nodiscard]] std::string string() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// Inputs that were wrong on purpose; printed at the end.
+inline long bad_inputs = 0;
+
+// One wrong call: counts it and expects its documented status.
+inline void expect_refused(grainlaw_status found, grainlaw_status expected,
+                           const std::string& what) {
+  ++bad_inputs;
+  EXPECT_EQ(found, expected) << what << ": " << grainlaw_status_text(found);
+}
+
+}  // namespace grainlaw::test

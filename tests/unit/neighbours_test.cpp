@@ -1,0 +1,153 @@
+#include "packing/neighbours.hpp"
+
+#include "error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace grainlaw {
+namespace {
+
+struct Discs {
+  std::vector<double> position, radius;
+};
+
+// n discs in the cell, wrapped `far` cells away at random.
+Discs random_discs(std::size_t n, const std::array<double, 4>& h, double radius_max, int far,
+                   std::mt19937_64& rng) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::uniform_int_distribution<int> cells(-far, far);
+  Discs discs{std::vector<double>(2 * n), std::vector<double>(n)};
+  for (std::size_t p = 0; p < n; ++p) {
+    const double s0 = unit(rng) + cells(rng);
+    const double s1 = unit(rng) + cells(rng);
+    discs.position[p] = h[0] * s0 + h[1] * s1;
+    discs.position[n + p] = h[2] * s0 + h[3] * s1;
+    discs.radius[p] = radius_max * (0.4 + 0.6 * unit(rng));
+  }
+  return discs;
+}
+
+// Every shift that could matter, each pair tried: the definition, and slow.
+std::vector<NeighbourPair> brute_force(const Discs& discs, const double* h, double gap) {
+  const std::size_t n = discs.radius.size();
+  std::vector<NeighbourPair> pairs;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i; j < n; ++j) {
+      const double dx = discs.position[j] - discs.position[i];
+      const double dy = discs.position[n + j] - discs.position[n + i];
+      const double limit = discs.radius[i] + discs.radius[j] + gap;
+      if (h == nullptr) {
+        if (i != j && std::hypot(dx, dy) < limit)
+          pairs.push_back({static_cast<int>(i), static_cast<int>(j), {0, 0}});
+        continue;
+      }
+      const double area = h[0] * h[3] - h[1] * h[2];
+      const double s0 = -(h[3] * dx - h[1] * dy) / area;
+      const double s1 = -(h[0] * dy - h[2] * dx) / area;
+      const double reach0 = limit * std::hypot(h[1], h[3]) / std::abs(area) + 1;
+      const double reach1 = limit * std::hypot(h[0], h[2]) / std::abs(area) + 1;
+      for (double a = std::floor(s0 - reach0); a <= s0 + reach0; ++a)
+        for (double b = std::floor(s1 - reach1); b <= s1 + reach1; ++b) {
+          if (i == j && !(a > 0 || (a == 0 && b > 0))) continue;
+          if (std::hypot(dx + h[0] * a + h[1] * b, dy + h[2] * a + h[3] * b) < limit)
+            pairs.push_back({static_cast<int>(i),
+                             static_cast<int>(j),
+                             {static_cast<std::int16_t>(a), static_cast<std::int16_t>(b)}});
+        }
+    }
+  return pairs;
+}
+
+void expect_as_brute_force(const Discs& discs, const double* cell, double gap) {
+  NeighbourSearch search;
+  std::vector<NeighbourPair> pairs;
+  search.find(discs.radius.size(), discs.position.data(), discs.radius.data(), cell, gap, pairs);
+  EXPECT_EQ(pairs, brute_force(discs, cell, gap));
+}
+
+const std::array<double, 4> square = {1, 0, 0, 1};
+const std::array<double, 4> sheared = {1, 2.7, 0, 0.9};
+const std::array<double, 4> sheared_back = {1.1, -0.3, -4.2, 1.4};
+const std::array<double, 4> rotated = {-0.2, -1.1, 1.3, -0.1};
+
+TEST(neighbours, agree_with_brute_force_in_any_cell) {
+  std::mt19937_64 rng(1);
+  for (const auto& cell : {square, sheared, sheared_back, rotated})
+    for (const std::size_t n : {1, 2, 7, 40, 300})
+      for (const double gap : {0.0, 0.03, 0.4})
+        expect_as_brute_force(random_discs(n, cell, 0.06, 0, rng), cell.data(), gap);
+}
+
+TEST(neighbours, of_a_cell_smaller_than_a_particle_come_with_all_images) {
+  std::mt19937_64 rng(2);
+  for (const auto& cell : {square, sheared, sheared_back, rotated})
+    for (const std::size_t n : {1, 2, 3})
+      for (const double radius : {0.3, 0.8, 2.1})
+        expect_as_brute_force(random_discs(n, cell, radius, 0, rng), cell.data(), 0.1);
+}
+
+TEST(neighbours, are_found_from_unwrapped_positions) {
+  std::mt19937_64 rng(3);
+  for (const auto& cell : {square, sheared, rotated})
+    for (const int far : {1, 5, 4000})
+      expect_as_brute_force(random_discs(60, cell, 0.08, far, rng), cell.data(), 0.02);
+}
+
+TEST(neighbours, without_a_cell_have_no_images) {
+  std::mt19937_64 rng(4);
+  for (const std::size_t n : {1, 2, 5, 200})
+    expect_as_brute_force(random_discs(n, sheared, 0.07, 1, rng), nullptr, 0.05);
+}
+
+TEST(neighbours, of_discs_on_one_line_or_point_are_found) {
+  Discs line{{0, 0.5, 1, 1.5, 3, 3, 3, 3}, {0.3, 0.3, 0.2, 0.6}};
+  expect_as_brute_force(line, nullptr, 0);
+  Discs point{{1, 1, 1, 1}, {0.3, 0.3}};
+  expect_as_brute_force(point, nullptr, 0);
+  expect_as_brute_force(point, square.data(), 0);
+}
+
+TEST(neighbours, of_very_unequal_discs_are_found) {
+  std::mt19937_64 rng(5);
+  Discs discs = random_discs(200, square, 0.01, 0, rng);
+  discs.radius[17] = 0.9;
+  expect_as_brute_force(discs, square.data(), 0.01);
+  expect_as_brute_force(discs, nullptr, 0.01);
+}
+
+TEST(neighbours, are_the_same_when_the_search_is_reused) {
+  std::mt19937_64 rng(6);
+  NeighbourSearch search;
+  std::vector<NeighbourPair> pairs;
+  for (const std::size_t n : {100, 3, 250, 1}) {
+    const Discs discs = random_discs(n, sheared, 0.1, 2, rng);
+    search.find(n, discs.position.data(), discs.radius.data(), sheared.data(), 0.02, pairs);
+    EXPECT_EQ(pairs, brute_force(discs, sheared.data(), 0.02));
+  }
+}
+
+TEST(neighbours, refuse_what_has_no_answer) {
+  NeighbourSearch search;
+  std::vector<NeighbourPair> pairs;
+  const auto find = [&](Discs discs, const double* cell) {
+    search.find(discs.radius.size(), discs.position.data(), discs.radius.data(), cell, 0, pairs);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double flat[4] = {1, 2, 1, 2};
+  EXPECT_THROW(find({{0, nan, 0, 0}, {0.1, 0.1}}, square.data()), Error);
+  EXPECT_THROW(find({{0, nan, 0, 0}, {0.1, 0.1}}, nullptr), Error);
+  EXPECT_THROW(find({{0, 1e300, 0, 0}, {0.1, 0.1}}, square.data()), Error);
+  EXPECT_THROW(find({{0, 40000, 0, 0}, {0.1, 0.1}}, square.data()), Error);
+  EXPECT_THROW(find({{0, 1, 0, 0}, {0.1, 0.1}}, flat), Error);
+  EXPECT_NO_THROW(find({{}, {}}, square.data()));
+}
+
+}  // namespace
+}  // namespace grainlaw

@@ -1,0 +1,14 @@
+// The subcommands of `grainlaw`. Each function adds one to the command line; the command runs in its
+// callback and throws InputError or ComputationError.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace verification {
+
+void add_point_command(CLI::App& app);
+void add_solve_command(CLI::App& app);
+void add_pack_command(CLI::App& app);
+void add_report_command(CLI::App& app);
+
+}  // namespace verification

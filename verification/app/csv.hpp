@@ -1,0 +1,41 @@
+// Tables on disk: comma-separated values with one header line of "name[unit]" columns.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace verification {
+
+class CsvWriter {
+ public:
+  // Columns as "name[unit]", "[-]" when dimensionless. Throws ComputationError when the file cannot
+  // be written.
+  CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns);
+
+  // One line; values in the order of the columns.
+  void row(const std::vector<double>& values);
+
+ private:
+  std::ofstream stream_;
+  std::size_t columns_;
+};
+
+struct CsvTable {
+  std::vector<std::string> names;            // without the unit
+  std::vector<std::vector<double>> columns;  // [names.size()][rows]
+
+  [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
+  // Throws InputError when there is no such column.
+  [[nodiscard]] const std::vector<double>& operator[](std::string_view name) const;
+};
+
+// Throws InputError for a file that cannot be read or a line that does not fit the header.
+CsvTable read_csv(const std::filesystem::path& path);
+
+// Value of y at x by linear interpolation between the rows around x, where xs increases; NaN outside.
+double interpolate(const std::vector<double>& xs, const std::vector<double>& ys, double x);
+
+}  // namespace verification

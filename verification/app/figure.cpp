@@ -1,0 +1,139 @@
+#include "app/figure.hpp"
+
+#include <fmt/format.h>
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numeric>
+
+namespace verification {
+namespace {
+
+constexpr int not_found = 127;  // what a shell returns for a missing program
+
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
+  return result + "'";
+}
+
+// The curves of a panel as gnuplot data blocks $p<panel>c<curve>.
+std::string data_blocks(const Figure& figure) {
+  std::string text;
+  for (std::size_t p = 0; p < figure.panels.size(); ++p)
+    for (std::size_t c = 0; c < figure.panels[p].curves.size(); ++c) {
+      const Curve& curve = figure.panels[p].curves[c];
+      text += fmt::format("$p{}c{} << EOD\n", p, c);
+      for (std::size_t k = 0; k < curve.x.size(); ++k)
+        text += fmt::format("{:.8g} {:.8g}\n", curve.x[k], curve.y[k]);
+      text += "EOD\n";
+    }
+  return text;
+}
+
+std::string stroke(const Curve& curve) {
+  const double width = curve.stroke == Stroke::thin ? 1.2 : 2.2;
+  return fmt::format("lc rgb '{}' lw {} dt {}", curve.colour, width,
+                     curve.stroke == Stroke::dashed ? "(8,5)" : "solid");
+}
+
+std::string plot_command(const Panel& panel, std::size_t number) {
+  std::vector<std::string> items;
+  for (std::size_t c = 0; c < panel.curves.size(); ++c) {
+    const Curve& curve = panel.curves[c];
+    items.push_back(fmt::format("$p{}c{} with lines {} {}", number, c, stroke(curve),
+                                curve.title.empty() ? "notitle" : "title " + quoted(curve.title)));
+  }
+  return fmt::format("plot {}\n", fmt::join(items, ", "));
+}
+
+// Gnuplot's own range, or one around a constant, of which it would complain.
+std::string range_command(const Panel& panel) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const Curve& curve : panel.curves)
+    for (const double y : curve.y) {
+      low = std::min(low, y);
+      high = std::max(high, y);
+    }
+  if (high - low > 1e-9 * std::max(std::abs(low), std::abs(high))) return "set yrange [*:*]\n";
+  return fmt::format("set yrange [{}:{}]\n", low - 1, high + 1);
+}
+
+bool titled(const Panel& panel) {
+  return std::any_of(panel.curves.begin(), panel.curves.end(),
+                     [](const Curve& curve) { return !curve.title.empty(); });
+}
+
+}  // namespace
+
+bool run_gnuplot(const std::string& body, const std::filesystem::path& stem, int width,
+                 int height) {
+  FILE* pipe = popen("command -v gnuplot >/dev/null 2>&1 || exit 127; exec gnuplot", "w");
+  if (pipe == nullptr) return false;
+  std::string text = "set encoding utf8\n";
+  const std::string font = "DejaVu Sans,14";
+  for (const std::string kind : {"svg", "png"}) {
+    text += kind == "svg"
+                ? fmt::format("set terminal svg size {},{} font '{}' background '#ffffff'\n",
+                              width, height, font)
+                : fmt::format("set terminal pngcairo size {},{} font '{}' background '#ffffff'\n",
+                              width, height, font);
+    text += fmt::format("set output {}\n", quoted(stem.string() + "." + kind));
+    text += body;
+    text += "unset output\nreset session\nset encoding utf8\n";
+  }
+  std::fwrite(text.data(), 1, text.size(), pipe);
+  const int status = pclose(pipe);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return true;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == not_found)
+    fmt::print(stderr, "no picture {}: gnuplot was not found (Debian package gnuplot-nox)\n",
+               stem.string());
+  else
+    fmt::print(stderr, "no picture {}: gnuplot failed\n", stem.string());
+  return false;
+}
+
+bool draw(const Figure& figure, const std::filesystem::path& stem) {
+  constexpr double bottom = 0.085;
+  constexpr double gap = 0.022;
+  const double top = figure.title.empty() ? 0.975 : 0.935;
+  const auto count = static_cast<double>(figure.panels.size());
+  const double relative =
+      std::accumulate(figure.panels.begin(), figure.panels.end(), 0.0,
+                      [](double sum, const Panel& panel) { return sum + panel.height; });
+  const double unit = (top - bottom - gap * (count - 1)) / relative;
+
+  std::string body = data_blocks(figure);
+  body += "set multiplot\n"
+          "set border 3 lc rgb '#555555'\nset tics out nomirror scale 0.6 tc rgb '#333333'\n"
+          "set grid lc rgb '#e4e4e4' lw 1 dt solid\n"
+          "set lmargin at screen 0.115\nset rmargin at screen 0.97\nset offsets 0,0,0,0\n";
+  if (!figure.title.empty())
+    body += fmt::format("set label 1 {} at screen 0.115,0.968 left noenhanced\n",
+                        quoted(figure.title));
+  double upper = top;
+  for (std::size_t p = 0; p < figure.panels.size(); ++p) {
+    const Panel& panel = figure.panels[p];
+    const double lower = upper - unit * panel.height;
+    body += fmt::format("set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n", upper, lower);
+    body += fmt::format("set label 2 {} at screen 0.03,{:.4f} center rotate by 90 noenhanced\n",
+                        quoted(panel.ordinate), 0.5 * (upper + lower));
+    body += titled(panel) ? fmt::format("set key inside {} samplen 2.5 spacing 1.15\n", panel.legend)
+                          : std::string("unset key\n");
+    body += range_command(panel);
+    const bool last = p + 1 == figure.panels.size();
+    body += last ? fmt::format("set format x '%g'\nset xlabel {}\n", quoted(figure.abscissa))
+                 : std::string("set format x ''\nunset xlabel\n");
+    body += plot_command(panel, p) + "unset label 1\n";
+    upper = lower - gap;
+  }
+  body += "unset multiplot\n";
+  return run_gnuplot(body, stem, 900, static_cast<int>(150 + 270 * relative));
+}
+
+}  // namespace verification

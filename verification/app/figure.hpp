@@ -1,0 +1,51 @@
+// Pictures: panels of curves above one another with a common abscissa, drawn by gnuplot.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace verification {
+
+enum class Stroke { solid, dashed, thin };
+
+struct Curve {
+  std::string title;  // "" : not in the legend
+  std::vector<double> x;
+  std::vector<double> y;
+  std::string colour = "#0072b2";
+  Stroke stroke = Stroke::solid;
+};
+
+struct Panel {
+  std::string ordinate;  // with its unit
+  std::vector<Curve> curves;
+  double height = 1;                 // relative to the other panels
+  std::string legend = "top right";  // in gnuplot's words
+};
+
+struct Figure {
+  std::string title;
+  std::string abscissa;  // with its unit
+  std::vector<Panel> panels;
+};
+
+// Colours that stay apart for colour-blind readers (Okabe and Ito).
+namespace colour {
+inline constexpr const char* black = "#222222";
+inline constexpr const char* grey = "#999999";
+inline constexpr const char* blue = "#0072b2";
+inline constexpr const char* orange = "#d55e00";
+inline constexpr const char* green = "#009e73";
+inline constexpr const char* purple = "#cc79a7";
+}  // namespace colour
+
+// Writes stem.svg and stem.png. Without gnuplot says so on stderr and returns false; the tables are
+// complete without it.
+bool draw(const Figure& figure, const std::filesystem::path& stem);
+
+// Runs `body` once for stem.svg and once for stem.png, each of width x height points, with a plain
+// style set up. Same return value as draw.
+bool run_gnuplot(const std::string& body, const std::filesystem::path& stem, int width, int height);
+
+}  // namespace verification

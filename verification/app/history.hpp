@@ -1,0 +1,38 @@
+// The history of a run: its table, its pictures and its particles, written while it goes.
+#pragma once
+
+#include "app/csv.hpp"
+#include "app/figure.hpp"
+#include "app/record.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace verification {
+
+// Abscissae a scene may choose for its picture.
+inline constexpr const char* axial_abscissa = "axial_strain";
+inline constexpr const char* shear_abscissa = "F12";
+
+class History {
+ public:
+  // Opens stem.csv.
+  explicit History(std::filesystem::path stem);
+
+  void add(const Record& record);
+  // stem.svg and stem.png: stress, volumetric strain and coordination number.
+  void draw_figure(const std::string& abscissa, const std::string& title) const;
+  // One line about what the run cost.
+  [[nodiscard]] std::string summary() const;
+
+ private:
+  std::filesystem::path stem_;
+  CsvWriter csv_;
+  std::vector<Record> records_;
+};
+
+// stem_0010.vtp: particles and force chains of the state. Throws ComputationError.
+void write_vtk(const grainlaw_state* state, const std::filesystem::path& stem, int step);
+
+}  // namespace verification

@@ -1,0 +1,35 @@
+// grainlaw: the command line of the verification drivers.
+// Exit codes: 0 done, 1 a computation failed, 2 the input is wrong.
+
+#include "app/commands.hpp"
+#include "app/library.hpp"
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // gnuplot may be missing; writing to it must not end the run
+  CLI::App app("A constitutive law made of grains: drivers that verify it", "grainlaw");
+  app.set_version_flag("--version", std::string(grainlaw_version()));
+  app.require_subcommand(1);
+  verification::add_point_command(app);
+  verification::add_solve_command(app);
+  verification::add_pack_command(app);
+  verification::add_report_command(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  } catch (const verification::InputError& error) {
+    fmt::print(stderr, "grainlaw: {}\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "grainlaw: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}

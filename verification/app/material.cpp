@@ -1,0 +1,80 @@
+#include "app/material.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <sstream>
+#include <string>
+
+namespace verification {
+namespace {
+
+// Lays `changes` over `target`; tables are merged, everything else is replaced.
+void merge(toml::table& target, const toml::table& changes) {
+  for (const auto& [key, node] : changes) {
+    toml::table* below = target[key.str()].as_table();
+    if (below != nullptr && node.is_table())
+      merge(*below, *node.as_table());
+    else
+      target.insert_or_assign(key, node);
+  }
+}
+
+}  // namespace
+
+MaterialSource read_material_source(SceneTable& scene) {
+  const std::filesystem::path directory = scene.file().parent_path();
+  const toml::node* node = scene.node("material");
+  MaterialSource source;
+  source.base = directory;
+  if (node != nullptr && node->is_string()) {
+    source.file = directory / *node->value<std::string>();
+  } else if (node != nullptr && node->is_table()) {
+    source.changes = *node->as_table();
+    if (const auto file = source.changes["file"].value<std::string>()) {
+      source.file = directory / *file;
+      source.changes.erase("file");
+    }
+  } else {
+    scene.fail("material", node == nullptr ? "nothing" : "another type",
+               "the path of a material file, or a table");
+  }
+  if (!source.file.empty()) source.base = source.file.parent_path();
+  return source;
+}
+
+Material make_material(const MaterialSource& source) {
+  std::array<char, 1024> message{};
+  grainlaw_material* material = nullptr;
+  grainlaw_status status = GRAINLAW_OK;
+  const std::string file = source.file.string();
+  std::string origin = "material";
+  if (source.changes.empty() && !source.file.empty()) {
+    status = grainlaw_material_load(file.c_str(), &material, message.data(), message.size());
+  } else {
+    toml::table description;
+    if (!source.file.empty()) {
+      description = SceneFile(source.file).content;
+      origin = file + " as changed by the scene";
+    }
+    merge(description, source.changes);
+    std::ostringstream text;
+    text << description;
+    const std::string base = source.base.empty() ? "." : source.base.string();
+    status = grainlaw_material_parse(text.str().c_str(), base.c_str(), &material, message.data(),
+                                     message.size());
+  }
+  if (status != GRAINLAW_OK) {
+    const std::string text =
+        fmt::format("{}: {} ({})", origin, message.data(), grainlaw_status_text(status));
+    if (status == GRAINLAW_NOT_CONVERGED || status == GRAINLAW_CONTACTS_LOST)
+      throw ComputationError(text);
+    throw InputError(text);
+  }
+  Material result(material);
+  if (grainlaw_material_dimension(material) != 2)
+    throw InputError(origin + ": the drivers are two-dimensional, the material is not");
+  return result;
+}
+
+}  // namespace verification

@@ -1,0 +1,33 @@
+// Where a scene's material comes from: a file, a table in the scene, or a file with changes.
+#pragma once
+
+#include "app/library.hpp"
+#include "app/scene.hpp"
+
+#include <filesystem>
+
+namespace verification {
+
+// A material description; `changes` are laid over the file key by key. With an empty `file` the
+// changes are the whole description.
+struct MaterialSource {
+  std::filesystem::path file;  // "" : no file
+  std::filesystem::path base;  // where relative paths of the description start
+  toml::table changes;
+};
+
+// Sets one key, e.g. {"solver", "tolerance"}, over what the source says.
+template <class Value>
+void change(MaterialSource& source, std::string_view table, std::string_view key, Value value) {
+  if (!source.changes.contains(table)) source.changes.insert(table, toml::table{});
+  source.changes[table].as_table()->insert_or_assign(key, value);
+}
+
+// The scene's key `material`: a path relative to the scene, or a table. In a table the key `file`
+// names a material file that the other keys change; its relative paths are then those of that file.
+MaterialSource read_material_source(SceneTable& scene);
+
+// Throws InputError for a wrong description, ComputationError when there is no equilibrium at F = I.
+Material make_material(const MaterialSource& source);
+
+}  // namespace verification

@@ -1,0 +1,63 @@
+// What a run writes down about an integration point after every step.
+#pragma once
+
+#include "app/library.hpp"
+
+#include <string>
+#include <vector>
+
+namespace verification {
+
+// Work the library and the driver did for one step.
+struct Effort {
+  int iterations = 0;         // linear solves of the driver's Newton [-]
+  int evaluations = 0;        // calls of the library per point [-]
+  int cuts = 0;               // times the step was cut [-]
+  int loose = 0;              // parts accepted at the loose tolerance of stress control [-]
+  long relaxation_steps = 0;  // [-]
+  long servo_corrections = 0;  // [-]
+  int factorisations = 0;     // [-]
+  int subincrements = 0;      // largest of the evaluations [-]
+  int history_advanced = 0;   // accepted evaluations that advanced the friction history [-]
+
+  void add(const grainlaw_report& report);
+};
+
+struct Record {
+  int step = 0;
+  Tensor deformation = Tensor::Identity();  // F [-]
+  Tensor stress = Tensor::Zero();           // P [Pa], tension positive
+  Tensor cauchy = Tensor::Zero();           // sigma [Pa], tension positive
+  double void_ratio = 0;
+  double coordination = 0;
+  double coordination_no_rattlers = 0;
+  double fabric_intensity = 0;
+  double anisotropy = 0;
+  double mean_overlap = 0;      // [m]
+  double mean_rotation = 0;     // [rad]
+  double elastic_energy = 0;    // [J]
+  double dissipated_energy = 0; // [J]
+  double external_work = 0;     // sum over the steps of V0 P:dF, trapezoid rule [J]
+  double contacts = 0;
+  double sliding = 0;
+  double status_changes = 0;
+  Effort effort;
+
+  // Compression positive: 1 - F22; dilation positive: det F - 1; -sigma22 / -sigma11.
+  [[nodiscard]] double axial_strain() const { return 1 - deformation(1, 1); }
+  [[nodiscard]] double volumetric_strain() const { return deformation.determinant() - 1; }
+  [[nodiscard]] double stress_ratio() const { return cauchy(1, 1) / cauchy(0, 0); }
+};
+
+// Measures of the state (its trial, or the committed one without a trial) at F with P.
+// Counts of sliding contacts and status changes come from the report of the evaluation.
+Record make_record(const grainlaw_state* state, const Tensor& deformation, const Tensor& stress,
+                   const grainlaw_report& report);
+
+// Mean over points of everything but step, effort and deformation's derived numbers.
+Record mean(const std::vector<Record>& records);
+
+std::vector<std::string> record_columns();
+std::vector<double> record_values(const Record& record);
+
+}  // namespace verification

@@ -1,0 +1,60 @@
+// Boundary conditions of a finite element model: prescribed and tied displacements, pressure.
+#pragma once
+
+#include "fe/mesh.hpp"
+
+#include <Eigen/Sparse>
+
+#include <array>
+#include <vector>
+
+namespace verification {
+
+// Displacement components are numbered dof = 2 * node + component.
+//
+// Every component is either prescribed or follows one unknown; tied components share theirs.
+struct Dofs {
+  std::vector<int> unknown;           // [dofs] number of its unknown, -1: prescribed
+  std::vector<double> prescribed;     // [dofs] value at the end of the run, else 0 [m]
+  int unknowns = 0;
+
+  // Values of the unknowns as a field over all components, prescribed ones zero.
+  [[nodiscard]] Eigen::VectorXd expand(const Eigen::VectorXd& reduced) const;
+  // Forces on the unknowns: the sum over the components that follow each.
+  [[nodiscard]] Eigen::VectorXd reduce(const Eigen::VectorXd& full) const;
+  // Prescribed displacements at this fraction of the run, unknowns zero [m].
+  [[nodiscard]] Eigen::VectorXd prescribed_at(double fraction) const;
+};
+
+struct PrescribedDisplacement {
+  std::vector<int> nodes;
+  int component = 0;
+  double value = 0;  // at the end of the run, linear from 0 [m]
+};
+
+// The nodes move by the same amount in this component, as if glued to a rigid smooth plate.
+struct Tie {
+  std::vector<int> nodes;
+  int component = 0;
+};
+
+// Throws InputError for a component that is tied twice, or tied and prescribed.
+Dofs number_dofs(std::size_t nodes, const std::vector<PrescribedDisplacement>& displacements,
+                 const std::vector<Tie>& ties);
+
+// Cauchy pressure that stays normal to the deformed sides [Pa], linear over the run.
+struct FollowerPressure {
+  std::vector<std::array<int, 2>> sides;  // the element on the left
+  double start = 0;
+  double end = 0;
+};
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+// Adds the nodal forces of the pressure on the displaced sides [N/m], and minus their derivative with
+// respect to the displacements (the load stiffness), which is exact for straight sides.
+void add_pressure(const FollowerPressure& pressure, double fraction, const Mesh& mesh,
+                  const Eigen::VectorXd& displacement, Eigen::VectorXd& force,
+                  Triplets& stiffness);
+
+}  // namespace verification

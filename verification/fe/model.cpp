@@ -1,0 +1,129 @@
+#include "fe/model.hpp"
+
+#include <algorithm>
+
+namespace verification {
+
+PointField::PointField(const Mesh& mesh, const Material& material) {
+  for (const auto& element : mesh.elements) {
+    std::array<Eigen::Vector2d, 4> corners;
+    for (std::size_t a = 0; a < 4; ++a)
+      corners[a] = mesh.nodes[static_cast<std::size_t>(element[a])];
+    for (const QuadPoint& geometry : quad_points(corners)) {
+      points_.push_back({element, geometry, Tensor::Identity(), Tensor::Zero(), 0, {}});
+      states_.push_back(make_state(material));
+      handles_.push_back(states_.back().get());
+    }
+  }
+  const std::size_t n = points_.size();
+  status_.resize(n);
+  reports_.resize(n, grainlaw_report_default());
+  deformation_.resize(n, Tensor::Identity());
+  stress_.resize(n, Tensor::Zero());
+  tangent_.resize(n, Tangent::Zero());
+  volume_ = measure_scalar(handles_.front(), GRAINLAW_REFERENCE_VOLUME);
+}
+
+grainlaw_status PointField::evaluate(const Eigen::VectorXd& displacement, unsigned want,
+                                     int threads) {
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    deformation_[p].setIdentity();
+    for (std::size_t a = 0; a < 4; ++a)
+      deformation_[p] += displacement.segment<2>(2 * points_[p].nodes[a]) *
+                         points_[p].geometry.gradient.row(static_cast<Eigen::Index>(a));
+    reports_[p] = grainlaw_report_default();
+  }
+  const grainlaw_status status = grainlaw_evaluate_batch(
+      points_.size(), handles_.data(), deformation_.front().data(), want, stress_.front().data(),
+      want != 0 ? tangent_.front().data() : nullptr, status_.data(), reports_.data(), threads);
+  if (status < 0) check(status, "evaluating the integration points");
+  for (std::size_t p = 0; p < points_.size(); ++p) points_[p].effort.add(reports_[p]);
+  return status;
+}
+
+double PointField::step_ratio() const {
+  double ratio = 1;
+  for (std::size_t p = 0; p < points_.size(); ++p)
+    if (status_[p] != GRAINLAW_OK) ratio = std::min(ratio, reports_[p].step_ratio);
+  return ratio;
+}
+
+std::string PointField::message() const {
+  for (std::size_t p = 0; p < points_.size(); ++p)
+    if (status_[p] != GRAINLAW_OK)
+      return std::string(grainlaw_status_text(status_[p])) + " " + reports_[p].message;
+  return {};
+}
+
+Eigen::VectorXd PointField::internal_force() const {
+  int last = 0;
+  for (const Point& point : points_) last = std::max(last, *std::max_element(point.nodes.begin(), point.nodes.end()));
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(2 * (last + 1));
+  for (std::size_t p = 0; p < points_.size(); ++p)
+    for (std::size_t a = 0; a < 4; ++a) {
+      const auto& [gradient, weight] = points_[p].geometry;
+      force.segment<2>(2 * points_[p].nodes[a]) +=
+          weight * stress_[p] * gradient.row(static_cast<Eigen::Index>(a)).transpose();
+    }
+  return force;
+}
+
+void PointField::add_stiffness(Triplets& triplets) const {
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const auto& [gradient, weight] = points_[p].geometry;
+    // dN_a/dX_J A_iJkL dN_b/dX_L for every pair of nodes a, b and components i, k.
+    for (int a = 0; a < 4; ++a)
+      for (int b = 0; b < 4; ++b)
+        for (int i = 0; i < 2; ++i)
+          for (int k = 0; k < 2; ++k) {
+            const double value =
+                gradient.row(a) * tangent_[p].block<2, 2>(2 * i, 2 * k) * gradient.row(b).transpose();
+            triplets.emplace_back(2 * points_[p].nodes[static_cast<std::size_t>(a)] + i,
+                                  2 * points_[p].nodes[static_cast<std::size_t>(b)] + k,
+                                  weight * value);
+          }
+  }
+}
+
+void PointField::commit() {
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    Point& point = points_[p];
+    const Tensor change = deformation_[p] - point.committed_deformation;
+    point.work +=
+        0.5 * volume_ * (point.committed_stress + stress_[p]).cwiseProduct(change).sum();
+    point.committed_deformation = deformation_[p];
+    point.committed_stress = stress_[p];
+    point.effort.history_advanced += reports_[p].history_advanced;
+    check(grainlaw_commit(handles_[p]), "committing an integration point");
+  }
+}
+
+void PointField::revert() {
+  for (grainlaw_state* state : handles_) check(grainlaw_revert(state), "dropping a trial");
+}
+
+Record PointField::record() {
+  std::vector<Record> records;
+  Effort sum;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    Point& point = points_[p];
+    records.push_back(make_record(handles_[p], deformation_[p], stress_[p], reports_[p]));
+    records.back().external_work = point.work;
+    sum.evaluations = std::max(sum.evaluations, point.effort.evaluations);
+    sum.subincrements = std::max(sum.subincrements, point.effort.subincrements);
+    sum.history_advanced = std::max(sum.history_advanced, point.effort.history_advanced);
+    sum.relaxation_steps += point.effort.relaxation_steps;
+    sum.servo_corrections += point.effort.servo_corrections;
+    sum.factorisations += point.effort.factorisations;
+    point.effort = {};
+  }
+  const auto count = static_cast<int>(points_.size());
+  sum.relaxation_steps /= count;
+  sum.servo_corrections /= count;
+  sum.factorisations /= count;
+  Record record = mean(records);
+  record.effort = sum;
+  return record;
+}
+
+}  // namespace verification

@@ -1,0 +1,64 @@
+// A total Lagrangian finite element model whose integration points are grainlaw states.
+#pragma once
+
+#include "app/library.hpp"
+#include "app/record.hpp"
+#include "fe/conditions.hpp"
+
+#include <vector>
+
+namespace verification {
+
+struct Model {
+  Mesh mesh;
+  std::vector<PrescribedDisplacement> displacements;
+  std::vector<Tie> ties;
+  std::vector<FollowerPressure> pressures;
+  double thickness = 1;  // out of plane; forces are per metre of it [m]
+};
+
+// The integration points of a model, numbered element by element.
+class PointField {
+ public:
+  PointField(const Mesh& mesh, const Material& material);
+
+  // F at every point for these displacements, one batch call. When a point fails, its status.
+  grainlaw_status evaluate(const Eigen::VectorXd& displacement, unsigned want, int threads);
+  // Smallest step ratio of the points that failed, and the message of the first.
+  [[nodiscard]] double step_ratio() const;
+  [[nodiscard]] std::string message() const;
+
+  // Nodal forces of the stresses of the last evaluation [N/m], and their derivative.
+  [[nodiscard]] Eigen::VectorXd internal_force() const;
+  void add_stiffness(Triplets& triplets) const;
+
+  // Make the trials committed (their work is added up), or drop them.
+  void commit();
+  void revert();
+
+  // Mean over the points of the last evaluation; the effort since the last call of this function.
+  Record record();
+  [[nodiscard]] const grainlaw_state* state(std::size_t point) const { return states_[point].get(); }
+
+ private:
+  struct Point {
+    std::array<int, 4> nodes;
+    QuadPoint geometry;
+    Tensor committed_deformation = Tensor::Identity();
+    Tensor committed_stress = Tensor::Zero();
+    double work = 0;  // external, since F = I [J]
+    Effort effort;
+  };
+
+  std::vector<Point> points_;
+  std::vector<State> states_;
+  std::vector<grainlaw_state*> handles_;
+  std::vector<grainlaw_status> status_;
+  std::vector<grainlaw_report> reports_;
+  std::vector<Tensor> deformation_;
+  std::vector<Tensor> stress_;
+  std::vector<Tangent> tangent_;
+  double volume_ = 0;  // of one representative volume at F = I [m3]
+};
+
+}  // namespace verification

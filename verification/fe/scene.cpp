@@ -1,0 +1,78 @@
+#include "fe/scene.hpp"
+
+#include "app/history.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace verification {
+namespace {
+
+const std::vector<std::string_view> edges{"left", "right", "bottom", "top"};
+
+Mesh read_mesh(SceneTable table) {
+  constexpr Range counts{1, 1e4, false, "an integer >= 1"};
+  const std::vector<double> size = table.numbers("size", 2, positive);
+  const std::vector<double> divisions = table.numbers("divisions", 2, counts);
+  for (const double value : divisions)
+    if (value != std::floor(value)) table.fail("divisions", fmt::format("{}", value), counts.text);
+  table.close();
+  return rectangle_mesh({size[0], size[1]},
+                        {static_cast<int>(divisions[0]), static_cast<int>(divisions[1])});
+}
+
+std::string read_edge(SceneTable& table) {
+  const std::string edge = table.text("on");
+  return table.choice_or("on", edge, edges);
+}
+
+int read_component(SceneTable& table) {
+  const std::string component = table.text("component");
+  return table.choice_or("component", component, {"x", "y"}) == "x" ? 0 : 1;
+}
+
+}  // namespace
+
+FiniteElementScene read_fe_scene(const SceneFile& file) {
+  SceneTable table = file.root();
+  FiniteElementScene scene;
+  scene.name = table.text_or("name", file.path.stem().string());
+  scene.material = read_material_source(table);
+  scene.options.tangent =
+      tangent_bit(table.choice_or("tangent", "exact", {"exact", "elastic", "perturbed"}));
+  scene.options.tolerance = table.number_or("tolerance", scene.options.tolerance, positive);
+  scene.options.max_iterations =
+      table.integer_or("max_iterations", scene.options.max_iterations, 1);
+  scene.options.threads = table.integer_or("threads", 0, 0);
+  scene.steps = table.integer("steps", 1);
+  scene.abscissa = table.choice_or("abscissa", axial_abscissa, {axial_abscissa, shear_abscissa});
+  scene.vtk_every = table.integer_or("vtk_every", 0, 0);
+
+  Model& model = scene.model;
+  model.mesh = read_mesh(table.table("mesh"));
+  for (SceneTable& entry : table.tables("displacement")) {
+    PrescribedDisplacement condition;
+    condition.nodes = model.mesh.node_sets[read_edge(entry)];
+    condition.component = read_component(entry);
+    condition.value = entry.number("value");
+    entry.close();
+    model.displacements.push_back(condition);
+  }
+  for (SceneTable& entry : table.tables("tie")) {
+    model.ties.push_back({model.mesh.node_sets[read_edge(entry)], read_component(entry)});
+    entry.close();
+  }
+  for (SceneTable& entry : table.tables("pressure")) {
+    FollowerPressure pressure;
+    pressure.sides = model.mesh.side_sets[read_edge(entry)];
+    pressure.end = entry.number("value");
+    pressure.start = entry.number_or("start", pressure.end);
+    entry.close();
+    model.pressures.push_back(pressure);
+  }
+  table.close();
+  return scene;
+}
+
+}  // namespace verification

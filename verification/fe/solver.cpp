@@ -1,0 +1,197 @@
+#include "fe/solver.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/SparseLU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace verification {
+namespace {
+
+constexpr double smallest_cut = 0.1;  // of a step in one go
+constexpr double usual_cut = 0.5;
+// An attempt with an exact tangent ends when this many iterations in a row have not halved the residual:
+// after the peak P(F) has jumps, and Newton then goes to and fro across one.
+constexpr int patience = 4;
+
+// Residual and stiffness of all displacement components at one displacement and one load.
+struct System {
+  Eigen::VectorXd residual;  // external minus internal force [N/m]
+  Eigen::SparseMatrix<double> stiffness;
+  double scale = 1;          // |internal force| [N/m]
+};
+
+System assemble(const Model& model, const PointField& points, const Eigen::VectorXd& displacement,
+                double fraction) {
+  System system;
+  Triplets triplets;
+  const Eigen::VectorXd internal = points.internal_force();
+  system.residual = -internal;
+  points.add_stiffness(triplets);
+  for (const FollowerPressure& pressure : model.pressures)
+    add_pressure(pressure, fraction, model.mesh, displacement, system.residual, triplets);
+  system.stiffness.resize(internal.size(), internal.size());
+  system.stiffness.setFromTriplets(triplets.begin(), triplets.end());
+  system.scale = std::max(internal.norm(), std::numeric_limits<double>::min());
+  return system;
+}
+
+// Change of displacement that the linearised system asks for, the prescribed part given.
+Eigen::VectorXd solve(const System& system, const Dofs& dofs, const Eigen::VectorXd& prescribed) {
+  const Eigen::VectorXd force = dofs.reduce(system.residual - system.stiffness * prescribed);
+  Triplets triplets;
+  for (int column = 0; column < system.stiffness.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(system.stiffness, column); entry; ++entry) {
+      const int row_unknown = dofs.unknown[static_cast<std::size_t>(entry.row())];
+      const int column_unknown = dofs.unknown[static_cast<std::size_t>(entry.col())];
+      if (row_unknown >= 0 && column_unknown >= 0)
+        triplets.emplace_back(row_unknown, column_unknown, entry.value());
+    }
+  Eigen::SparseMatrix<double> reduced(dofs.unknowns, dofs.unknowns);
+  reduced.setFromTriplets(triplets.begin(), triplets.end());
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> factor(reduced);
+  if (factor.info() != Eigen::Success)
+    return Eigen::VectorXd::Constant(prescribed.size(), std::numeric_limits<double>::quiet_NaN());
+  return prescribed + dofs.expand(factor.solve(force));
+}
+
+class LoadStepper {
+ public:
+  LoadStepper(const Model& model, const Material& material, const SolverOptions& options)
+      : model_(model),
+        options_(options),
+        dofs_(number_dofs(model.mesh.nodes.size(), model.displacements, model.ties)),
+        points_(model.mesh, material),
+        displacement_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * model.mesh.nodes.size()))) {
+    if (dofs_.unknowns == 0) throw InputError("every displacement is prescribed: nothing to solve");
+    check(points_.evaluate(displacement_, options_.tangent, options_.threads),
+          "evaluating the integration points at F = I");
+    system_ = assemble(model_, points_, displacement_, 0);
+    points_.commit();
+    points_.record();  // the start is not part of step 0's effort
+  }
+
+  // From the committed load to this fraction of the run, cutting where needed.
+  LoadStep advance(double from, double to, int number) {
+    LoadStep step;
+    int cuts = 0;
+    int iterations = 0;
+    double done = from;
+    double part = to - from;
+    const double smallest = std::ldexp(to - from, -options_.max_cuts);
+    do {
+      const double next = done + part > to - 1e-9 * (to - from) ? to : done + part;
+      double ratio = usual_cut;
+      std::string reason;
+      const auto first = step.residuals.size();
+      const bool converged = attempt(next, step.residuals, ratio, reason);
+      iterations += static_cast<int>(step.residuals.size() - first) - 1;
+      if (converged) {
+        points_.commit();
+        part = std::min(to - next, 2 * (next - done));
+        done = next;
+        continue;
+      }
+      points_.revert();
+      ++cuts;
+      part = (next - done) * std::clamp(ratio, smallest_cut, usual_cut);
+      if (part < smallest || to == from)
+        throw ComputationError(fmt::format("load step {} failed at {:.1e} of the run: {}", number,
+                                           part, reason));
+    } while (done < to);
+    step.record = points_.record();
+    step.record.step = number;
+    step.record.effort.iterations = iterations;
+    step.record.effort.cuts = cuts;
+    return step;
+  }
+
+  [[nodiscard]] const PointField& points() const { return points_; }
+
+ private:
+  // Increments of prescribed displacement enter through the right-hand side of the first solve, which
+  // extrapolates the committed equilibrium by its tangent; boundary values never jump ahead alone.
+  bool attempt(double fraction, std::vector<double>& residuals, double& ratio,
+               std::string& reason) {
+    Eigen::VectorXd displacement = displacement_;
+    System system = system_;
+    const Eigen::VectorXd target = dofs_.prescribed_at(fraction);
+    Eigen::VectorXd prescribed = target - dofs_.prescribed_at(committed_fraction_);
+    add_load_increment(system, fraction);
+    residuals.push_back(error(system, prescribed));
+    double best = std::numeric_limits<double>::infinity();
+    int best_iteration = 0;
+    for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
+      displacement += solve(system, dofs_, prescribed);
+      prescribed.setZero();
+      if (!displacement.allFinite()) {
+        reason = "the stiffness is singular";
+        return false;
+      }
+      if (points_.evaluate(displacement, options_.tangent, options_.threads) != GRAINLAW_OK) {
+        ratio = points_.step_ratio();
+        reason = points_.message();
+        residuals.push_back(std::numeric_limits<double>::quiet_NaN());
+        return false;
+      }
+      system = assemble(model_, points_, displacement, fraction);
+      residuals.push_back(error(system, prescribed));
+      if (residuals.back() <= options_.tolerance) {
+        displacement_ = displacement;
+        system_ = system;
+        committed_fraction_ = fraction;
+        return true;
+      }
+      if (residuals.back() < 0.5 * best) {
+        best = residuals.back();
+        best_iteration = iteration;
+      }
+      const bool stalled = iteration >= best_iteration + patience;
+      if (stalled && options_.tangent == GRAINLAW_WANT_TANGENT_EXACT) break;
+    }
+    reason = fmt::format("Newton did not converge (best relative residual {:.1e} [-])", best);
+    return false;
+  }
+
+  // The committed system carries the load of its own fraction; the difference to the new one.
+  void add_load_increment(System& system, double fraction) const {
+    Triplets triplets;
+    for (FollowerPressure pressure : model_.pressures) {
+      pressure.end -= pressure.start;
+      pressure.start = 0;
+      add_pressure(pressure, fraction - committed_fraction_, model_.mesh, displacement_,
+                   system.residual, triplets);
+    }
+    Eigen::SparseMatrix<double> change(system.stiffness.rows(), system.stiffness.cols());
+    change.setFromTriplets(triplets.begin(), triplets.end());
+    system.stiffness += change;
+  }
+
+  [[nodiscard]] double error(const System& system, const Eigen::VectorXd& prescribed) const {
+    return dofs_.reduce(system.residual - system.stiffness * prescribed).norm() / system.scale;
+  }
+
+  const Model& model_;
+  SolverOptions options_;
+  Dofs dofs_;
+  PointField points_;
+  Eigen::VectorXd displacement_;  // committed [m]
+  System system_;                 // at the committed displacement and load
+  double committed_fraction_ = 0;
+};
+
+}  // namespace
+
+void run_load_steps(const Model& model, const Material& material, const SolverOptions& options,
+                    int steps, int last, const LoadObserver& observe) {
+  LoadStepper stepper(model, material, options);
+  for (int step = 0; step <= std::min(steps, last); ++step) {
+    const double from = std::max(step - 1, 0) / static_cast<double>(steps);
+    observe(stepper.advance(from, step / static_cast<double>(steps), step), stepper.points());
+  }
+}
+
+}  // namespace verification

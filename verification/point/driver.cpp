@@ -1,0 +1,219 @@
+#include "point/driver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace verification {
+namespace {
+
+constexpr double smallest_cut = 0.1;   // of a step in one go
+constexpr double usual_cut = 0.5;
+// An attempt ends when this many iterations in a row have not halved the residual: P(F) has jumps after
+// the peak, where contacts collapse, and Newton then goes to and fro across one. A smaller step, or
+// another one, usually passes beside it.
+constexpr int patience = 4;
+
+// The prescribed measure (F, P or sigma) by component, and its derivative with respect to F.
+struct Controlled {
+  Vector4 value;
+  Tangent derivative;
+};
+
+Controlled controlled(const std::array<Control, 4>& control, const Tensor& deformation,
+                      const Evaluation& evaluation) {
+  const Vector4 piola = to_vector(evaluation.stress);
+  const Vector4 sigma = to_vector(cauchy_stress(evaluation.stress, deformation));
+  const Tangent spatial = cauchy_tangent(evaluation.stress, evaluation.tangent, deformation);
+  Controlled result{to_vector(deformation), Tangent::Identity()};
+  for (int k = 0; k < 4; ++k) {
+    if (control[static_cast<std::size_t>(k)] == Control::piola) {
+      result.value(k) = piola(k);
+      result.derivative.row(k) = evaluation.tangent.row(k);
+    } else if (control[static_cast<std::size_t>(k)] == Control::cauchy) {
+      result.value(k) = sigma(k);
+      result.derivative.row(k) = spatial.row(k);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+// What one (part of a) step is to reach.
+struct PointDriver::Goal {
+  std::array<Control, 4> control{};
+  Vector4 value = Vector4::Zero();
+  double scale = 1;  // of the stress residual [Pa]
+  bool mixed = false;
+
+  [[nodiscard]] bool stress(int k) const {
+    return control[static_cast<std::size_t>(k)] != Control::deformation;
+  }
+};
+
+struct PointDriver::Attempt {
+  bool converged = false;
+  Tensor deformation = Tensor::Identity();
+  Evaluation evaluation;
+  double step_ratio = usual_cut;
+  std::string reason;
+};
+
+PointDriver::PointDriver(const Material& material, const PointOptions& options)
+    : options_(options),
+      state_(make_state(material)),
+      volume_(measure_scalar(state_.get(), GRAINLAW_REFERENCE_VOLUME)),
+      deformation_(Tensor::Identity()),
+      evaluation_(evaluate(state_.get(), deformation_, options.tangent)) {
+  check(evaluation_.status, "evaluating the start at F = I");
+  record_ = make_record(state_.get(), deformation_, evaluation_.stress, evaluation_.report);
+  record_.effort.add(evaluation_.report);
+  check(grainlaw_revert(state_.get()), "dropping the trial at F = I");
+}
+
+PointDriver::Goal PointDriver::goal_at(const Segment& segment, const Vector4& start,
+                                       double fraction) const {
+  Goal goal;
+  goal.scale = std::max(cauchy_stress(evaluation_.stress, deformation_).norm(), 1.0);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Target& target = segment.target[k];
+    const auto i = static_cast<Eigen::Index>(k);
+    const double end = target.increment ? start(i) + target.value : target.value;
+    goal.control[k] = target.control;
+    goal.value(i) = start(i) + fraction * (end - start(i));
+    goal.mixed = goal.mixed || target.control != Control::deformation;
+  }
+  return goal;
+}
+
+// Newton on the components of F whose stress is prescribed. The first iterate carries the prescribed
+// increment over to the unknowns by the tangent of the last step. An exact tangent is renewed at every
+// iterate; any other serves as the start of Broyden's updates, which need no more than a fair matrix.
+PointDriver::Attempt PointDriver::attempt(const Goal& goal, double tolerance, Effort& effort) {
+  Attempt result;
+  const unsigned want = goal.mixed ? options_.tangent : 0;
+  const Controlled before = controlled(goal.control, deformation_, evaluation_);
+  Tangent matrix = before.derivative;  // rows of prescribed components of F are rows of I
+  Vector4 correction = matrix.fullPivLu().solve(goal.value - before.value);
+  Vector4 value = before.value;
+  Vector4 deformation = to_vector(deformation_);
+  double best = std::numeric_limits<double>::infinity();
+  int best_iteration = 0;
+  bool first = true;
+  for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
+    deformation += correction;
+    result.deformation = to_tensor(deformation);
+    result.evaluation = evaluate(state_.get(), result.deformation, want);
+    effort.add(result.evaluation.report);
+    if (goal.mixed) ++effort.iterations;
+    if (result.evaluation.status != GRAINLAW_OK) {
+      result.step_ratio = result.evaluation.report.step_ratio;
+      result.reason = fmt::format("{} {}", grainlaw_status_text(result.evaluation.status),
+                                  result.evaluation.report.message);
+      return result;
+    }
+    const Controlled now = controlled(goal.control, result.deformation, result.evaluation);
+    const Vector4 residual = goal.value - now.value;
+    double error = 0;
+    for (int k = 0; k < 4; ++k)
+      if (goal.stress(k)) error = std::max(error, std::abs(residual(k)) / goal.scale);
+    if (error <= tolerance) {
+      result.converged = true;
+      return result;
+    }
+    if (error < 0.5 * best) {
+      best = error;
+      best_iteration = iteration;
+    }
+    if (!std::isfinite(error) || iteration >= best_iteration + patience) break;
+    if (result.evaluation.report.tangent_exact != 0 || first) {
+      matrix = now.derivative;
+    } else {
+      const Vector4 mismatch = now.value - value - matrix * correction;
+      matrix += mismatch * correction.transpose() / correction.squaredNorm();
+    }
+    value = now.value;
+    correction = matrix.fullPivLu().solve(residual);
+    first = false;
+  }
+  result.reason = fmt::format("the stress control did not converge (best residual {:.1e} [-])", best);
+  return result;
+}
+
+// The last step may have been under strain control alone, without a tangent; stress control starts
+// from one.
+void PointDriver::renew_tangent() {
+  const Evaluation again = evaluate(state_.get(), deformation_, options_.tangent);
+  check(again.status, "evaluating the tangent at the start of a segment");
+  check(grainlaw_revert(state_.get()), "dropping a trial");
+  evaluation_.tangent = again.tangent;
+  has_tangent_ = true;
+}
+
+void PointDriver::accept(const Attempt& attempt, bool has_tangent) {
+  const Tensor change = attempt.deformation - deformation_;
+  work_ += 0.5 * volume_ *
+           (evaluation_.stress + attempt.evaluation.stress).cwiseProduct(change).sum();
+  deformation_ = attempt.deformation;
+  evaluation_ = attempt.evaluation;
+  has_tangent_ = has_tangent;
+}
+
+void PointDriver::run(const Segment& segment, const PointObserver& observe) {
+  std::array<Control, 4> control{};
+  for (std::size_t k = 0; k < 4; ++k) control[k] = segment.target[k].control;
+  const Vector4 start = controlled(control, deformation_, evaluation_).value;
+  const double smallest = std::ldexp(1.0, -options_.max_cuts);
+  if (goal_at(segment, start, 0).mixed && !has_tangent_) renew_tangent();
+  for (int step = 1; step <= segment.steps; ++step) {
+    Effort effort;
+    double done = 0;  // of this step
+    double part = 1;
+    bool loose = false;
+    while (done < 1) {
+      const double next = done + part > 1 - 1e-12 ? 1 : done + part;
+      const double fraction = (step - 1 + next) / segment.steps;
+      const Goal goal = goal_at(segment, start, fraction);
+      const Attempt result =
+          attempt(goal, loose ? options_.loose_tolerance : options_.tolerance, effort);
+      if (!result.converged) {
+        check(grainlaw_revert(state_.get()), "dropping a trial");
+        part = (next - done) * std::clamp(result.step_ratio, smallest_cut, usual_cut);
+        ++effort.cuts;
+        if (part >= smallest) continue;
+        if (options_.loose_tolerance > 0 && !loose) {
+          loose = true;
+          ++effort.loose;
+          part = 1 - done;
+        } else {
+          throw ComputationError(fmt::format(
+              "step {} (F22 = {:.6f}, F12 = {:.6f}) failed at 1/{:.0f} of its size: {}",
+              record_.step + 1, deformation_(1, 1), deformation_(0, 1), 1 / smallest,
+              result.reason));
+        }
+        continue;
+      }
+      const Tensor committed = deformation_;
+      accept(result, goal.mixed);
+      effort.history_advanced += result.evaluation.report.history_advanced;
+      if (next == 1.0) {
+        const int number = record_.step + 1;
+        record_ = make_record(state_.get(), deformation_, evaluation_.stress, evaluation_.report);
+        record_.step = number;
+        record_.external_work = work_;
+        record_.effort = effort;
+        if (observe)
+          observe({state_.get(), committed, evaluation_, record_, fraction});
+      }
+      check(grainlaw_commit(state_.get()), "committing a step");
+      loose = false;
+      part = std::min(1 - next, 2 * (next - done));
+      done = next;
+    }
+  }
+}
+
+}  // namespace verification

@@ -1,0 +1,38 @@
+// The way of a material point: segments in which every component of F or of a stress is prescribed.
+#pragma once
+
+#include "app/scene.hpp"
+
+#include <array>
+#include <vector>
+
+namespace verification {
+
+enum class Control {
+  deformation,  // a component of F [-]
+  piola,        // the component of P of the same indices [Pa]; F there is unknown
+  cauchy        // the component of sigma of the same indices [Pa]; F there is unknown
+};
+
+// What one component is led to, linearly from its value at the start of the segment.
+struct Target {
+  Control control = Control::deformation;
+  bool increment = true;  // value is added to the start value, not the end value itself
+  double value = 0;       // default: F stays as it is
+};
+
+struct Segment {
+  std::array<Target, 4> target;  // 11, 12, 21, 22
+  int steps = 1;
+};
+
+// [[segment]]: steps, and per component one of F11 (end value), dF11 (increment), P11, sigma11 (end
+// value, Pa, tension positive). A component that is not named keeps its F. Throws InputError.
+std::vector<Segment> read_segments(SceneTable& scene);
+
+// Drained biaxial compression: F22 by `axial` (negative: compression), no shear, sigma11 = `lateral`.
+Segment drained_segment(double axial, double lateral, int steps);
+// Simple shear: F12 by `shear`, everything else fixed.
+Segment shear_segment(double shear, int steps);
+
+}  // namespace verification

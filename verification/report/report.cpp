@@ -1,0 +1,100 @@
+#include "report/report.hpp"
+
+#include "app/commands.hpp"
+#include "app/progress.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <utility>
+
+namespace verification {
+
+std::filesystem::path ReportOptions::scene(const std::string& name) const {
+  const std::filesystem::path path = std::filesystem::path(scenes) / name;
+  if (!std::filesystem::is_regular_file(path))
+    throw InputError(fmt::format("{}: there is no such file; --scenes names the directory with the "
+                                 "scenes", path.string()));
+  return path;
+}
+
+MaterialSource ReportOptions::material(double tolerance) const {
+  MaterialSource source;
+  source.file = scene("yade400.toml");
+  source.base = source.file.parent_path();
+  change(source, "solver", "tolerance", tolerance);
+  return source;
+}
+
+Table::Cell::Cell(double number)
+    : shown(fmt::format("{:.4g}", number)), full(fmt::format("{:.10g}", number)) {}
+
+Table::Table(std::string title, std::vector<std::string> columns)
+    : title_(std::move(title)), columns_(std::move(columns)) {}
+
+void Table::row(const std::vector<Cell>& cells) {
+  if (cells.size() != columns_.size()) throw std::logic_error("table: a row of another length");
+  rows_.push_back(cells);
+}
+
+void Table::print() const {
+  std::vector<std::size_t> width;
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    width.push_back(columns_[k].size());
+    for (const auto& row : rows_) width[k] = std::max(width[k], row[k].shown.size());
+  }
+  fmt::print("\n{}\n", title_);
+  for (std::size_t k = 0; k < columns_.size(); ++k) fmt::print("  {:>{}}", columns_[k], width[k]);
+  fmt::print("\n");
+  for (const auto& row : rows_) {
+    for (std::size_t k = 0; k < row.size(); ++k) fmt::print("  {:>{}}", row[k].shown, width[k]);
+    fmt::print("\n");
+  }
+}
+
+void Table::write(const std::filesystem::path& path) const {
+  std::filesystem::create_directories(path.has_parent_path() ? path.parent_path() : ".");
+  std::ofstream stream(path);
+  stream << fmt::format("{}\n", fmt::join(columns_, ","));
+  for (const auto& row : rows_) {
+    std::vector<std::string> fields;
+    for (const Cell& cell : row) fields.push_back(cell.full);
+    stream << fmt::format("{}\n", fmt::join(fields, ","));
+  }
+  if (!stream) throw ComputationError(fmt::format("{}: cannot be written", path.string()));
+}
+
+std::vector<Probe> probe_path(const std::string& name, const Material& material,
+                              const Segment& segment, int every) {
+  std::vector<Probe> probes;
+  Progress progress(name + " path");
+  PointDriver driver(material, {});
+  driver.run(segment, [&](const PointStep& step) {
+    progress.update(step.fraction, "");
+    if (step.record.step % every != 0) return;
+    const double strain =
+        name == "shear" ? step.record.deformation(0, 1) : step.record.axial_strain();
+    probes.push_back({name, clone(step.state), step.record.deformation, strain});
+  });
+  return probes;
+}
+
+void add_report_command(CLI::App& app) {
+  CLI::App* report = app.add_subcommand("report", "measure what the project claims");
+  report->require_subcommand(1);
+  auto options = std::make_shared<ReportOptions>();
+  report->add_option("--scenes", options->scenes, "directory with the scenes")
+      ->capture_default_str();
+  report->add_option("--output", options->output, "directory for the results")
+      ->capture_default_str();
+  add_drained_report(*report, options);
+  add_tangent_report(*report, options);
+  add_newton_report(*report, options);
+  add_objectivity_report(*report, options);
+  add_servo_report(*report, options);
+  add_ensemble_report(*report, options);
+  add_timing_report(*report, options);
+}
+
+}  // namespace verification

@@ -1,0 +1,78 @@
+// What the reports share: where scenes lie, the reference material, tables, runs along a path.
+#pragma once
+
+#include "app/material.hpp"
+#include "point/driver.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace verification {
+
+struct ReportOptions {
+  std::string scenes = "verification/scenes";  // directory with yade400.toml and the other scenes
+  std::string output = ".";
+
+  // A file in the scenes' directory. Throws InputError when it is not there.
+  [[nodiscard]] std::filesystem::path scene(const std::string& name) const;
+  // yade400.toml, to be changed by the caller, at this solver tolerance [-].
+  [[nodiscard]] MaterialSource material(double tolerance) const;
+};
+
+// A table that is printed to stdout and written as CSV.
+class Table {
+ public:
+  struct Cell {
+    Cell(double number);
+    Cell(std::string text) : shown(text), full(std::move(text)) {}
+    Cell(const char* text) : shown(text), full(text) {}
+    std::string shown;  // four digits of a number
+    std::string full;   // ten
+  };
+
+  // Columns as "name[unit]".
+  Table(std::string title, std::vector<std::string> columns);
+
+  void row(const std::vector<Cell>& cells);
+  // Prints title and rows in columns.
+  void print() const;
+  // Throws ComputationError when the file cannot be written.
+  void write(const std::filesystem::path& path) const;
+
+ private:
+  std::string title_;
+  std::vector<std::string> columns_;
+  std::vector<std::vector<Cell>> rows_;
+};
+
+// An increment to look at more closely.
+struct Probe {
+  std::string path;  // "drained" or "shear"
+  State state;       // committed one step before, trial dropped or not
+  Tensor deformation;
+  double strain;     // axial strain or F12 at the end of the increment [-]
+};
+
+// Increments number every, 2 every, ... of a path of `steps` steps.
+std::vector<Probe> probe_path(const std::string& name, const Material& material,
+                              const Segment& segment, int every);
+
+// The lateral stress of the drained tests [Pa].
+inline constexpr double drained_pressure = -100e3;
+
+// Each reads its own options under `report` and runs in its callback.
+void add_tangent_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options);
+void add_newton_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options);
+void add_objectivity_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options);
+void add_servo_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options);
+void add_ensemble_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options);
+void add_timing_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options);
+void add_drained_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options);
+
+}  // namespace verification

@@ -1,0 +1,107 @@
+// `grainlaw report timing`: CPU time of one evaluation along the drained path.
+
+#include "report/report.hpp"
+#include "report/statistics.hpp"
+
+#include "app/progress.hpp"
+
+#include <fmt/format.h>
+
+#include <ctime>
+
+namespace verification {
+namespace {
+
+double cpu_milliseconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+struct Cost {
+  double strain;
+  double plain;      // without a tangent [ms]
+  double with_exact; // with the exact tangent [ms]
+  grainlaw_report report;
+};
+
+// The increment once more, from the same committed state; the best of a few, since the machine may be
+// doing other things.
+double time_evaluation(const PointStep& step, unsigned want, grainlaw_report& report) {
+  constexpr int repetitions = 3;
+  double best = 0;
+  for (int k = 0; k < repetitions; ++k) {
+    const State copy = clone(step.state);
+    const double start = cpu_milliseconds();
+    report = evaluate(copy.get(), step.record.deformation, want).report;
+    const double spent = cpu_milliseconds() - start;
+    best = k == 0 ? spent : std::min(best, spent);
+  }
+  return best;
+}
+
+void summarise(Table& table, const std::vector<Cost>& costs, double limit) {
+  std::vector<double> plain, exact, steps, factorisations;
+  for (const Cost& cost : costs) {
+    if (cost.strain > limit * (1 + 1e-9)) continue;
+    plain.push_back(cost.plain);
+    exact.push_back(cost.with_exact);
+    steps.push_back(static_cast<double>(cost.report.relaxation_steps));
+    factorisations.push_back(cost.report.factorisations);
+  }
+  const std::string range = fmt::format("up to {:g} %", 100 * limit);
+  table.row({range, "mean", average(plain), average(exact), average(steps),
+             average(factorisations)});
+  table.row({range, "median", median(plain), median(exact), median(steps),
+             median(factorisations)});
+}
+
+void run_report(const ReportOptions& options, double tolerance, double axial) {
+  constexpr double increment = 0.001;
+  constexpr double before_peak = 0.015;
+  const Material material = make_material(options.material(tolerance));
+  std::vector<Cost> costs;
+  Progress progress("timing");
+  PointDriver driver(material, {});
+  const int steps = static_cast<int>(axial / increment + 0.5);
+  driver.run(drained_segment(-axial, drained_pressure, steps), [&](const PointStep& step) {
+    progress.update(step.fraction, "");
+    Cost cost{step.record.axial_strain(), 0, 0, {}};
+    cost.with_exact = time_evaluation(step, GRAINLAW_WANT_TANGENT_EXACT, cost.report);
+    cost.plain = time_evaluation(step, 0, cost.report);
+    costs.push_back(cost);
+  });
+  Table each("", {"axial_strain[-]", "cpu[ms]", "cpu_with_tangent[ms]", "relaxation_steps[-]",
+                  "factorisations[-]"});
+  for (const Cost& cost : costs)
+    each.row({cost.strain, cost.plain, cost.with_exact,
+              static_cast<double>(cost.report.relaxation_steps),
+              static_cast<double>(cost.report.factorisations)});
+  each.write(std::filesystem::path(options.output) / "report_timing.csv");
+  Table table(fmt::format("one evaluation of a 0.1 % increment of the drained path, tolerance {:.0e} "
+                          "[-], one thread; steps and factorisations without tangent", tolerance),
+              {"axial strain", "statistic", "cpu[ms]", "cpu_with_tangent[ms]",
+               "relaxation_steps[-]", "factorisations[-]"});
+  summarise(table, costs, before_peak);
+  if (axial > before_peak) summarise(table, costs, axial);
+  table.print();
+}
+
+}  // namespace
+
+void add_timing_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options) {
+  struct Arguments {
+    double tolerance = 1e-6;
+    double axial = 0.1;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = report.add_subcommand("timing", "CPU time per evaluation");
+  command->add_option("--tolerance", arguments->tolerance, "of the equilibria [-]")
+      ->capture_default_str();
+  command->add_option("--axial", arguments->axial, "axial strain of the path [-]")
+      ->capture_default_str();
+  command->callback(
+      [arguments, options] { run_report(*options, arguments->tolerance, arguments->axial); });
+}
+
+}  // namespace verification
