@@ -1,6 +1,7 @@
 #include "boundary/boundary_space.hpp"
 
 #include "error.hpp"
+#include "packing/frame.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,27 +56,10 @@ BoundarySpace make_boundary_space(const Packing& packing, const BoundaryOptions&
 
 void BoundarySpace::weigh(const Packing& packing, std::span<const NeighbourPair> pairs,
                           std::vector<double>& weights) const {
-  const auto& frame = *packing.frame;
   weights.assign(pairs.size(), 1.0);
   if (options.weight == ContactWeight::one) return;
-  const auto at = [&](int p, int q) {
-    const auto& a = frame.offset[static_cast<std::size_t>(p)];
-    const auto& b = frame.offset[static_cast<std::size_t>(q)];
-    return std::array{b[0] - a[0], b[1] - a[1]};
-  };
   for (std::size_t c = 0; c < pairs.size(); ++c) {
-    const int i = node[static_cast<std::size_t>(pairs[c].i)];
-    const int j = node[static_cast<std::size_t>(pairs[c].j)];
-    if (!boundary[static_cast<std::size_t>(i)] || !boundary[static_cast<std::size_t>(j)]) continue;
-    const auto between = at(pairs[c].i, pairs[c].j);
-    int copies = 0;
-    for (const int p : frame.boundary) {
-      if (node[static_cast<std::size_t>(p)] != i) continue;
-      for (const int q : frame.boundary) {
-        if (node[static_cast<std::size_t>(q)] == j && at(p, q) == between) ++copies;
-      }
-    }
-    weights[c] = 1.0 / copies;
+    weights[c] = 1.0 / contact_copies(*packing.frame, pairs[c].i, pairs[c].j);
   }
 }
 

@@ -170,6 +170,7 @@ void accumulate_forces(const ContactList& list, std::size_t particles, bool rota
   std::fill(forces.begin(), forces.end(), 0.0);
   double* rx = forces.data();
   double* ry = rx + particles;
+  double* moment = ry + particles;
   for (std::size_t c = 0; c < list.size(); ++c) {
     const auto p = static_cast<std::size_t>(list.i[c]);
     const auto q = static_cast<std::size_t>(list.j[c]);
@@ -177,12 +178,9 @@ void accumulate_forces(const ContactList& list, std::size_t particles, bool rota
     ry[p] -= list.force_y[c];
     rx[q] += list.force_x[c];
     ry[q] += list.force_y[c];
-  }
-  if (!rotating) return;
-  double* moment = ry + particles;
-  for (std::size_t c = 0; c < list.size(); ++c) {
-    moment[list.i[c]] -= list.lever_i[c] * list.couple[c];
-    moment[list.j[c]] -= (1 - list.lever_i[c]) * list.couple[c];
+    if (!rotating) continue;
+    moment[p] -= list.lever_i[c] * list.couple[c];
+    moment[q] -= (1 - list.lever_i[c]) * list.couple[c];
   }
 }
 

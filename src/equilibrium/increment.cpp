@@ -187,15 +187,19 @@ double Increment::residual_norm() const {
   const double* r = residual().data();
   double largest = 0;
   double sum = 0;  // catches NaN, which max does not
+#pragma omp simd reduction(max : largest) reduction(+ : sum)
   for (std::size_t q = 0; q < 2 * m; ++q) {
     largest = std::max(largest, std::abs(r[q]));
     sum += r[q];
   }
   if (problem->law->rotating()) {
+    const double* moment = r + 2 * m;
+    const double* radius = node_radius.data();
+#pragma omp simd reduction(max : largest) reduction(+ : sum)
     for (std::size_t q = 0; q < m; ++q) {
-      const double moment = r[2 * m + q] / node_radius[q];
-      largest = std::max(largest, std::abs(moment));
-      sum += moment;
+      const double force = moment[q] / radius[q];
+      largest = std::max(largest, std::abs(force));
+      sum += force;
     }
   }
   if (!std::isfinite(sum)) return std::numeric_limits<double>::infinity();

@@ -112,7 +112,7 @@ bool draw(const Figure& figure, const std::filesystem::path& stem) {
   body += "set multiplot\n"
           "set border 3 lc rgb '#555555'\nset tics out nomirror scale 0.6 tc rgb '#333333'\n"
           "set grid lc rgb '#e4e4e4' lw 1 dt solid\n"
-          "set lmargin at screen 0.115\nset rmargin at screen 0.97\nset offsets 0,0,0,0\n";
+          "set lmargin at screen 0.115\nset rmargin at screen 0.97\nset autoscale xfix\n";
   if (!figure.title.empty())
     body += fmt::format("set label 1 {} at screen 0.115,0.968 left noenhanced\n",
                         quoted(figure.title));

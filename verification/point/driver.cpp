@@ -184,16 +184,14 @@ void PointDriver::run(const Segment& segment, const PointObserver& observe) {
         part = (next - done) * std::clamp(result.step_ratio, smallest_cut, usual_cut);
         ++effort.cuts;
         if (part >= smallest) continue;
-        if (options_.loose_tolerance > 0 && !loose) {
-          loose = true;
-          ++effort.loose;
-          part = 1 - done;
-        } else {
+        if (loose || options_.loose_tolerance == 0)
           throw ComputationError(fmt::format(
               "step {} (F22 = {:.6f}, F12 = {:.6f}) failed at 1/{:.0f} of its size: {}",
               record_.step + 1, deformation_(1, 1), deformation_(0, 1), 1 / smallest,
               result.reason));
-        }
+        loose = true;
+        ++effort.loose;
+        part = 1 - done;
         continue;
       }
       const Tensor committed = deformation_;

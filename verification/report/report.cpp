@@ -65,11 +65,18 @@ void Table::write(const std::filesystem::path& path) const {
   if (!stream) throw ComputationError(fmt::format("{}: cannot be written", path.string()));
 }
 
+PointOptions report_options() {
+  PointOptions options;
+  options.max_cuts = 4;
+  options.loose_tolerance = 0.1;
+  return options;
+}
+
 std::vector<Probe> probe_path(const std::string& name, const Material& material,
                               const Segment& segment, int every) {
   std::vector<Probe> probes;
   Progress progress(name + " path");
-  PointDriver driver(material, {});
+  PointDriver driver(material, report_options());
   driver.run(segment, [&](const PointStep& step) {
     progress.update(step.fraction, "");
     if (step.record.step % every != 0) return;

@@ -63,6 +63,10 @@ struct Probe {
 std::vector<Probe> probe_path(const std::string& name, const Material& material,
                               const Segment& segment, int every);
 
+// Stress control that gets over collapses after the peak at any price: reports look at increments, not
+// at the path.
+PointOptions report_options();
+
 // The lateral stress of the drained tests [Pa].
 inline constexpr double drained_pressure = -100e3;
 

@@ -62,7 +62,7 @@ void run_report(const ReportOptions& options, double tolerance, double axial) {
   const Material material = make_material(options.material(tolerance));
   std::vector<Cost> costs;
   Progress progress("timing");
-  PointDriver driver(material, {});
+  PointDriver driver(material, report_options());
   const int steps = static_cast<int>(axial / increment + 0.5);
   driver.run(drained_segment(-axial, drained_pressure, steps), [&](const PointStep& step) {
     progress.update(step.fraction, "");

@@ -1,0 +1,188 @@
+// What the tests of the mechanics share: packings, materials, and increments from state to state.
+#pragma once
+
+#include "consolidation/compaction.hpp"
+#include "homogenise/measures.hpp"
+#include "material/material.hpp"
+#include "packing/frame.hpp"
+#include "packing/packing_file.hpp"
+#include "state/state.hpp"
+
+#include <grainlaw/grainlaw.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace grainlaw::test {
+
+using Tensor = std::array<double, 4>;
+using Tangent = std::array<double, 16>;
+
+inline constexpr Tensor identity{1, 0, 0, 1};
+
+inline Tensor product(const Tensor& a, const Tensor& b) {
+  return {a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3], a[2] * b[0] + a[3] * b[2],
+          a[2] * b[1] + a[3] * b[3]};
+}
+
+inline Tensor transpose(const Tensor& a) { return {a[0], a[2], a[1], a[3]}; }
+
+inline Tensor rotation(double angle) {
+  return {std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle)};
+}
+
+template <std::size_t size>
+std::array<double, size> sum(const std::array<double, size>& a, double factor,
+                             const std::array<double, size>& b) {
+  std::array<double, size> result = a;
+  for (std::size_t k = 0; k < size; ++k) result[k] += factor * b[k];
+  return result;
+}
+
+template <std::size_t size>
+double norm(const std::array<double, size>& a) {
+  double squares = 0;
+  for (const double value : a) squares += value * value;
+  return std::sqrt(squares);
+}
+
+// |a - b| / |b|
+template <std::size_t size>
+double relative_difference(const std::array<double, size>& a, const std::array<double, size>& b) {
+  return norm(sum(a, -1, b)) / norm(b);
+}
+
+inline double dot(const Tensor& a, const Tensor& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+}
+
+// The law of the reference packing.
+inline ContactLaw rough_law() {
+  ContactLaw law;
+  law.young = 6e8;
+  law.ratio = 0.8;
+  law.friction = std::tan(0.5);
+  return law;
+}
+
+inline ContactLaw smooth_law() {
+  ContactLaw law = rough_law();
+  law.friction = 0;
+  return law;
+}
+
+inline ContactLaw locked_law() {
+  ContactLaw law = rough_law();
+  law.rotation = false;
+  return law;
+}
+
+// 400 discs at 100 kPa, tests/data.
+inline const Packing& reference_packing() {
+  static const Packing packing = [] {
+    const std::string data = GRAINLAW_TEST_DATA "/rve400_";
+    return read_packing({data + "particles.csv", data + "contacts.csv", data + "cell.csv"});
+  }();
+  return packing;
+}
+
+// Generated discs at 100 kPa; made once per size and seed.
+inline const Packing& small_packing(std::size_t count = 80, std::uint64_t seed = 1) {
+  static std::map<std::pair<std::size_t, std::uint64_t>, Packing> made;
+  const auto [place, is_new] = made.try_emplace({count, seed});
+  if (is_new) {
+    GeneratorOptions options;
+    options.count = count;
+    options.seed = seed;
+    place->second = consolidate(options, smooth_law());
+  }
+  return place->second;
+}
+
+inline MaterialDescription describe(const Packing& packing, const ContactLaw& law,
+                                    BoundaryType boundary = BoundaryType::periodic_cell,
+                                    double tolerance = 1e-10) {
+  MaterialDescription description;
+  description.packing = packing;
+  // Forces along the tangent belong to a law that has them.
+  if (!law.tangential()) {
+    for (auto& contact : description.packing.contacts) contact.tangential_force = {};
+  }
+  description.law = law;
+  description.boundary.type = boundary;
+  description.solver.tolerance = tolerance;
+  return description;
+}
+
+struct Evaluation {
+  grainlaw_status status = GRAINLAW_INTERNAL_FAULT;
+  Tensor stress{};
+  Tangent tangent{};
+  grainlaw_report report{};
+};
+
+inline Evaluation evaluate(State& state, const Tensor& F, TangentKind kind = TangentKind::none) {
+  Evaluation result;
+  result.status = state.evaluate(F.data(), kind, result.stress.data(), result.tangent.data(),
+                                 result.report);
+  return result;
+}
+
+// Evaluate and commit; both have to succeed.
+inline Evaluation advance(State& state, const Tensor& F) {
+  const Evaluation result = evaluate(state, F);
+  EXPECT_EQ(result.status, GRAINLAW_OK) << result.report.message;
+  EXPECT_TRUE(state.commit());
+  return result;
+}
+
+// Go to F in equal steps.
+inline void advance(State& state, const Tensor& F, int steps) {
+  const auto& f0 = state.committed().deformation;
+  const Tensor start{f0[0], f0[1], f0[2], f0[3]};
+  for (int k = 1; k <= steps; ++k) {
+    advance(state, sum(start, static_cast<double>(k) / steps, sum(F, -1, start)));
+  }
+}
+
+inline double measure(const State& state, grainlaw_measure what) {
+  double value = 0;
+  measure(state.material(), state.current(), what, &value);
+  return value;
+}
+
+inline int sliding_contacts(const Configuration& configuration) {
+  int count = 0;
+  for (const auto& contact : configuration.contacts) count += contact.sliding ? 1 : 0;
+  return count;
+}
+
+inline bool same_bits(const Configuration& a, const Configuration& b) {
+  const auto same_contact = [](const ContactHistory& c, const ContactHistory& d) {
+    return c.i == d.i && c.j == d.j && c.shift == d.shift && c.sliding == d.sliding &&
+           c.tangential_force == d.tangential_force;
+  };
+  return a.deformation == b.deformation && a.coordinates == b.coordinates &&
+         a.stress == b.stress && a.dissipated == b.dissipated &&
+         std::equal(a.contacts.begin(), a.contacts.end(), b.contacts.begin(), b.contacts.end(),
+                    same_contact);
+}
+
+// Touching contacts and which of them slide, the same.
+inline bool same_status(const Configuration& a, const Configuration& b) {
+  const auto same_contact = [](const ContactHistory& c, const ContactHistory& d) {
+    return c.i == d.i && c.j == d.j && c.shift == d.shift && c.sliding == d.sliding;
+  };
+  return std::equal(a.contacts.begin(), a.contacts.end(), b.contacts.begin(), b.contacts.end(),
+                    same_contact);
+}
+
+}  // namespace grainlaw::test
