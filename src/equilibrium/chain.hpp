@@ -11,6 +11,7 @@
 #include <grainlaw/grainlaw.h>
 
 #include <array>
+#include <vector>
 
 namespace grainlaw {
 
@@ -20,6 +21,7 @@ struct Workspace {
   RelaxationMemory relaxation;
   NewtonMemory newton;
   Sensitivity sensitivity;
+  std::vector<double> guess;
 };
 
 struct Request {

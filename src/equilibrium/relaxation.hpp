@@ -12,8 +12,10 @@ enum class History { committed, advancing };
 
 // Memory of the relaxations, reused from call to call.
 struct RelaxationMemory {
-  std::vector<double> velocity, previous;
+  std::vector<double> velocity, previous, correction;
 };
+
+struct PublishedOptions;
 
 // Viscous relaxation to residual_norm() < tolerance; the damping follows the lowest active frequency
 // and adapts its floor to flutter. Returns whether it got there within max_steps.
@@ -27,7 +29,6 @@ bool relax_fire(Increment& increment, double tolerance, long max_steps, Relaxati
 // Suiker 2017 eq. 10), explicit steps, history advanced at every step. Ends at the residual tolerance
 // or, when energy_tolerance > 0, at Ek/Ep <= tolE (eq. 11) once Ek has fallen. `frozen` marks nodes
 // that do not move (may be empty).
-struct PublishedOptions;
 bool relax_published(Increment& increment, double tolerance, const PublishedOptions& options,
                      std::span<const char> frozen, RelaxationMemory& memory);
 

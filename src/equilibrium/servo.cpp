@@ -48,7 +48,8 @@ bool solve_servo(Increment& increment, const SolverOptions& options, double tole
 
   predict_boundary(increment, servo.inheritance);
   increment.keep_neighbours();
-  std::vector<double> step(increment.unknowns(), 0.0);
+  auto& step = memory.correction;
+  step.assign(increment.unknowns(), 0.0);
   for (int correction = 0; correction <= servo.max_corrections; ++correction) {
     if (!relax_published(increment, tolerance, options.published, space.boundary, memory)) {
       return false;

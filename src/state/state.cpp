@@ -70,6 +70,63 @@ void rotate_configuration(const Increment2& increment, const double* F, std::siz
   std::copy_n(F, 4, configuration.deformation.begin());
 }
 
+bool too_far(const Increment2& split) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double identity = k == 0 || k == 3 ? 1 : 0;
+    if (!(std::abs(split.stretch[k] - identity) <= largest_stretch_change)) return true;
+  }
+  return false;
+}
+
+// Start the iteration from the last trial, turned back to where `from` stands.
+void guess_from_trial(const Configuration& from, const Configuration& trial, std::size_t particles,
+                      Workspace& w, Request& request) {
+  const auto last = split_rotation(trial.deformation.data(), from.deformation.data());
+  const auto& r = last.rotation;
+  auto& z = w.guess;
+  z = trial.coordinates;
+  for (std::size_t p = 0; p < particles; ++p) {
+    const double x = z[p];
+    const double y = z[particles + p];
+    z[p] = r[0] * x + r[2] * y;
+    z[particles + p] = r[1] * x + r[3] * y;
+  }
+  for (std::size_t k = 2 * particles; k < z.size(); ++k) z[k] -= from.coordinates[k] + last.angle;
+  request.guess = &z;
+  request.guess_deformation = last.target;
+}
+
+void add_cost(const Increment& increment, grainlaw_report& report) {
+  report.relaxation_steps += increment.relaxation_steps;
+  report.servo_corrections += increment.servo_corrections;
+  report.factorisations += increment.factorisations;
+}
+
+// Forward differences of P, each from the same history (Guo & Zhao 2014, eq. 8, as dP/dF).
+grainlaw_status perturb(Request request, Workspace& w, std::array<double, 16>& tangent,
+                        grainlaw_report& report) {
+  const auto centre = request.deformation;
+  request.tolerance = std::min(request.tolerance, perturbed_tolerance);
+  request.sensitivities = false;
+  request.guess = nullptr;
+  const auto stress_at = [&](std::size_t component, double step, std::array<double, 4>& p) {
+    request.deformation = centre;
+    request.deformation[component] += step;
+    const auto outcome = solve(request, w);
+    add_cost(w.increment, report);
+    p = piola_stress(w.increment);
+    return outcome.status;
+  };
+  std::array<double, 4> p0{};
+  if (const auto status = stress_at(0, 0, p0); status != GRAINLAW_OK) return status;
+  for (std::size_t k = 0; k < 4; ++k) {
+    std::array<double, 4> p{};
+    if (const auto status = stress_at(k, perturbation, p); status != GRAINLAW_OK) return status;
+    for (std::size_t m = 0; m < 4; ++m) tangent[m * 4 + k] = (p[m] - p0[m]) / perturbation;
+  }
+  return GRAINLAW_OK;
+}
+
 }  // namespace
 
 State::State(std::shared_ptr<const Material> material)
@@ -90,16 +147,14 @@ void State::restore(Configuration committed) {
 grainlaw_status State::evaluate(const double* F, TangentKind kind, double* P, double* A,
                                 grainlaw_report& report) {
   const Material& material = *material_;
+  const auto particles = material.packing.size();
   const double* committed = committed_.deformation.data();
   const auto split = split_rotation(F, committed);
-  for (std::size_t k = 0; k < 4; ++k) {
-    const double identity = k == 0 || k == 3 ? 1 : 0;
-    if (!(std::abs(split.stretch[k] - identity) <= largest_stretch_change)) {
-      has_trial_ = false;
-      report.step_ratio = 0.1;
-      describe(report, "the stretch since the committed state is more than 30 %");
-      return GRAINLAW_STEP_TOO_LARGE;
-    }
+  const bool had_trial = std::exchange(has_trial_, false);
+  if (too_far(split)) {
+    report.step_ratio = 0.1;
+    describe(report, "the stretch since the committed state is more than 30 %");
+    return GRAINLAW_STEP_TOO_LARGE;
   }
 
   Workspace& w = workspace();
@@ -108,32 +163,11 @@ grainlaw_status State::evaluate(const double* F, TangentKind kind, double* P, do
   Request request{&problem, &material.solver, &committed_, split.target};
   request.tolerance = material.solver.tolerance;
   request.sensitivities = kind == TangentKind::exact;
-  std::vector<double> guess;
-  if (material.solver.start == Start::trial && has_trial_) {
-    const auto last = split_rotation(trial_.deformation.data(), committed);
-    const auto n = material.packing.size();
-    guess = trial_.coordinates;
-    for (std::size_t p = 0; p < n; ++p) {
-      const double x = guess[p];
-      const double y = guess[n + p];
-      guess[p] = last.rotation[0] * x + last.rotation[2] * y;
-      guess[n + p] = last.rotation[1] * x + last.rotation[3] * y;
-    }
-    for (std::size_t k = 2 * n; k < guess.size(); ++k) {
-      guess[k] -= committed_.coordinates[k] + last.angle;
-    }
-    request.guess = &guess;
-    request.guess_deformation = last.target;
+  if (had_trial && material.solver.start == Start::trial) {
+    guess_from_trial(committed_, trial_, particles, w, request);
   }
-  has_trial_ = false;
-
-  const auto add_cost = [&] {
-    report.relaxation_steps += w.increment.relaxation_steps;
-    report.servo_corrections += w.increment.servo_corrections;
-    report.factorisations += w.increment.factorisations;
-  };
   const auto outcome = solve(request, w);
-  add_cost();
+  add_cost(w.increment, report);
   report.step_ratio = outcome.step_ratio;
   report.subincrements = outcome.subincrements;
   report.history_advanced = outcome.history_advanced ? 1 : 0;
@@ -142,52 +176,32 @@ grainlaw_status State::evaluate(const double* F, TangentKind kind, double* P, do
     describe(report, grainlaw_status_text(outcome.status));
     return outcome.status;
   }
-  count_contacts(w.increment, material.law, report);
 
+  count_contacts(w.increment, material.law, report);
   const auto stress = piola_stress(w.increment);
   std::array<double, 16> tangent{};
-  if (kind == TangentKind::exact) {
-    if (outcome.sensitivities) {
-      tangent = condensed_tangent(w.increment, w.sensitivity);
-      report.tangent_exact = outcome.history_advanced ? 0 : 1;
-    } else {
-      tangent = elastic_tangent(w.increment);
+  if (kind == TangentKind::exact && outcome.sensitivities) {
+    tangent = condensed_tangent(w.increment, w.sensitivity);
+    report.tangent_exact = outcome.history_advanced ? 0 : 1;
+  } else if (kind == TangentKind::exact || kind == TangentKind::elastic) {
+    tangent = elastic_tangent(w.increment);
+    if (kind == TangentKind::exact) {
       describe(report, "the stiffness is singular; the elastic tangent was returned");
     }
-  } else if (kind == TangentKind::elastic) {
-    tangent = elastic_tangent(w.increment);
   }
 
   w.increment.advance_history();
   w.increment.export_to(committed_, trial_);
-  std::copy_n(stress.begin(), 4, trial_.stress.begin());
   report.status_changes = status_changes(committed_, trial_);
-
   if (kind == TangentKind::perturbed) {
-    request.tolerance = std::min(request.tolerance, perturbed_tolerance);
-    request.guess = nullptr;
-    for (std::size_t k = 0; k <= 4; ++k) {
-      // The last one is the centre, at the tolerance of the others.
-      request.deformation = split.target;
-      if (k < 4) request.deformation[k] += perturbation;
-      const auto perturbed = solve(request, w);
-      add_cost();
-      if (perturbed.status != GRAINLAW_OK) {
-        describe(report, "a perturbed increment found no equilibrium");
-        return perturbed.status;
-      }
-      const auto p = piola_stress(w.increment);
-      for (std::size_t m = 0; m < 4; ++m) {
-        for (std::size_t l = 0; l < 4; ++l) {
-          if (k == 4) tangent[m * 4 + l] -= p[m] / perturbation;
-          if (k == l) tangent[m * 4 + k] += p[m] / perturbation;
-        }
-      }
+    if (const auto status = perturb(request, w, tangent, report); status != GRAINLAW_OK) {
+      describe(report, "a perturbed increment found no equilibrium");
+      return status;
     }
   }
 
   const auto rotated = rotate_stress(split, stress);
-  rotate_configuration(split, F, material.packing.size(), trial_);
+  rotate_configuration(split, F, particles, trial_);
   std::copy_n(rotated.begin(), 4, trial_.stress.begin());
   if (P != nullptr) std::copy_n(rotated.begin(), 4, P);
   if (A != nullptr && kind != TangentKind::none) {
