@@ -13,7 +13,7 @@ enum class ContactWeight { copies, one };
 struct ServoOptions {
   double gain_force = 0.2;      // stable below 0.3 [-]
   double gain_moment = 0.4;     // [-]
-  double inheritance = 0;       // n_f; 0 is the algorithm without prediction (Table 3) [-]
+  double inheritance = 1;       // n_f; 0 is the algorithm without prediction (Table 3) [-]
   double tolerance = 1e-6;      // eps_a on the residual r_a (Table 2, 1.5.A) [-]
   int max_corrections = 20000;  // per increment [-]
 };

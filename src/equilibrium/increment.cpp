@@ -13,6 +13,8 @@ namespace {
 // Neighbours are listed within this gap, in mean radii: wide enough that an increment of 0.1 % rarely
 // lists twice, narrow enough that few listed pairs never touch.
 constexpr double gap_in_radii = 0.1;
+// Whose rounding errors add up in a residual.
+constexpr double contacts_of_a_particle = 8;
 
 std::array<double, 4> product(const std::array<double, 4>& a, const double* b) {
   return {a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3], a[2] * b[0] + a[3] * b[2],
@@ -55,6 +57,11 @@ void Increment::begin(const Problem& p, const Configuration& from,
   double mean_radius = 0;
   for (const double r : p.packing->radius) mean_radius += r / static_cast<double>(n);
   gap_ = gap_in_radii * mean_radius;
+  const double largest_radius = *std::max_element(node_radius.begin(), node_radius.end());
+  double extent = 0;
+  for (std::size_t k = 0; k < 2 * n; ++k) extent = std::max(extent, std::abs(start[k]));
+  rounding_force_ = contacts_of_a_particle * std::numeric_limits<double>::epsilon() * extent *
+                    p.law->stiffness(largest_radius, largest_radius);
   dissipated = 0;
   relaxation_steps = servo_corrections = 0;
   factorisations = 0;
@@ -83,6 +90,7 @@ void Increment::list_neighbours() {
                  coordinates.begin() + static_cast<std::ptrdiff_t>(2 * particles()));
   search_.find(particles(), coordinates.data(), packing.radius.data(),
                packing.frame ? nullptr : cell.data(), gap_, pairs);
+  pair_weights.clear();
   if (packing.frame) problem->space->weigh(packing, pairs, pair_weights);
   build_list();
 }
@@ -206,18 +214,6 @@ double Increment::residual_norm() const {
   return largest / relative_scale();
 }
 
-double Increment::rounding_residual() const {
-  constexpr double contacts_of_a_particle = 8;
-  double extent = 0;
-  for (std::size_t k = 0; k < 2 * particles(); ++k) {
-    extent = std::max(extent, std::abs(coordinates[k]));
-  }
-  const double radius = *std::max_element(node_radius.begin(), node_radius.end());
-  const double force = contacts_of_a_particle * std::numeric_limits<double>::epsilon() * extent *
-                       problem->law->stiffness(radius, radius);
-  return touching > 0 ? force / relative_scale() : 0;
-}
-
 void Increment::move(std::span<const double> step, double factor) {
   const auto& space = *problem->space;
   if (space.identity) {
@@ -249,12 +245,13 @@ void Increment::advance_history() {
         x[q] - x[p] + cell[0] * contacts.shift_x[c] + cell[1] * contacts.shift_y[c];
     const double ly =
         y[q] - y[p] + cell[2] * contacts.shift_x[c] + cell[3] * contacts.shift_y[c];
-    const double overlap = contacts.reach[c] - std::sqrt(lx * lx + ly * ly);
-    if (overlap <= 0) continue;
+    const double normal_force =
+        contacts.normal_stiffness[c] * (contacts.reach[c] - std::sqrt(lx * lx + ly * ly));
+    if (!carries(normal_force)) continue;
     const double force = tangential ? contacts.start_force[c] : 0.0;
-    const double bound = problem->law->friction * contacts.normal_stiffness[c] * overlap;
+    const double bound = problem->law->friction * normal_force;
     history.push_back({contacts.i[c], contacts.j[c], pairs[c].shift,
-                       tangential && std::abs(force) >= (1 - 1e-12) * bound,
+                       tangential && std::abs(force) >= bound - rounding_force_,
                        force / contacts.weight_of(c)});
   }
   start = coordinates;

@@ -8,6 +8,7 @@
 #include "packing/neighbours.hpp"
 #include "state/configuration.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -21,6 +22,7 @@ struct Problem {
   const ContactLaw* law = nullptr;
   const BoundarySpace* space = nullptr;
   double force_floor = 0;  // residuals are relative to max(mean normal force, this) [N]
+  double tolerance = 0;    // of equilibria; contacts that carry about as little are none [-]
 
   [[nodiscard]] int components() const { return law->rotating() ? 3 : 2; }
 };
@@ -49,13 +51,21 @@ class Increment {
   [[nodiscard]] double residual_norm() const;
 
   // The residual that the rounding of coordinates leaves at worst: no tolerance below it can be met [-].
-  [[nodiscard]] double rounding_residual() const;
+  [[nodiscard]] double rounding_residual() const {
+    return touching > 0 ? rounding_force_ / relative_scale() : 0;
+  }
 
   // Move every particle by factor x its node's step (component-major over nodes).
   void move(std::span<const double> step, double factor = 1);
 
   // Make the present coordinates the start of the history; sums up the dissipated energy.
   void advance_history();
+
+  // Whether a contact counts. Rattlers touch their cage with forces of about the residual, or not, by
+  // chance; ten times as much is no chance.
+  [[nodiscard]] bool carries(double normal_force) const {
+    return normal_force > 10 * std::max(problem->tolerance * relative_scale(), rounding_force_);
+  }
 
   // Put contacts, coordinates and dissipation into `to`, rotations added to those of `from`.
   void export_to(const Configuration& from, Configuration& to) const;
@@ -101,6 +111,7 @@ class Increment {
 
   std::vector<double> listed_;  // positions when the neighbours were listed
   double gap_ = 0;
+  double rounding_force_ = 0;  // [N]
   NeighbourSearch search_;
 };
 

@@ -14,7 +14,7 @@ namespace {
 // so that it lasts while they open and close.
 constexpr double graph_gap = 1e-3;
 // Holds rattlers and the translation of the cell, relative to a contact's stiffness.
-constexpr double grounding = 1e-9;
+constexpr double grounding = 1e-12;
 
 std::array<double, 9> product(const std::array<double, 9>& a, const std::array<double, 9>& b) {
   std::array<double, 9> c{};

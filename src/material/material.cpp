@@ -130,10 +130,11 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
   direct.options.method = BoundaryMethod::direct;
   SolverOptions options = material->solver;
   options.method = Method::chain;
-  const Problem problem{&material->packing, &material->law, &direct, 0};
+  const double tolerance = std::min(options.tolerance, tightest_needed);
+  const Problem problem{&material->packing, &material->law, &direct, 0, tolerance};
   const Configuration given = given_configuration(*material);
   Request request{&problem, &options, &given, {1, 0, 0, 1}};
-  request.tolerance = std::min(options.tolerance, tightest_needed);
+  request.tolerance = tolerance;
   Workspace workspace;
   const auto outcome = solve(request, workspace);
   if (outcome.status == GRAINLAW_CONTACTS_LOST) {

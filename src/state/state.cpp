@@ -1,6 +1,5 @@
 #include "state/state.hpp"
 
-#include "contact/frictional.hpp"
 #include "equilibrium/chain.hpp"
 #include "homogenise/stress.hpp"
 #include "state/rotation.hpp"
@@ -44,16 +43,6 @@ int status_changes(const Configuration& before, const Configuration& after) {
     if (known) ++a;
   }
   return changes + static_cast<int>(before.contacts.end() - a);
-}
-
-void count_contacts(const Increment& increment, const ContactLaw& law, grainlaw_report& report) {
-  const auto& list = increment.contacts;
-  for (std::size_t c = 0; c < list.size(); ++c) {
-    const auto point = contact_point(list, c, increment.coordinates, increment.particles(),
-                                     increment.cell, law);
-    report.contacts += point.status != ContactStatus::open ? 1 : 0;
-    report.sliding += point.status == ContactStatus::sliding ? 1 : 0;
-  }
 }
 
 void rotate_configuration(const Increment2& increment, const double* F, std::size_t particles,
@@ -159,7 +148,7 @@ grainlaw_status State::evaluate(const double* F, TangentKind kind, double* P, do
 
   Workspace& w = workspace();
   const Problem problem{&material.packing, &material.law, &material.space,
-                        1e-3 * material.initial_mean_force};
+                        1e-3 * material.initial_mean_force, material.solver.tolerance};
   Request request{&problem, &material.solver, &committed_, split.target};
   request.tolerance = material.solver.tolerance;
   request.sensitivities = kind == TangentKind::exact;
@@ -177,7 +166,6 @@ grainlaw_status State::evaluate(const double* F, TangentKind kind, double* P, do
     return outcome.status;
   }
 
-  count_contacts(w.increment, material.law, report);
   const auto stress = piola_stress(w.increment);
   std::array<double, 16> tangent{};
   if (kind == TangentKind::exact && outcome.sensitivities) {
@@ -192,6 +180,9 @@ grainlaw_status State::evaluate(const double* F, TangentKind kind, double* P, do
 
   w.increment.advance_history();
   w.increment.export_to(committed_, trial_);
+  report.contacts = static_cast<int>(trial_.contacts.size());
+  report.sliding = static_cast<int>(std::count_if(
+      trial_.contacts.begin(), trial_.contacts.end(), [](const auto& c) { return c.sliding; }));
   report.status_changes = status_changes(committed_, trial_);
   if (kind == TangentKind::perturbed) {
     if (const auto status = perturb(request, w, tangent, report); status != GRAINLAW_OK) {

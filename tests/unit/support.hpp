@@ -11,6 +11,7 @@
 #include <grainlaw/grainlaw.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -18,6 +19,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -176,13 +178,24 @@ inline bool same_bits(const Configuration& a, const Configuration& b) {
                     same_contact);
 }
 
-// Touching contacts and which of them slide, the same.
-inline bool same_status(const Configuration& a, const Configuration& b) {
-  const auto same_contact = [](const ContactHistory& c, const ContactHistory& d) {
-    return c.i == d.i && c.j == d.j && c.shift == d.shift && c.sliding == d.sliding;
-  };
-  return std::equal(a.contacts.begin(), a.contacts.end(), b.contacts.begin(), b.contacts.end(),
-                    same_contact);
+// Contacts that carry something, and whether their forces are at the friction limit. Contacts of
+// rattlers carry next to nothing and come and go with the solver's tolerance.
+using BearingContact = std::tuple<int, int, std::array<int, 2>, bool>;
+
+inline std::vector<BearingContact> bearing_contacts(const State& state) {
+  constexpr double least = 1e-5;     // of the mean normal force
+  constexpr double rounding = 1e-6;  // of the friction limit of the weakest of them
+  const auto views = contact_views(state.material(), state.current());
+  double mean = 0;
+  for (const auto& view : views) mean += view.normal_force / static_cast<double>(views.size());
+  std::vector<BearingContact> result;
+  for (const auto& view : views) {
+    if (view.normal_force < least * mean) continue;
+    const double limit = state.material().law.friction * view.normal_force;
+    const bool sliding = std::abs(view.tangential_force) > (1 - rounding) * limit;
+    result.emplace_back(view.i, view.j, view.shift, sliding);
+  }
+  return result;
 }
 
 }  // namespace grainlaw::test

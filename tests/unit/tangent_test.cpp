@@ -2,7 +2,6 @@
 // changes status within the stencil.
 #include "support.hpp"
 
-#include <algorithm>
 #include <optional>
 
 namespace grainlaw::test {
@@ -13,7 +12,7 @@ constexpr double bar = 1e-6;  // relative Frobenius error
 // Central differences by all four components of F; none when a contact changes status on the way.
 std::optional<Tangent> central_differences(State& state, const Tensor& F, double step) {
   EXPECT_EQ(evaluate(state, F).status, GRAINLAW_OK);
-  const Configuration centre = state.current();
+  const auto centre = bearing_contacts(state);
   Tangent result{};
   for (std::size_t k = 0; k < 4; ++k) {
     for (const double side : {1.0, -1.0}) {
@@ -21,7 +20,7 @@ std::optional<Tangent> central_differences(State& state, const Tensor& F, double
       moved[k] += side * step;
       const Evaluation at = evaluate(state, moved);
       EXPECT_EQ(at.status, GRAINLAW_OK);
-      if (!same_status(state.current(), centre)) return std::nullopt;
+      if (bearing_contacts(state) != centre) return std::nullopt;
       for (std::size_t m = 0; m < 4; ++m) {
         result[m * 4 + k] += side * at.stress[m] / (2 * step);
       }
@@ -30,20 +29,22 @@ std::optional<Tangent> central_differences(State& state, const Tensor& F, double
   return result;
 }
 
-// The largest stencil without a change of status: small ones differ by the solver's tolerance.
-void expect_derivative(State& state, const Tensor& F) {
+struct Stencil {
+  double large, small;
+};
+
+void expect_derivative(State& state, const Tensor& F, const Stencil& stencil) {
   const Evaluation at = evaluate(state, F, TangentKind::exact);
   ASSERT_EQ(at.status, GRAINLAW_OK);
   EXPECT_EQ(at.report.tangent_exact, 1);
-  for (const double step : {2e-6, 1e-6, 5e-7, 2e-7, 1e-7}) {
+  int compared = 0;
+  for (const double step : {stencil.large, stencil.small}) {
     const auto differences = central_differences(state, F, step);
     if (!differences) continue;
-    const double e = relative_difference(at.tangent, *differences);
-    printf("step %g error %g sub %d sliding %d\n", step, e, at.report.subincrements, at.report.sliding);
     EXPECT_LE(relative_difference(at.tangent, *differences), bar) << "stencil " << step;
-//    return;
+    ++compared;
   }
-//  ADD_FAILURE() << "a contact changes status in every stencil";
+  EXPECT_GT(compared, 0) << "a contact changes status in every stencil";
 }
 
 struct Path {
@@ -59,15 +60,15 @@ const Path paths[] = {
     {"sheared", {1, 0.004, 0.001, 0.999}, 5, {1.0001, 0.005, 0.0011, 0.9987}},
 };
 
-void expect_derivative_along(const MaterialDescription& description) {
+void expect_derivative_along(const MaterialDescription& description,
+                             const Stencil& stencil = {1e-6, 1e-7}) {
   const auto material = make_material(description);
   for (const Path& path : paths) {
     SCOPED_TRACE(path.name);
     State state(material);
     advance(state, path.reached, path.steps);
-    expect_derivative(state, path.next);
-    printf("rotated\n");
-    expect_derivative(state, product(rotation(0.7), path.next));
+    expect_derivative(state, path.next, stencil);
+    expect_derivative(state, product(rotation(0.7), path.next), stencil);
   }
 }
 
@@ -84,7 +85,8 @@ TEST(tangent, with_locked_rotation_matches_central_differences) {
 }
 
 TEST(tangent, without_friction_matches_central_differences) {
-  expect_derivative_along(describe(small_packing(), smooth_law()));
+  // Softer and less linear than with friction: the error of larger stencils is their own.
+  expect_derivative_along(describe(small_packing(), smooth_law()), {2e-7, 1e-7});
 }
 
 TEST(tangent, of_the_reference_packing_matches_central_differences) {
@@ -95,8 +97,43 @@ TEST(tangent, through_sub_increments_matches_central_differences) {
   for (const auto boundary : {BoundaryType::periodic_cell, BoundaryType::frame_p}) {
     MaterialDescription description = describe(small_packing(), rough_law(), boundary);
     description.solver.increment_limit = 0.05;
+    State state(make_material(description));
+    EXPECT_GE(evaluate(state, paths[0].next).report.subincrements, 3);
     expect_derivative_along(description);
   }
+}
+
+TEST(tangent, turns_the_stress_under_a_spin) {
+  constexpr Tensor spin{0, -1, 1, 0};
+  for (const auto boundary : {BoundaryType::periodic_cell, BoundaryType::frame_p}) {
+    const auto material = make_material(describe(small_packing(), rough_law(), boundary));
+    for (const Path& path : paths) {
+      State state(material);
+      advance(state, path.reached, path.steps);
+      for (const double angle : {0.0, 0.7, 3.0}) {
+        const Tensor F = product(rotation(angle), path.next);
+        const Evaluation at = evaluate(state, F, TangentKind::exact);
+        ASSERT_EQ(at.status, GRAINLAW_OK);
+        const Tensor change = product(spin, F);
+        Tensor by_tangent{};
+        for (std::size_t m = 0; m < 4; ++m) {
+          for (std::size_t k = 0; k < 4; ++k) by_tangent[m] += at.tangent[m * 4 + k] * change[k];
+        }
+        EXPECT_LE(relative_difference(by_tangent, product(spin, at.stress)), 1e-9) << path.name;
+      }
+    }
+  }
+}
+
+TEST(tangent, by_forward_differences_is_near_the_exact_one) {
+  State state(make_material(describe(small_packing(), rough_law())));
+  advance(state, paths[1].reached, paths[1].steps);
+  const Evaluation exact = evaluate(state, paths[1].next, TangentKind::exact);
+  const Evaluation perturbed = evaluate(state, paths[1].next, TangentKind::perturbed);
+  ASSERT_EQ(perturbed.status, GRAINLAW_OK);
+  EXPECT_EQ(perturbed.report.tangent_exact, 0);
+  EXPECT_EQ(perturbed.stress, exact.stress);
+  EXPECT_LE(relative_difference(perturbed.tangent, exact.tangent), 0.01);
 }
 
 }  // namespace

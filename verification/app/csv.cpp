@@ -45,7 +45,8 @@ CsvTable read_csv(const std::filesystem::path& path) {
   if (!stream || !std::getline(stream, line))
     throw InputError(fmt::format("{}: cannot be read", path.string()));
   CsvTable table;
-  for (const std::string& field : split(line)) table.names.push_back(field.substr(0, field.find('[')));
+  for (const std::string& field : split(line))
+    table.names.push_back(field.substr(0, field.find('[')));
   table.columns.resize(table.names.size());
   for (int number = 2; std::getline(stream, line); ++number) {
     const std::vector<std::string> fields = split(line);

@@ -35,7 +35,8 @@ struct CsvTable {
 // Throws InputError for a file that cannot be read or a line that does not fit the header.
 CsvTable read_csv(const std::filesystem::path& path);
 
-// Value of y at x by linear interpolation between the rows around x, where xs increases; NaN outside.
+// Value of y at x by linear interpolation between the rows around x, where xs increases; NaN
+// outside.
 double interpolate(const std::vector<double>& xs, const std::vector<double>& ys, double x);
 
 }  // namespace verification

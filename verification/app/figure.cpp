@@ -79,8 +79,8 @@ bool run_gnuplot(const std::string& body, const std::filesystem::path& stem, int
   const std::string font = "DejaVu Sans,14";
   for (const std::string kind : {"svg", "png"}) {
     text += kind == "svg"
-                ? fmt::format("set terminal svg size {},{} font '{}' background '#ffffff'\n",
-                              width, height, font)
+                ? fmt::format("set terminal svg size {},{} font '{}' background '#ffffff'\n", width,
+                              height, font)
                 : fmt::format("set terminal pngcairo size {},{} font '{}' background '#ffffff'\n",
                               width, height, font);
     text += fmt::format("set output {}\n", quoted(stem.string() + "." + kind));
@@ -109,22 +109,25 @@ bool draw(const Figure& figure, const std::filesystem::path& stem) {
   const double unit = (top - bottom - gap * (count - 1)) / relative;
 
   std::string body = data_blocks(figure);
-  body += "set multiplot\n"
-          "set border 3 lc rgb '#555555'\nset tics out nomirror scale 0.6 tc rgb '#333333'\n"
-          "set grid lc rgb '#e4e4e4' lw 1 dt solid\n"
-          "set lmargin at screen 0.115\nset rmargin at screen 0.97\nset autoscale xfix\n";
+  body +=
+      "set multiplot\n"
+      "set border 3 lc rgb '#555555'\nset tics out nomirror scale 0.6 tc rgb '#333333'\n"
+      "set grid lc rgb '#e4e4e4' lw 1 dt solid\n"
+      "set lmargin at screen 0.115\nset rmargin at screen 0.97\nset autoscale xfix\n";
   if (!figure.title.empty())
-    body += fmt::format("set label 1 {} at screen 0.115,0.968 left noenhanced\n",
-                        quoted(figure.title));
+    body +=
+        fmt::format("set label 1 {} at screen 0.115,0.968 left noenhanced\n", quoted(figure.title));
   double upper = top;
   for (std::size_t p = 0; p < figure.panels.size(); ++p) {
     const Panel& panel = figure.panels[p];
     const double lower = upper - unit * panel.height;
-    body += fmt::format("set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n", upper, lower);
+    body +=
+        fmt::format("set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n", upper, lower);
     body += fmt::format("set label 2 {} at screen 0.03,{:.4f} center rotate by 90 noenhanced\n",
                         quoted(panel.ordinate), 0.5 * (upper + lower));
-    body += titled(panel) ? fmt::format("set key inside {} samplen 2.5 spacing 1.15\n", panel.legend)
-                          : std::string("unset key\n");
+    body += titled(panel)
+                ? fmt::format("set key inside {} samplen 2.5 spacing 1.15\n", panel.legend)
+                : std::string("unset key\n");
     body += range_command(panel);
     const bool last = p + 1 == figure.panels.size();
     body += last ? fmt::format("set format x '%g'\nset xlabel {}\n", quoted(figure.abscissa))

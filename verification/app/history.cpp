@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace verification {
@@ -33,9 +34,14 @@ void History::draw_figure(const std::string& abscissa, const std::string& title)
                            {{"-σ11", x, normal_1, colour::blue, Stroke::solid},
                             {"-σ22", x, normal_2, colour::orange, Stroke::solid},
                             {"σ12", x, shear_stress, colour::green, Stroke::solid}},
-                           1.3, "top left"});
-  figure.panels.push_back({"volumetric strain, dilation + [%]",
-                           {{"", x, volumetric, colour::blue, Stroke::solid}}, 1});
+                           1.3,
+                           "top left"});
+  const auto [least, most] = std::minmax_element(volumetric.begin(), volumetric.end());
+  constexpr double isochoric = 1e-9;  // %, below this there is nothing to see
+  if (*most - *least > isochoric)
+    figure.panels.push_back({"volumetric strain, dilation + [%]",
+                             {{"", x, volumetric, colour::blue, Stroke::solid}},
+                             1});
   figure.panels.push_back({"coordination [-]",
                            {{"all particles", x, coordination, colour::blue, Stroke::solid},
                             {"without rattlers", x, mechanical, colour::orange, Stroke::dashed}},

@@ -33,8 +33,8 @@ unsigned tangent_bit(const std::string& name) {
   if (name == "exact") return GRAINLAW_WANT_TANGENT_EXACT;
   if (name == "elastic") return GRAINLAW_WANT_TANGENT_ELASTIC;
   if (name == "perturbed") return GRAINLAW_WANT_TANGENT_PERTURBED;
-  throw InputError(fmt::format(
-      "tangent: found \"{}\", expected \"exact\", \"elastic\" or \"perturbed\"", name));
+  throw InputError(
+      fmt::format("tangent: found \"{}\", expected \"exact\", \"elastic\" or \"perturbed\"", name));
 }
 
 std::vector<double> measure(const grainlaw_state* state, grainlaw_measure what) {

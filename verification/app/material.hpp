@@ -27,7 +27,8 @@ void change(MaterialSource& source, std::string_view table, std::string_view key
 // names a material file that the other keys change; its relative paths are then those of that file.
 MaterialSource read_material_source(SceneTable& scene);
 
-// Throws InputError for a wrong description, ComputationError when there is no equilibrium at F = I.
+// Throws InputError for a wrong description, ComputationError when there is no equilibrium at F =
+// I.
 Material make_material(const MaterialSource& source);
 
 }  // namespace verification

@@ -12,8 +12,8 @@ std::filesystem::path output_stem(const std::string& directory, const std::strin
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   if (!std::filesystem::is_directory(directory))
-    throw InputError(fmt::format("--output {}: the directory cannot be made: {}", directory,
-                                 error.message()));
+    throw InputError(
+        fmt::format("--output {}: the directory cannot be made: {}", directory, error.message()));
   return std::filesystem::path(directory) / name;
 }
 

@@ -19,7 +19,8 @@ double seconds(std::chrono::steady_clock::duration time) {
 
 }  // namespace
 
-Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(std::string what)
+    : what_(std::move(what)), terminal_(isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {
   if (terminal_ && shown_) fmt::print(stderr, "\r\033[K");
@@ -30,8 +31,8 @@ void Progress::update(double fraction, const std::string& text) {
   if (seconds(now - last_) < (terminal_ ? terminal_interval : log_interval)) return;
   last_ = now;
   shown_ = true;
-  const std::string line =
-      fmt::format("{}: {:3.0f} %, {:.0f} s, {}", what_, 100 * fraction, seconds(now - start_), text);
+  const std::string line = fmt::format("{}: {:3.0f} %, {:.0f} s, {}", what_, 100 * fraction,
+                                       seconds(now - start_), text);
   if (terminal_)
     fmt::print(stderr, "\r\033[K{}", line);
   else

@@ -54,6 +54,7 @@ Record mean(const std::vector<Record>& records) {
 }
 
 std::vector<std::string> record_columns() {
+  // clang-format off
   return {"step[-]", "axial_strain[-]", "volumetric_strain[-]", "stress_ratio[-]",
           "F11[-]", "F12[-]", "F21[-]", "F22[-]",
           "P11[Pa]", "P12[Pa]", "P21[Pa]", "P22[Pa]",
@@ -63,9 +64,9 @@ std::vector<std::string> record_columns() {
           "elastic_energy[J]", "dissipated_energy[J]", "external_work[J]",
           "contacts[-]", "sliding[-]", "status_changes[-]",
           "newton_iterations[-]", "evaluations[-]", "step_cuts[-]", "loose_parts[-]",
-          "relaxation_steps[-]",
-          "servo_corrections[-]", "factorisations[-]", "subincrements[-]",
+          "relaxation_steps[-]", "servo_corrections[-]", "factorisations[-]", "subincrements[-]",
           "history_advanced[-]"};
+  // clang-format on
 }
 
 std::vector<double> record_values(const Record& r) {
@@ -78,10 +79,9 @@ std::vector<double> record_values(const Record& r) {
                  r.anisotropy, r.mean_overlap, r.mean_rotation, r.elastic_energy,
                  r.dissipated_energy, r.external_work, r.contacts, r.sliding, r.status_changes});
   const Effort& e = r.effort;
-  for (const long count :
-       {long{e.iterations}, long{e.evaluations}, long{e.cuts}, long{e.loose}, e.relaxation_steps,
-        e.servo_corrections, long{e.factorisations}, long{e.subincrements},
-        long{e.history_advanced}})
+  for (const long count : {long{e.iterations}, long{e.evaluations}, long{e.cuts}, long{e.loose},
+                           e.relaxation_steps, e.servo_corrections, long{e.factorisations},
+                           long{e.subincrements}, long{e.history_advanced}})
     values.push_back(static_cast<double>(count));
   return values;
 }

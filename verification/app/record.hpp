@@ -10,15 +10,15 @@ namespace verification {
 
 // Work the library and the driver did for one step.
 struct Effort {
-  int iterations = 0;         // linear solves of the driver's Newton [-]
-  int evaluations = 0;        // calls of the library per point [-]
-  int cuts = 0;               // times the step was cut [-]
-  int loose = 0;              // parts accepted at the loose tolerance of stress control [-]
-  long relaxation_steps = 0;  // [-]
+  int iterations = 0;          // linear solves of the driver's Newton [-]
+  int evaluations = 0;         // calls of the library per point [-]
+  int cuts = 0;                // times the step was cut [-]
+  int loose = 0;               // parts accepted at the loose tolerance of stress control [-]
+  long relaxation_steps = 0;   // [-]
   long servo_corrections = 0;  // [-]
-  int factorisations = 0;     // [-]
-  int subincrements = 0;      // largest of the evaluations [-]
-  int history_advanced = 0;   // accepted evaluations that advanced the friction history [-]
+  int factorisations = 0;      // [-]
+  int subincrements = 0;       // largest of the evaluations [-]
+  int history_advanced = 0;    // accepted evaluations that advanced the friction history [-]
 
   void add(const grainlaw_report& report);
 };
@@ -33,11 +33,11 @@ struct Record {
   double coordination_no_rattlers = 0;
   double fabric_intensity = 0;
   double anisotropy = 0;
-  double mean_overlap = 0;      // [m]
-  double mean_rotation = 0;     // [rad]
-  double elastic_energy = 0;    // [J]
-  double dissipated_energy = 0; // [J]
-  double external_work = 0;     // sum over the steps of V0 P:dF, trapezoid rule [J]
+  double mean_overlap = 0;       // [m]
+  double mean_rotation = 0;      // [rad]
+  double elastic_energy = 0;     // [J]
+  double dissipated_energy = 0;  // [J]
+  double external_work = 0;      // sum over the steps of V0 P:dF, trapezoid rule [J]
   double contacts = 0;
   double sliding = 0;
   double status_changes = 0;

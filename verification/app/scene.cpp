@@ -110,7 +110,8 @@ SceneTable SceneTable::table(std::string_view key) {
   const toml::node* node = find(key);
   if (node == nullptr) fail(key, "nothing", "a table");
   if (!node->is_table()) fail(key, shown(*node), "a table");
-  return {*node->as_table(), file_, name_.empty() ? std::string(key) : fmt::format("{}.{}", name_, key)};
+  return {*node->as_table(), file_,
+          name_.empty() ? std::string(key) : fmt::format("{}.{}", name_, key)};
 }
 
 std::vector<SceneTable> SceneTable::tables(std::string_view key) {
@@ -120,8 +121,9 @@ std::vector<SceneTable> SceneTable::tables(std::string_view key) {
     fail(key, shown(*node), fmt::format("tables, each under [[{}]]", key));
   std::vector<SceneTable> result;
   for (const toml::node& item : *node->as_array())
-    result.emplace_back(*item.as_table(), file_,
-                        fmt::format("{}{}{}[{}]", name_, name_.empty() ? "" : ".", key, result.size() + 1));
+    result.emplace_back(
+        *item.as_table(), file_,
+        fmt::format("{}{}{}[{}]", name_, name_.empty() ? "" : ".", key, result.size() + 1));
   return result;
 }
 
@@ -140,8 +142,8 @@ SceneFile::SceneFile(const std::filesystem::path& path_) : path(path_) {
   try {
     content = toml::parse_file(path.string());
   } catch (const toml::parse_error& error) {
-    throw InputError(fmt::format("{}:{}: {}", path.string(), error.source().begin.line,
-                                 error.description()));
+    throw InputError(
+        fmt::format("{}:{}: {}", path.string(), error.source().begin.line, error.description()));
   }
 }
 

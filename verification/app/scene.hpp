@@ -21,8 +21,7 @@ struct Range {
   std::string_view text = "a number";
 };
 inline constexpr Range any_number{};
-inline constexpr Range positive{0, std::numeric_limits<double>::infinity(), true,
-                                "a number > 0"};
+inline constexpr Range positive{0, std::numeric_limits<double>::infinity(), true, "a number > 0"};
 inline constexpr Range not_negative{0, std::numeric_limits<double>::infinity(), false,
                                     "a number >= 0"};
 

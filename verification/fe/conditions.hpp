@@ -14,8 +14,8 @@ namespace verification {
 //
 // Every component is either prescribed or follows one unknown; tied components share theirs.
 struct Dofs {
-  std::vector<int> unknown;           // [dofs] number of its unknown, -1: prescribed
-  std::vector<double> prescribed;     // [dofs] value at the end of the run, else 0 [m]
+  std::vector<int> unknown;        // [dofs] number of its unknown, -1: prescribed
+  std::vector<double> prescribed;  // [dofs] value at the end of the run, else 0 [m]
   int unknowns = 0;
 
   // Values of the unknowns as a field over all components, prescribed ones zero.
@@ -51,10 +51,9 @@ struct FollowerPressure {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-// Adds the nodal forces of the pressure on the displaced sides [N/m], and minus their derivative with
-// respect to the displacements (the load stiffness), which is exact for straight sides.
+// Adds the nodal forces of the pressure on the displaced sides [N/m], and minus their derivative
+// with respect to the displacements (the load stiffness), which is exact for straight sides.
 void add_pressure(const FollowerPressure& pressure, double fraction, const Mesh& mesh,
-                  const Eigen::VectorXd& displacement, Eigen::VectorXd& force,
-                  Triplets& stiffness);
+                  const Eigen::VectorXd& displacement, Eigen::VectorXd& force, Triplets& stiffness);
 
 }  // namespace verification

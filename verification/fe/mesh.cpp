@@ -37,7 +37,7 @@ std::array<QuadPoint, 4> quad_points(const std::array<Eigen::Vector2d, 4>& corne
   for (std::size_t q = 0; q < 4; ++q) {
     const double xi = sign[q][0] / std::sqrt(3.0);
     const double eta = sign[q][1] / std::sqrt(3.0);
-    Eigen::Matrix<double, 4, 2> local;  // dN_a/dxi
+    Eigen::Matrix<double, 4, 2> local;                   // dN_a/dxi
     Eigen::Matrix2d jacobian = Eigen::Matrix2d::Zero();  // dX/dxi
     for (std::size_t a = 0; a < 4; ++a) {
       const auto row = static_cast<Eigen::Index>(a);

@@ -57,7 +57,8 @@ std::string PointField::message() const {
 
 Eigen::VectorXd PointField::internal_force() const {
   int last = 0;
-  for (const Point& point : points_) last = std::max(last, *std::max_element(point.nodes.begin(), point.nodes.end()));
+  for (const Point& point : points_)
+    last = std::max(last, *std::max_element(point.nodes.begin(), point.nodes.end()));
   Eigen::VectorXd force = Eigen::VectorXd::Zero(2 * (last + 1));
   for (std::size_t p = 0; p < points_.size(); ++p)
     for (std::size_t a = 0; a < 4; ++a) {
@@ -76,8 +77,8 @@ void PointField::add_stiffness(Triplets& triplets) const {
       for (int b = 0; b < 4; ++b)
         for (int i = 0; i < 2; ++i)
           for (int k = 0; k < 2; ++k) {
-            const double value =
-                gradient.row(a) * tangent_[p].block<2, 2>(2 * i, 2 * k) * gradient.row(b).transpose();
+            const double value = gradient.row(a) * tangent_[p].block<2, 2>(2 * i, 2 * k) *
+                                 gradient.row(b).transpose();
             triplets.emplace_back(2 * points_[p].nodes[static_cast<std::size_t>(a)] + i,
                                   2 * points_[p].nodes[static_cast<std::size_t>(b)] + k,
                                   weight * value);
@@ -89,8 +90,7 @@ void PointField::commit() {
   for (std::size_t p = 0; p < points_.size(); ++p) {
     Point& point = points_[p];
     const Tensor change = deformation_[p] - point.committed_deformation;
-    point.work +=
-        0.5 * volume_ * (point.committed_stress + stress_[p]).cwiseProduct(change).sum();
+    point.work += 0.5 * volume_ * (point.committed_stress + stress_[p]).cwiseProduct(change).sum();
     point.committed_deformation = deformation_[p];
     point.committed_stress = stress_[p];
     point.effort.history_advanced += reports_[p].history_advanced;

@@ -38,7 +38,9 @@ class PointField {
 
   // Mean over the points of the last evaluation; the effort since the last call of this function.
   Record record();
-  [[nodiscard]] const grainlaw_state* state(std::size_t point) const { return states_[point].get(); }
+  [[nodiscard]] const grainlaw_state* state(std::size_t point) const {
+    return states_[point].get();
+  }
 
  private:
   struct Point {

@@ -13,15 +13,15 @@ namespace {
 
 constexpr double smallest_cut = 0.1;  // of a step in one go
 constexpr double usual_cut = 0.5;
-// An attempt with an exact tangent ends when this many iterations in a row have not halved the residual:
-// after the peak P(F) has jumps, and Newton then goes to and fro across one.
+// An attempt with an exact tangent ends when this many iterations in a row have not halved the
+// residual: after the peak P(F) has jumps, and Newton then goes to and fro across one.
 constexpr int patience = 4;
 
 // Residual and stiffness of all displacement components at one displacement and one load.
 struct System {
   Eigen::VectorXd residual;  // external minus internal force [N/m]
   Eigen::SparseMatrix<double> stiffness;
-  double scale = 1;          // |internal force| [N/m]
+  double scale = 1;  // |internal force| [N/m]
 };
 
 System assemble(const Model& model, const PointField& points, const Eigen::VectorXd& displacement,
@@ -44,7 +44,8 @@ Eigen::VectorXd solve(const System& system, const Dofs& dofs, const Eigen::Vecto
   const Eigen::VectorXd force = dofs.reduce(system.residual - system.stiffness * prescribed);
   Triplets triplets;
   for (int column = 0; column < system.stiffness.outerSize(); ++column)
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(system.stiffness, column); entry; ++entry) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(system.stiffness, column); entry;
+         ++entry) {
       const int row_unknown = dofs.unknown[static_cast<std::size_t>(entry.row())];
       const int column_unknown = dofs.unknown[static_cast<std::size_t>(entry.col())];
       if (row_unknown >= 0 && column_unknown >= 0)
@@ -65,7 +66,8 @@ class LoadStepper {
         options_(options),
         dofs_(number_dofs(model.mesh.nodes.size(), model.displacements, model.ties)),
         points_(model.mesh, material),
-        displacement_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * model.mesh.nodes.size()))) {
+        displacement_(
+            Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * model.mesh.nodes.size()))) {
     if (dofs_.unknowns == 0) throw InputError("every displacement is prescribed: nothing to solve");
     check(points_.evaluate(displacement_, options_.tangent, options_.threads),
           "evaluating the integration points at F = I");
@@ -99,8 +101,8 @@ class LoadStepper {
       ++cuts;
       part = (next - done) * std::clamp(ratio, smallest_cut, usual_cut);
       if (part < smallest || to == from)
-        throw ComputationError(fmt::format("load step {} failed at {:.1e} of the run: {}", number,
-                                           part, reason));
+        throw ComputationError(
+            fmt::format("load step {} failed at {:.1e} of the run: {}", number, part, reason));
     } while (done < to);
     step.record = points_.record();
     step.record.step = number;
@@ -112,8 +114,9 @@ class LoadStepper {
   [[nodiscard]] const PointField& points() const { return points_; }
 
  private:
-  // Increments of prescribed displacement enter through the right-hand side of the first solve, which
-  // extrapolates the committed equilibrium by its tangent; boundary values never jump ahead alone.
+  // Increments of prescribed displacement enter through the right-hand side of the first solve,
+  // which extrapolates the committed equilibrium by its tangent; boundary values never jump ahead
+  // alone.
   bool attempt(double fraction, std::vector<double>& residuals, double& ratio,
                std::string& reason) {
     Eigen::VectorXd displacement = displacement_;

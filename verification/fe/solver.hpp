@@ -15,17 +15,17 @@ struct SolverOptions {
   int threads = 0;          // <= 0: as many as the library takes
 };
 
-// One solved load step. Residuals: of every attempt one after the other; entry 0 of an attempt is the
-// imbalance after the load increment, entry k the one after k linear solves.
+// One solved load step. Residuals: of every attempt one after the other; entry 0 of an attempt is
+// the imbalance after the load increment, entry k the one after k linear solves.
 struct LoadStep {
   Record record;  // means over the integration points
   std::vector<double> residuals;
 };
 using LoadObserver = std::function<void(const LoadStep&, const PointField&)>;
 
-// Step 0 brings the loads at fraction 0 to equilibrium, steps 1..steps lead the run from fraction 0 to
-// steps_done / steps. Stops after `last` steps. Throws ComputationError, saying where, when a step
-// fails at its smallest cut; InputError for contradictory conditions.
+// Step 0 brings the loads at fraction 0 to equilibrium, steps 1..steps lead the run from fraction 0
+// to steps_done / steps. Stops after `last` steps. Throws ComputationError, saying where, when a
+// step fails at its smallest cut; InputError for contradictory conditions.
 void run_load_steps(const Model& model, const Material& material, const SolverOptions& options,
                     int steps, int last, const LoadObserver& observe);
 

@@ -34,8 +34,8 @@ void print_packing(const grainlaw_state* state) {
   line("void ratio", void_ratio, "[-]");
   line("volume fraction", 1 / (1 + void_ratio), "[-]");
   line("coordination, all particles", measure_scalar(state, GRAINLAW_COORDINATION), "[-]");
-  line("coordination, without rattlers",
-       measure_scalar(state, GRAINLAW_COORDINATION_NO_RATTLERS), "[-]");
+  line("coordination, without rattlers", measure_scalar(state, GRAINLAW_COORDINATION_NO_RATTLERS),
+       "[-]");
   line("fabric anisotropy", measure_scalar(state, GRAINLAW_ANISOTROPY), "[-]");
   line("mean overlap", measure_scalar(state, GRAINLAW_MEAN_OVERLAP) * 1e6, "um");
   line("stress 11 (tension positive)", sigma[0] / 1e3, "kPa");
@@ -56,20 +56,19 @@ void run_pack(const PackArguments& arguments) {
   }
   const Material material = make_material(source);
   const State state = make_state(material);
-  const auto stem = output_stem(arguments.output, arguments.name.empty()
-                                                      ? source.file.stem().string()
-                                                      : arguments.name);
+  const auto stem = output_stem(
+      arguments.output, arguments.name.empty() ? source.file.stem().string() : arguments.name);
   check(grainlaw_state_write_packing(state.get(), stem.c_str()), "writing the packing");
   if (arguments.vtk)
     check(grainlaw_state_write_vtk(state.get(), (stem.string() + ".vtp").c_str()),
           "writing the particles");
   fmt::print("{}\n", stem.filename().string());
   print_packing(state.get());
-  draw_packing(stem.string(), stem,
-               fmt::format("{}: void ratio {:.4f}, coordination {:.3f}, bars as wide as the force",
-                           stem.filename().string(),
-                           measure_scalar(state.get(), GRAINLAW_VOID_RATIO),
-                           measure_scalar(state.get(), GRAINLAW_COORDINATION)));
+  draw_packing(
+      stem.string(), stem,
+      fmt::format("{}: void ratio {:.4f}, coordination {:.3f}; bar width: normal force",
+                  stem.filename().string(), measure_scalar(state.get(), GRAINLAW_VOID_RATIO),
+                  measure_scalar(state.get(), GRAINLAW_COORDINATION)));
   fmt::print("wrote {0}_particles.csv, _contacts.csv, _cell.csv, .svg, .png{1}\n", stem.string(),
              arguments.vtk ? ", .vtp" : "");
 }

@@ -19,7 +19,7 @@ constexpr double millimetre = 1e3;  // mm per m
 struct Drawing {
   std::string discs;
   std::string bars;
-  Eigen::Vector2d low;   // corner of the picture [m]
+  Eigen::Vector2d low;  // corner of the picture [m]
   Eigen::Vector2d high;
 
   void disc(const Eigen::Vector2d& centre, double radius) {
@@ -89,15 +89,17 @@ Drawing make_drawing(const Discs& discs, const CsvTable& contacts) {
   drawing.low.setConstant(1e300);
   drawing.high.setConstant(-1e300);
   if (discs.periodic) {
-    for (const Eigen::Vector2d& corner :
-         {Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(1, 1)}) {
+    for (const Eigen::Vector2d& corner : {Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 0),
+                                          Eigen::Vector2d(0, 1), Eigen::Vector2d(1, 1)}) {
       drawing.low = drawing.low.cwiseMin(discs.cell * corner);
       drawing.high = drawing.high.cwiseMax(discs.cell * corner);
     }
   } else {
     for (std::size_t p = 0; p < discs.centre.size(); ++p) {
-      drawing.low = drawing.low.cwiseMin(Eigen::Vector2d(discs.centre[p].array() - discs.radius[p]));
-      drawing.high = drawing.high.cwiseMax(Eigen::Vector2d(discs.centre[p].array() + discs.radius[p]));
+      drawing.low =
+          drawing.low.cwiseMin(Eigen::Vector2d(discs.centre[p].array() - discs.radius[p]));
+      drawing.high =
+          drawing.high.cwiseMax(Eigen::Vector2d(discs.centre[p].array() + discs.radius[p]));
     }
   }
   const std::vector<Eigen::Vector2d> shifts = images(discs);
@@ -134,15 +136,16 @@ void draw_packing(const std::string& prefix, const std::filesystem::path& stem,
   const Drawing drawing = make_drawing(discs, contacts);
   const Eigen::Vector2d low = drawing.low * millimetre;
   const Eigen::Vector2d high = drawing.high * millimetre;
-  std::string body = fmt::format("$discs << EOD\n{}EOD\n$bars << EOD\n{}EOD\n", drawing.discs,
-                                 drawing.bars);
-  body += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", low.x(), high.x(), low.y(),
-                      high.y());
+  std::string body =
+      fmt::format("$discs << EOD\n{}EOD\n$bars << EOD\n{}EOD\n", drawing.discs, drawing.bars);
+  body +=
+      fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", low.x(), high.x(), low.y(), high.y());
   body += fmt::format("set title '{}' noenhanced\n", title);
-  body += "set size ratio -1\nset border 15 lc rgb '#555555'\nset tics out nomirror scale 0.6\n"
-          "set xlabel 'x [mm]'\nset ylabel 'y [mm]'\nunset key\n"
-          "plot $discs using 1:2:3 with circles fs solid border lc rgb '#b5ac9a' fc rgb '#ece8df', "
-          "$bars with filledcurves closed fc rgb '#0072b2'\n";
+  body +=
+      "set size ratio -1\nset border 15 lc rgb '#555555'\nset tics out nomirror scale 0.6\n"
+      "set xlabel 'x [mm]'\nset ylabel 'y [mm]'\nunset key\n"
+      "plot $discs using 1:2:3 with circles fs solid border lc rgb '#b5ac9a' fc rgb '#ece8df', "
+      "$bars with filledcurves closed fc rgb '#0072b2'\n";
   const double aspect = (high.y() - low.y()) / (high.x() - low.x());
   constexpr int width = 800;
   run_gnuplot(body, stem, width, static_cast<int>(width * aspect) + 30);

@@ -37,8 +37,7 @@ PointScene read_scene(const SceneFile& file) {
   scene.options.max_cuts = table.integer_or("max_cuts", scene.options.max_cuts, 0);
   scene.options.loose_tolerance = table.number_or("loose_tolerance", 0, not_negative);
   scene.segments = read_segments(table);
-  scene.abscissa =
-      table.choice_or("abscissa", axial_abscissa, {axial_abscissa, shear_abscissa});
+  scene.abscissa = table.choice_or("abscissa", axial_abscissa, {axial_abscissa, shear_abscissa});
   scene.vtk_every = table.integer_or("vtk_every", 0, 0);
   table.close();
   return scene;
@@ -56,15 +55,16 @@ void run_point(const std::string& path, const std::string& directory) {
 
   int total = 0;
   for (const Segment& segment : scene.segments) total += segment.steps;
-  const auto observe = [&, progress = std::make_shared<Progress>(scene.name)](const PointStep& step) {
+  const auto observe = [&,
+                        progress = std::make_shared<Progress>(scene.name)](const PointStep& step) {
     const Record& record = step.record;
     history.add(record);
     if (scene.vtk_every > 0 && record.step % scene.vtk_every == 0)
       write_vtk(step.state, stem, record.step);
-    progress->update(static_cast<double>(record.step) / total,
-                     fmt::format("sigma22 {:.1f} kPa, F22 {:.4f}, F12 {:.4f}",
-                                 record.cauchy(1, 1) / 1e3, record.deformation(1, 1),
-                                 record.deformation(0, 1)));
+    progress->update(
+        static_cast<double>(record.step) / total,
+        fmt::format("sigma22 {:.1f} kPa, F22 {:.4f}, F12 {:.4f}", record.cauchy(1, 1) / 1e3,
+                    record.deformation(1, 1), record.deformation(0, 1)));
   };
   try {
     for (const Segment& segment : scene.segments) driver.run(segment, observe);
@@ -79,8 +79,8 @@ void run_point(const std::string& path, const std::string& directory) {
 }  // namespace
 
 void add_point_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("point", "lead one representative volume along a path of strain and stress");
+  CLI::App* command = app.add_subcommand(
+      "point", "lead one representative volume along a path of strain and stress");
   auto scene = std::make_shared<std::string>();
   auto output = std::make_shared<std::string>(".");
   command->add_option("SCENE", *scene, "scene file (TOML)")->required();

@@ -9,11 +9,11 @@
 namespace verification {
 namespace {
 
-constexpr double smallest_cut = 0.1;   // of a step in one go
+constexpr double smallest_cut = 0.1;  // of a step in one go
 constexpr double usual_cut = 0.5;
-// An attempt ends when this many iterations in a row have not halved the residual: P(F) has jumps after
-// the peak, where contacts collapse, and Newton then goes to and fro across one. A smaller step, or
-// another one, usually passes beside it.
+// An attempt ends when this many iterations in a row have not halved the residual: P(F) has jumps
+// after the peak, where contacts collapse, and Newton then goes to and fro across one. A smaller
+// step, or another one, usually passes beside it.
 constexpr int patience = 4;
 
 // The prescribed measure (F, P or sigma) by component, and its derivative with respect to F.
@@ -89,9 +89,10 @@ PointDriver::Goal PointDriver::goal_at(const Segment& segment, const Vector4& st
   return goal;
 }
 
-// Newton on the components of F whose stress is prescribed. The first iterate carries the prescribed
-// increment over to the unknowns by the tangent of the last step. An exact tangent is renewed at every
-// iterate; any other serves as the start of Broyden's updates, which need no more than a fair matrix.
+// Newton on the components of F whose stress is prescribed. The first iterate carries the
+// prescribed increment over to the unknowns by the tangent of the last step. An exact tangent is
+// renewed at every iterate; any other serves as the start of Broyden's updates, which need no more
+// than a fair matrix.
 PointDriver::Attempt PointDriver::attempt(const Goal& goal, double tolerance, Effort& effort) {
   Attempt result;
   const unsigned want = goal.mixed ? options_.tangent : 0;
@@ -139,7 +140,8 @@ PointDriver::Attempt PointDriver::attempt(const Goal& goal, double tolerance, Ef
     correction = matrix.fullPivLu().solve(residual);
     first = false;
   }
-  result.reason = fmt::format("the stress control did not converge (best residual {:.1e} [-])", best);
+  result.reason =
+      fmt::format("the stress control did not converge (best residual {:.1e} [-])", best);
   return result;
 }
 
@@ -155,8 +157,8 @@ void PointDriver::renew_tangent() {
 
 void PointDriver::accept(const Attempt& attempt, bool has_tangent) {
   const Tensor change = attempt.deformation - deformation_;
-  work_ += 0.5 * volume_ *
-           (evaluation_.stress + attempt.evaluation.stress).cwiseProduct(change).sum();
+  work_ +=
+      0.5 * volume_ * (evaluation_.stress + attempt.evaluation.stress).cwiseProduct(change).sum();
   deformation_ = attempt.deformation;
   evaluation_ = attempt.evaluation;
   has_tangent_ = has_tangent;
@@ -185,10 +187,10 @@ void PointDriver::run(const Segment& segment, const PointObserver& observe) {
         ++effort.cuts;
         if (part >= smallest) continue;
         if (loose || options_.loose_tolerance == 0)
-          throw ComputationError(fmt::format(
-              "step {} (F22 = {:.6f}, F12 = {:.6f}) failed at 1/{:.0f} of its size: {}",
-              record_.step + 1, deformation_(1, 1), deformation_(0, 1), 1 / smallest,
-              result.reason));
+          throw ComputationError(
+              fmt::format("step {} (F22 = {:.6f}, F12 = {:.6f}) failed at 1/{:.0f} of its size: {}",
+                          record_.step + 1, deformation_(1, 1), deformation_(0, 1), 1 / smallest,
+                          result.reason));
         loose = true;
         ++effort.loose;
         part = 1 - done;
@@ -203,8 +205,7 @@ void PointDriver::run(const Segment& segment, const PointObserver& observe) {
         record_.step = number;
         record_.external_work = work_;
         record_.effort = effort;
-        if (observe)
-          observe({state_.get(), committed, evaluation_, record_, fraction});
+        if (observe) observe({state_.get(), committed, evaluation_, record_, fraction});
       }
       check(grainlaw_commit(state_.get()), "committing a step");
       loose = false;

@@ -11,9 +11,9 @@ namespace verification {
 
 struct PointOptions {
   unsigned tangent = GRAINLAW_WANT_TANGENT_EXACT;  // matrix of the stress control
-  double tolerance = 1e-8;   // largest stress residual / |sigma| at the start of the step [-]
-  int max_iterations = 20;   // of one attempt, then the step is cut
-  int max_cuts = 12;         // halvings of one step, at most, before the run is given up
+  double tolerance = 1e-8;  // largest stress residual / |sigma| at the start of the step [-]
+  int max_iterations = 20;  // of one attempt, then the step is cut
+  int max_cuts = 12;        // halvings of one step, at most, before the run is given up
   // Where P(F) jumps across the target no step size helps. Once a step is at its smallest, this
   // tolerance holds instead of the first, and the record counts it as a loose step; 0: never [-].
   double loose_tolerance = 0;
@@ -21,11 +21,11 @@ struct PointOptions {
 
 // What an observer sees at the end of every full step, before the trial is committed.
 struct PointStep {
-  grainlaw_state* state;        // committed: the (part of a) step before; trial: this one
-  Tensor committed_deformation; // F of the committed state
-  const Evaluation& evaluation; // of the trial
+  grainlaw_state* state;         // committed: the (part of a) step before; trial: this one
+  Tensor committed_deformation;  // F of the committed state
+  const Evaluation& evaluation;  // of the trial
   const Record& record;
-  double fraction;              // of the segment, 0..1
+  double fraction;  // of the segment, 0..1
 };
 using PointObserver = std::function<void(const PointStep&)>;
 
@@ -51,12 +51,12 @@ class PointDriver {
 
   PointOptions options_;
   State state_;
-  double volume_;            // at F = I [m3]
-  Tensor deformation_;       // committed F
-  Evaluation evaluation_;    // that led to it
-  Record record_;            // of the last step
+  double volume_;          // at F = I [m3]
+  Tensor deformation_;     // committed F
+  Evaluation evaluation_;  // that led to it
+  Record record_;          // of the last step
   bool has_tangent_ = true;
-  double work_ = 0;          // external, since F = I [J]
+  double work_ = 0;  // external, since F = I [J]
 };
 
 }  // namespace verification

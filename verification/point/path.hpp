@@ -30,7 +30,8 @@ struct Segment {
 // value, Pa, tension positive). A component that is not named keeps its F. Throws InputError.
 std::vector<Segment> read_segments(SceneTable& scene);
 
-// Drained biaxial compression: F22 by `axial` (negative: compression), no shear, sigma11 = `lateral`.
+// Drained biaxial compression: F22 by `axial` (negative: compression), no shear, sigma11 =
+// `lateral`.
 Segment drained_segment(double axial, double lateral, int steps);
 // Simple shear: F12 by `shear`, everything else fixed.
 Segment shear_segment(double shear, int steps);

@@ -1,5 +1,6 @@
-// `grainlaw report drained`: the drained test of one finite element, of one representative volume and of
-// the packing alone, beside YADE's run of the same packing. Reads their tables; runs nothing.
+// `grainlaw report drained`: the drained test of one finite element, of one representative volume
+// and of the packing alone, beside YADE's run of the same packing. Reads their tables; runs
+// nothing.
 
 #include "report/report.hpp"
 #include "report/statistics.hpp"
@@ -43,14 +44,19 @@ std::vector<double> scaled(const std::vector<double>& values, double factor) {
 
 Curves own_run(const std::string& name, const std::filesystem::path& path) {
   const CsvTable table = read_csv(path);
-  return {name, scaled(table["axial_strain"], percent), scaled(table["sigma22"], -1e-3),
-          table["stress_ratio"], scaled(table["volumetric_strain"], percent), table["coordination"]};
+  return {name,
+          scaled(table["axial_strain"], percent),
+          scaled(table["sigma22"], -1e-3),
+          table["stress_ratio"],
+          scaled(table["volumetric_strain"], percent),
+          table["coordination"]};
 }
 
 Curves yade_run(const std::string& name, const std::filesystem::path& path) {
   const CsvTable table = read_csv(path);
-  Curves curves{name, scaled(table["axial_strain"], percent), scaled(table["axial_stress"], 1e-3),
-                {}, scaled(table["volumetric_strain"], percent), table["coordination"]};
+  Curves curves{
+      name, scaled(table["axial_strain"], percent),      scaled(table["axial_stress"], 1e-3),
+      {},   scaled(table["volumetric_strain"], percent), table["coordination"]};
   for (std::size_t k = 0; k < table.rows(); ++k)
     curves.ratio.push_back(table["axial_stress"][k] / table["lateral_stress"][k]);
   return curves;
@@ -60,7 +66,8 @@ void print_stresses(const ReportOptions& options, const std::vector<Curves>& run
   std::vector<std::string> columns{"axial_stress[kPa]"};
   for (const Curves& run : runs) columns.push_back(run.name);
   Table table("drained compression at a lateral stress of 100 kPa", columns);
-  const auto line = [&](const std::string& name, const std::function<double(const Curves&)>& value) {
+  const auto line = [&](const std::string& name,
+                        const std::function<double(const Curves&)>& value) {
     std::vector<Table::Cell> cells{name};
     for (const Curves& run : runs) cells.push_back(value(run));
     table.row(cells);
@@ -74,8 +81,8 @@ void print_stresses(const ReportOptions& options, const std::vector<Curves>& run
   table.write(std::filesystem::path(options.output) / "report_drained.csv");
 }
 
-// Largest relative difference of axial stress up to a strain before the peak, where the path does not
-// yet depend on round-off, at multiples of 0.1 %.
+// Largest relative difference of axial stress up to a strain before the peak, where the path does
+// not yet depend on round-off, at multiples of 0.1 %.
 void print_agreement(const Curves& a, const Curves& b) {
   constexpr double last = 1.0;  // %
   double worst = 0;
@@ -90,11 +97,11 @@ void draw_comparison(const std::vector<Curves>& runs, const std::filesystem::pat
   // In the order of run_report: own runs first, then YADE's.
   constexpr std::array<const char*, 5> colours{colour::blue, colour::orange, colour::green,
                                                colour::black, colour::grey};
-  constexpr std::array<Stroke, 5> strokes{Stroke::solid, Stroke::dashed, Stroke::solid, Stroke::thin,
-                                          Stroke::thin};
-  Figure figure{"Drained biaxial compression of 400 discs, lateral stress 100 kPa",
-                "axial strain [%]", {}};
-  Panel ratio{"stress ratio σ22 / σ11 [-]", {}, 1.5, "top right"};
+  constexpr std::array<Stroke, 5> strokes{Stroke::solid, Stroke::dashed, Stroke::solid,
+                                          Stroke::thin, Stroke::thin};
+  Figure figure{
+      "Drained biaxial compression of 400 discs, lateral stress 100 kPa", "axial strain [%]", {}};
+  Panel ratio{"stress ratio σ22 / σ11 [-]", {}, 1.5, "bottom right"};
   Panel volumetric{"volumetric strain, dilation + [%]", {}, 1, ""};
   Panel coordination{"coordination number [-]", {}, 1, ""};
   // YADE below, so that its lines do not hide ours.
@@ -117,12 +124,11 @@ struct Arguments {
 void run_report(const ReportOptions& options, const Arguments& arguments) {
   const std::filesystem::path output = options.output;
   const std::filesystem::path reference = std::filesystem::path(options.scenes) / "reference";
-  const std::vector<Curves> runs{
-      own_run("single element", output / arguments.element),
-      own_run("one RVE", output / arguments.point),
-      own_run("packing alone", output / arguments.dem),
-      yade_run("YADE, I = 1e-5", reference / "yade_biax400_I1e-5.csv"),
-      yade_run("YADE, I = 1e-4", reference / "yade_biax400_I1e-4.csv")};
+  const std::vector<Curves> runs{own_run("single element", output / arguments.element),
+                                 own_run("one RVE", output / arguments.point),
+                                 own_run("packing alone", output / arguments.dem),
+                                 yade_run("YADE, I = 1e-5", reference / "yade_biax400_I1e-5.csv"),
+                                 yade_run("YADE, I = 1e-4", reference / "yade_biax400_I1e-4.csv")};
   print_stresses(options, runs);
   fmt::print("\nlargest relative difference of the axial stress up to 1 % axial strain\n");
   print_agreement(runs[0], runs[1]);

@@ -1,5 +1,5 @@
-// `grainlaw report ensemble`: drained compression of several packings of one recipe, as a mean with its
-// standard error, beside the same ensemble run with YADE.
+// `grainlaw report ensemble`: drained compression of several packings of one recipe, as a mean with
+// its standard error, beside the same ensemble run with YADE.
 
 #include "report/report.hpp"
 #include "report/statistics.hpp"
@@ -68,9 +68,9 @@ std::vector<Member> run_members(const ReportOptions& options, int count, int ste
     for (int k = next++; k < count; k = next++) {
       const Member member = run_member(options, k + 1, steps);
       const std::lock_guard lock(printing);
-      fmt::print(stderr, "packing {} of {}: {}\n", k + 1, count,
-                 member.failure.empty() ? fmt::format("peak {:.1f} kPa", member.peak)
-                                        : member.failure);
+      fmt::print(
+          stderr, "packing {} of {}: {}\n", k + 1, count,
+          member.failure.empty() ? fmt::format("peak {:.1f} kPa", member.peak) : member.failure);
       members[static_cast<std::size_t>(k)] = member;
     }
   };
@@ -83,7 +83,7 @@ std::vector<Member> run_members(const ReportOptions& options, int count, int ste
 
 struct Quantity {
   const char* name;
-  double Member::* value;
+  double Member::*value;
   double yade_mean;
   double yade_deviation;  // over its eight packings
 };
@@ -115,10 +115,12 @@ void run_report(const ReportOptions& options, int count, int steps, int threads)
   each.print();
   each.write(std::filesystem::path(options.output) / "report_ensemble_packings.csv");
 
-  Table table(fmt::format("drained compression, mean of {} packings against YADE's eight; s.e. is the "
-                          "standard error of a mean", good.size()),
-              {"quantity", "mean", "s.d.", "s.e.", "yade_mean", "yade_s.d.", "yade_s.e.",
-               "over_yade_s.e.[-]", "over_both_s.e.[-]", "within_two_of_both"});
+  Table table(
+      fmt::format("drained compression, mean of {} packings against YADE's eight; s.e. is the "
+                  "standard error of a mean",
+                  good.size()),
+      {"quantity", "mean", "s.d.", "s.e.", "yade_mean", "yade_s.d.", "yade_s.e.",
+       "over_yade_s.e.[-]", "over_both_s.e.[-]", "within_two_of_both"});
   for (const Quantity& quantity : quantities) {
     std::vector<double> values;
     for (const Member& member : good) values.push_back(member.*quantity.value);
@@ -146,11 +148,14 @@ void add_ensemble_report(CLI::App& report, const std::shared_ptr<ReportOptions>&
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = report.add_subcommand("ensemble", "drained tests of several packings");
   command->add_option("--packings", arguments->packings, "seeds 1 to this number [-]")
-      ->check(CLI::PositiveNumber)->capture_default_str();
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   command->add_option("--steps", arguments->steps, "increments to 10 % axial strain [-]")
-      ->check(CLI::PositiveNumber)->capture_default_str();
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   command->add_option("--threads", arguments->threads, "packings run at once [-]")
-      ->check(CLI::PositiveNumber)->capture_default_str();
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   command->callback([arguments, options] {
     run_report(*options, arguments->packings, arguments->steps, arguments->threads);
   });

@@ -58,7 +58,8 @@ void run_report(const ReportOptions& options, int steps, int max_iterations) {
     runs[k] = solve_drained(scene, kinds[k], steps, max_iterations);
 
   Table table(fmt::format("single element, first {} load steps of 1/{} of the run, to a relative "
-                          "residual of {:.0e} [-]", steps, scene.steps, scene.options.tolerance),
+                          "residual of {:.0e} [-]",
+                          steps, scene.steps, scene.options.tolerance),
               {"tangent", "steps[-]", "iterations_median[-]", "iterations_max[-]",
                "share_at_most_5[-]", "evaluations_per_step[-]", "step_cuts[-]"});
   for (std::size_t k = 0; k < 2; ++k) {
@@ -81,7 +82,8 @@ void run_report(const ReportOptions& options, int steps, int max_iterations) {
       histories.push_back(&runs[k].residuals[index]);
     }
   Table history("", columns);
-  Table shown("relative residual by iteration; 0 is the imbalance after the load increment", columns);
+  Table shown("relative residual by iteration; 0 is the imbalance after the load increment",
+              columns);
   std::size_t length = 0;
   for (const auto* residuals : histories) length = std::max(length, residuals->size());
   for (std::size_t i = 0; i < length; ++i) {
@@ -106,12 +108,13 @@ void add_newton_report(CLI::App& report, const std::shared_ptr<ReportOptions>& o
   CLI::App* command =
       report.add_subcommand("newton", "finite element iterations with exact and elastic tangent");
   command->add_option("--steps", arguments->steps, "load steps of drained.toml [-]")
-      ->check(CLI::PositiveNumber)->capture_default_str();
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   command->add_option("--max-iterations", arguments->max_iterations, "before a step is cut [-]")
-      ->check(CLI::PositiveNumber)->capture_default_str();
-  command->callback([arguments, options] {
-    run_report(*options, arguments->steps, arguments->max_iterations);
-  });
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->callback(
+      [arguments, options] { run_report(*options, arguments->steps, arguments->max_iterations); });
 }
 
 }  // namespace verification

@@ -22,9 +22,9 @@ Tensor rotation(double angle) {
 void report_rotations(const ReportOptions& options, const Material& material, double tolerance) {
   const std::vector<Probe> probes =
       probe_path("drained", material, drained_segment(-0.02, drained_pressure, 20), 4);
-  Table table(fmt::format("rigid rotation of single increments of 0.1 %, tolerance {:.0e} [-]",
-                          tolerance),
-              {"axial_strain[-]", "angle[rad]", "objectivity_error[-]", "asymmetry[-]", "status"});
+  Table table(
+      fmt::format("rigid rotation of single increments of 0.1 %, tolerance {:.0e} [-]", tolerance),
+      {"axial_strain[-]", "angle[rad]", "objectivity_error[-]", "asymmetry[-]", "status"});
   for (const Probe& probe : probes) {
     const Evaluation still = evaluate(probe.state.get(), probe.deformation, 0);
     for (const double angle : {0.0, 1e-3, 0.5, 1.5, std::numbers::pi}) {
@@ -45,8 +45,8 @@ void report_rotations(const ReportOptions& options, const Material& material, do
   table.write(std::filesystem::path(options.output) / "report_objectivity.csv");
 }
 
-// The work of the boundary goes into the contacts or is dissipated. The trapezoid rule on P:dF and the
-// friction of whole increments agree with each other as increments shrink.
+// The work of the boundary goes into the contacts or is dissipated. The trapezoid rule on P:dF and
+// the friction of whole increments agree with each other as increments shrink.
 void report_energy(const ReportOptions& options, const Material& material) {
   constexpr double axial = 0.01;
   Table table("energy of the drained path to 1 % axial strain",

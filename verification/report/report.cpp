@@ -14,8 +14,10 @@ namespace verification {
 std::filesystem::path ReportOptions::scene(const std::string& name) const {
   const std::filesystem::path path = std::filesystem::path(scenes) / name;
   if (!std::filesystem::is_regular_file(path))
-    throw InputError(fmt::format("{}: there is no such file; --scenes names the directory with the "
-                                 "scenes", path.string()));
+    throw InputError(
+        fmt::format("{}: there is no such file; --scenes names the directory with the "
+                    "scenes",
+                    path.string()));
   return path;
 }
 

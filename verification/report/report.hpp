@@ -56,15 +56,15 @@ struct Probe {
   std::string path;  // "drained" or "shear"
   State state;       // committed one step before, trial dropped or not
   Tensor deformation;
-  double strain;     // axial strain or F12 at the end of the increment [-]
+  double strain;  // axial strain or F12 at the end of the increment [-]
 };
 
 // Increments number every, 2 every, ... of a path of `steps` steps.
 std::vector<Probe> probe_path(const std::string& name, const Material& material,
                               const Segment& segment, int every);
 
-// Stress control that gets over collapses after the peak at any price: reports look at increments, not
-// at the path.
+// Stress control that gets over collapses after the peak at any price: reports look at increments,
+// not at the path.
 PointOptions report_options();
 
 // The lateral stress of the drained tests [Pa].

@@ -20,13 +20,13 @@ double cpu_milliseconds() {
 
 struct Cost {
   double strain;
-  double plain;      // without a tangent [ms]
-  double with_exact; // with the exact tangent [ms]
+  double plain;       // without a tangent [ms]
+  double with_exact;  // with the exact tangent [ms]
   grainlaw_report report;
 };
 
-// The increment once more, from the same committed state; the best of a few, since the machine may be
-// doing other things.
+// The increment once more, from the same committed state; the best of a few, since the machine may
+// be doing other things.
 double time_evaluation(const PointStep& step, unsigned want, grainlaw_report& report) {
   constexpr int repetitions = 3;
   double best = 0;
@@ -50,10 +50,9 @@ void summarise(Table& table, const std::vector<Cost>& costs, double limit) {
     factorisations.push_back(cost.report.factorisations);
   }
   const std::string range = fmt::format("up to {:g} %", 100 * limit);
-  table.row({range, "mean", average(plain), average(exact), average(steps),
-             average(factorisations)});
-  table.row({range, "median", median(plain), median(exact), median(steps),
-             median(factorisations)});
+  table.row(
+      {range, "mean", average(plain), average(exact), average(steps), average(factorisations)});
+  table.row({range, "median", median(plain), median(exact), median(steps), median(factorisations)});
 }
 
 void run_report(const ReportOptions& options, double tolerance, double axial) {
@@ -78,10 +77,12 @@ void run_report(const ReportOptions& options, double tolerance, double axial) {
               static_cast<double>(cost.report.relaxation_steps),
               static_cast<double>(cost.report.factorisations)});
   each.write(std::filesystem::path(options.output) / "report_timing.csv");
-  Table table(fmt::format("one evaluation of a 0.1 % increment of the drained path, tolerance {:.0e} "
-                          "[-], one thread; steps and factorisations without tangent", tolerance),
-              {"axial strain", "statistic", "cpu[ms]", "cpu_with_tangent[ms]",
-               "relaxation_steps[-]", "factorisations[-]"});
+  Table table(
+      fmt::format("one evaluation of a 0.1 % increment of the drained path, tolerance {:.0e} "
+                  "[-], one thread; steps and factorisations without tangent",
+                  tolerance),
+      {"axial strain", "statistic", "cpu[ms]", "cpu_with_tangent[ms]", "relaxation_steps[-]",
+       "factorisations[-]"});
   summarise(table, costs, before_peak);
   if (axial > before_peak) summarise(table, costs, axial);
   table.print();

@@ -1,0 +1,158 @@
+// The stiffness of a contact is the derivative of its law, in every status.
+#include "contact/frictional.hpp"
+#include "equilibrium/stiffness.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace grainlaw {
+namespace {
+
+constexpr double kn = 1000;
+constexpr double kt = 800;
+constexpr std::array<double, 4> cell{10, 0, 0, 10};
+using Matrix3 = std::array<double, 9>;
+
+ContactLaw law() {
+  ContactLaw law;
+  law.normal_stiffness = kn;
+  law.ratio = kt / kn;
+  law.friction = 0.5;
+  return law;
+}
+
+// Radii 1 and 3 on an oblique branch, turned and moved from where the history started.
+struct Contact {
+  ContactList list;
+  std::vector<double> z;
+
+  Contact(double committed_force, double overlap, double turn) {
+    const std::vector<double> start{0, 3.1, 0, 2.3, 0.2, -0.1};
+    const std::vector<NeighbourPair> pairs{{0, 1, {}}};
+    const std::vector<double> radius{1, 3};
+    const std::vector<ContactHistory> history{{0, 1, {}, false, committed_force}};
+    build_contacts(pairs, {}, radius, law(), {start, cell, history}, list);
+    const double angle = std::atan2(2.3, 3.1) + turn;
+    z = {0.1,  0.1 + (4 - overlap) * std::cos(angle), -0.2, -0.2 + (4 - overlap) * std::sin(angle),
+         0.205, -0.103};
+  }
+  [[nodiscard]] ContactPoint point() const { return contact_point(list, 0, z, 2, cell, law()); }
+  [[nodiscard]] Matrix3 stiffness() const {
+    return contact_stiffness(point(), kn, kt, law().friction);
+  }
+};
+
+struct Forces {
+  double x, y, couple;
+};
+
+Forces forces(Contact contact) {
+  evaluate_contacts(contact.z, 2, cell, law(), contact.list);
+  return {contact.list.force_x[0], contact.list.force_y[0], contact.list.couple[0]};
+}
+
+// Central differences of (force along n, force along t, couple) by (normal displacement, tangential
+// displacement, weighted rotation), n and t held where they are.
+Matrix3 differences(const Contact& contact, double step) {
+  const auto at = contact.point();
+  const auto moved = [&](std::size_t column, double by) {
+    Contact other = contact;
+    if (column == 0) {
+      other.z[1] += by * at.normal_x;
+      other.z[3] += by * at.normal_y;
+    } else if (column == 1) {
+      other.z[1] -= by * at.normal_y;
+      other.z[3] += by * at.normal_x;
+    } else {
+      other.z[5] += by / 0.75;  // lambda_j
+    }
+    const Forces f = forces(other);
+    return std::array{f.x * at.normal_x + f.y * at.normal_y,
+                      -f.x * at.normal_y + f.y * at.normal_x, f.couple};
+  };
+  Matrix3 result{};
+  for (std::size_t column = 0; column < 3; ++column) {
+    const auto plus = moved(column, step);
+    const auto minus = moved(column, -step);
+    for (std::size_t row = 0; row < 3; ++row) {
+      result[3 * row + column] = (plus[row] - minus[row]) / (2 * step);
+    }
+  }
+  return result;
+}
+
+struct Case {
+  const char* name;
+  Contact contact;
+  ContactStatus status;
+};
+
+std::vector<Case> cases() {
+  return {{"sticking", {0, 0.1, 0.002}, ContactStatus::sticking},
+          {"sticking with a committed force", {30, 0.12, 0.004}, ContactStatus::sticking},
+          {"sliding forwards", {30, 0.1, -0.05}, ContactStatus::sliding},
+          {"sliding backwards", {-20, 0.15, 0.08}, ContactStatus::sliding},
+          {"deep, hardly turned", {5, 0.5, 1e-6}, ContactStatus::sticking}};
+}
+
+TEST(contact_stiffness, matches_central_differences_of_the_law) {
+  for (const Case& c : cases()) {
+    ASSERT_EQ(c.contact.point().status, c.status) << c.name;
+    ASSERT_NE(c.contact.point().turn, 0);
+    const Matrix3 exact = c.contact.stiffness();
+    const Matrix3 approximate = differences(c.contact, 1e-6);
+    for (std::size_t k = 0; k < 9; ++k) {
+      EXPECT_NEAR(exact[k], approximate[k], 1e-8 * kn * 16) << c.name << ", entry " << k;
+    }
+  }
+}
+
+TEST(contact_stiffness, is_zero_when_open) {
+  const Contact open(30, -0.1, 0.01);
+  EXPECT_EQ(open.point().status, ContactStatus::open);
+  for (const double entry : differences(open, 1e-6)) EXPECT_EQ(entry, 0);
+}
+
+TEST(contact_stiffness, maps_to_the_forces_on_both_discs) {
+  // All six coordinates: force on p = C_p K B_q dz_q.
+  for (const Case& c : cases()) {
+    const auto at = c.contact.point();
+    const auto map = contact_map(at.normal_x, at.normal_y, 0.25);
+    const Matrix3 k = c.contact.stiffness();
+    const auto product = [](const Matrix3& a, const Matrix3& b) {
+      Matrix3 result{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+          for (std::size_t l = 0; l < 3; ++l) result[3 * i + j] += a[3 * i + l] * b[3 * l + j];
+        }
+      }
+      return result;
+    };
+    for (std::size_t column = 0; column < 6; ++column) {
+      constexpr double step = 1e-6;
+      std::vector<double> change(6);
+      for (const double side : {1.0, -1.0}) {
+        Contact other = c.contact;
+        other.z[column] += side * step;
+        std::vector<double> force(6);
+        evaluate_contacts(other.z, 2, cell, law(), other.list);
+        accumulate_forces(other.list, 2, true, force);
+        for (std::size_t row = 0; row < 6; ++row) change[row] += side * force[row] / (2 * step);
+      }
+      const std::size_t q = column % 2;
+      for (std::size_t row = 0; row < 6; ++row) {
+        const auto block = product(row % 2 == 0 ? map.force_i : map.force_j,
+                                   product(k, q == 0 ? map.motion_i : map.motion_j));
+        EXPECT_NEAR(block[3 * (row / 2) + column / 2], change[row], 1e-8 * kn * 16)
+            << c.name << ", row " << row << ", column " << column;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace grainlaw
