@@ -1,19 +1,21 @@
 #include "contact/contact_list.hpp"
 
+#include "room.hpp"
+
 #include <cmath>
 #include <tuple>
 
 namespace grainlaw {
 
 void ContactList::resize(std::size_t count, bool weighted) {
-  i.resize(count);
-  j.resize(count);
+  resize_with_room(i, count);
+  resize_with_room(j, count);
   for (auto* column : {&shift_x, &shift_y, &reach, &lever_i, &normal_stiffness,
                        &tangential_stiffness, &start_x, &start_y, &start_turn, &start_force,
                        &force_x, &force_y, &couple}) {
-    column->resize(count);
+    resize_with_room(*column, count);
   }
-  weight.resize(weighted ? count : 0);
+  resize_with_room(weight, weighted ? count : 0);
 }
 
 void build_contacts(std::span<const NeighbourPair> pairs, std::span<const double> pair_weights,

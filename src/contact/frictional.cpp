@@ -104,8 +104,9 @@ inline __attribute__((always_inline)) double frictional_loop(
     force_y[c] = (fn * ly + ft * lx) * inverse;
     if constexpr (rotating) couple[c] = d * ft;
     if constexpr (advance) {
-      const double lost = fn > 0 ? std::abs(ft * (trial - ft)) : 0.5 * ft0[c] * ft0[c];
-      dissipated += lost / kt[c];
+      // Sliding at ft, and what the spring gives up when the bound falls below its force.
+      const double excess = std::max(std::abs(ft0[c]) - bound, 0.0);
+      dissipated += (std::abs(ft * (trial - ft)) + 0.5 * excess * excess) / kt[c];
       nx0[c] = lx * inverse;
       ny0[c] = ly * inverse;
       if constexpr (rotating) {

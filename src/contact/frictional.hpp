@@ -18,7 +18,7 @@ void evaluate_contacts(std::span<const double> coordinates, std::size_t particle
                        ContactList& list);
 
 // The same, and the history starts anew from here. Returns the energy dissipated since the old start:
-// sliding force times slip, and what the spring of an opened contact had stored [J].
+// sliding force times slip, and what springs give up as contacts unload or open [J].
 double advance_contacts(std::span<const double> coordinates, std::size_t particles,
                         const std::array<double, 4>& cell, const ContactLaw& law,
                         ContactList& list);

@@ -1,5 +1,7 @@
 #include "equilibrium/block_matrix.hpp"
 
+#include "room.hpp"
+
 #include <amd.h>
 
 #include <algorithm>
@@ -148,7 +150,8 @@ void substitute(const Factor& f, double* y) {
 void BlockLU::order(std::size_t nodes, std::span<const Edge> edges) {
   const std::size_t entries = 2 * edges.size();
   const std::size_t slack = entries + entries / 2 + nodes + 1;
-  amd_.assign(9 * nodes + slack, 0);
+  resize_with_room(amd_, 9 * nodes + slack);
+  std::fill(amd_.begin(), amd_.end(), 0);
   std::int32_t* begin = amd_.data();
   std::int32_t* length = begin + nodes;
   std::int32_t* size = length + nodes;
@@ -182,6 +185,61 @@ void BlockLU::order(std::size_t nodes, std::span<const Edge> edges) {
   position_.assign(next, next + nodes);
 }
 
+// For every row of the factor the columns left of the diagonal that it reaches (Davis 2006, chapter 4:
+// paths in the elimination tree), sorted; and how many rows every column has below the diagonal.
+void BlockLU::find_reach() {
+  resize_with_room(adjacency_begin_, nodes_ + 1);
+  std::fill(adjacency_begin_.begin(), adjacency_begin_.end(), 0);
+  const auto places = [&](const Edge& edge) {
+    return std::minmax(position_[static_cast<std::size_t>(edge.first)],
+                       position_[static_cast<std::size_t>(edge.second)]);
+  };
+  for (const auto& edge : edges_) {
+    ++adjacency_begin_[static_cast<std::size_t>(std::get<1>(places(edge))) + 1];
+  }
+  for (std::size_t j = 0; j < nodes_; ++j) adjacency_begin_[j + 1] += adjacency_begin_[j];
+  resize_with_room(adjacency_, edges_.size());
+  resize_with_room(below_, nodes_);
+  std::copy_n(adjacency_begin_.begin(), nodes_, below_.begin());
+  for (const auto& edge : edges_) {
+    const auto [low, high] = places(edge);
+    adjacency_[below_[static_cast<std::size_t>(high)]++] = low;
+  }
+
+  resize_with_room(parent_, nodes_);
+  resize_with_room(ancestor_, nodes_);
+  resize_with_room(where_, nodes_);
+  resize_with_room(reach_begin_, nodes_ + 1);
+  std::fill(below_.begin(), below_.end(), 0);
+  reach_.clear();
+  for (std::size_t j = 0; j < nodes_; ++j) {
+    const auto row = static_cast<std::int32_t>(j);
+    parent_[j] = ancestor_[j] = -1;
+    where_[j] = row;  // visited by this row
+    reach_begin_[j] = reach_.size();
+    for (std::size_t k = adjacency_begin_[j]; k < adjacency_begin_[j + 1]; ++k) {
+      for (std::int32_t r = adjacency_[k]; r != -1 && r < row;) {
+        const auto at = static_cast<std::size_t>(r);
+        const std::int32_t next = ancestor_[at];
+        ancestor_[at] = row;
+        if (next == -1) parent_[at] = row;
+        r = next;
+      }
+    }
+    for (std::size_t k = adjacency_begin_[j]; k < adjacency_begin_[j + 1]; ++k) {
+      for (std::int32_t r = adjacency_[k]; where_[static_cast<std::size_t>(r)] != row;
+           r = parent_[static_cast<std::size_t>(r)]) {
+        where_[static_cast<std::size_t>(r)] = row;
+        ++below_[static_cast<std::size_t>(r)];
+        reach_.push_back(r);
+      }
+    }
+    std::sort(reach_.begin() + static_cast<std::ptrdiff_t>(reach_begin_[j]), reach_.end());
+  }
+  reach_begin_[nodes_] = reach_.size();
+  keep_room(reach_);
+}
+
 void BlockLU::analyse(const BlockMatrix& matrix) {
   if (nodes_ == matrix.nodes && components_ == matrix.components && edges_ == matrix.edges &&
       !begin_.empty()) {
@@ -189,69 +247,51 @@ void BlockLU::analyse(const BlockMatrix& matrix) {
   }
   nodes_ = matrix.nodes;
   components_ = matrix.components;
-  edges_ = matrix.edges;
+  resize_with_room(edges_, matrix.edges.size());
+  std::copy(matrix.edges.begin(), matrix.edges.end(), edges_.begin());
   order(nodes_, edges_);
 
-  // Rows below the diagonal: those of the matrix and those of the children in the elimination tree.
-  if (lower_rows_.size() < nodes_) {
-    lower_rows_.resize(nodes_);
-    adjacency_.resize(nodes_);
-  }
-  for (std::size_t q = 0; q < nodes_; ++q) {
-    lower_rows_[q].clear();
-    adjacency_[q].clear();
-  }
-  for (const auto& [p, q] : edges_) {
-    const auto [a, b] = std::minmax(position_[static_cast<std::size_t>(p)],
-                                    position_[static_cast<std::size_t>(q)]);
-    lower_rows_[static_cast<std::size_t>(a)].push_back(b);
-  }
-  std::size_t slots = nodes_;
-  for (std::size_t j = 0; j < nodes_; ++j) {
-    auto& rows = lower_rows_[j];
-    std::sort(rows.begin(), rows.end());
-    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-    for (const auto row : rows) adjacency_[static_cast<std::size_t>(row)].push_back(
-        static_cast<std::int32_t>(j));
-    slots += 2 * rows.size();
-    if (rows.empty()) continue;
-    auto& parent = lower_rows_[static_cast<std::size_t>(rows.front())];
-    parent.insert(parent.end(), rows.begin() + 1, rows.end());
-  }
-
-  begin_.resize(nodes_ + 1);
-  diagonal_.resize(nodes_);
-  rows_.resize(slots);
+  find_reach();
+  // Column j: its reach above the diagonal, and below it the rows whose reach holds j.
+  resize_with_room(begin_, nodes_ + 1);
+  resize_with_room(diagonal_, nodes_);
+  resize_with_room(rows_, nodes_ + 2 * reach_.size());
   std::size_t slot = 0;
   for (std::size_t j = 0; j < nodes_; ++j) {
     begin_[j] = slot;
-    for (const auto row : adjacency_[j]) rows_[slot++] = row;
+    for (std::size_t k = reach_begin_[j]; k < reach_begin_[j + 1]; ++k) rows_[slot++] = reach_[k];
     diagonal_[j] = slot;
     rows_[slot++] = static_cast<std::int32_t>(j);
-    for (const auto row : lower_rows_[j]) rows_[slot++] = row;
+    slot += below_[j];
+    below_[j] = diagonal_[j] + 1;  // from here on where the next row goes
   }
   begin_[nodes_] = slot;
+  for (std::size_t row = 0; row < nodes_; ++row) {
+    for (std::size_t k = reach_begin_[row]; k < reach_begin_[row + 1]; ++k) {
+      rows_[below_[static_cast<std::size_t>(reach_[k])]++] = static_cast<std::int32_t>(row);
+    }
+  }
 
   const auto slot_of = [&](std::int32_t row, std::int32_t column) {
     const auto first = rows_.begin() + static_cast<std::ptrdiff_t>(begin_[static_cast<std::size_t>(column)]);
     const auto last = rows_.begin() + static_cast<std::ptrdiff_t>(begin_[static_cast<std::size_t>(column) + 1]);
     return static_cast<std::size_t>(std::lower_bound(first, last, row) - rows_.begin());
   };
-  upper_slot_.resize(edges_.size());
-  lower_slot_.resize(edges_.size());
+  resize_with_room(upper_slot_, edges_.size());
+  resize_with_room(lower_slot_, edges_.size());
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     const auto p = position_[static_cast<std::size_t>(edges_[e].first)];
     const auto q = position_[static_cast<std::size_t>(edges_[e].second)];
     upper_slot_[e] = slot_of(p, q);
     lower_slot_[e] = slot_of(q, p);
   }
-  where_.resize(nodes_);
-  work_.resize(nodes_ * static_cast<std::size_t>(components_));
+  resize_with_room(work_, nodes_ * static_cast<std::size_t>(components_));
 }
 
 bool BlockLU::factorise(const BlockMatrix& matrix) {
   const std::size_t size = matrix.block_size();
-  values_.assign(rows_.size() * size, 0.0);
+  resize_with_room(values_, rows_.size() * size);
+  std::fill(values_.begin(), values_.end(), 0.0);
   for (std::size_t q = 0; q < nodes_; ++q) {
     const auto slot = diagonal_[static_cast<std::size_t>(position_[q])];
     std::copy_n(matrix.diagonal.data() + q * size, size, values_.data() + slot * size);

@@ -1,5 +1,7 @@
 #include "equilibrium/block_matrix.hpp"
 
+#include "room.hpp"
+
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
 
@@ -11,10 +13,11 @@ void BlockMatrix::reset(std::size_t node_count, int component_count, std::span<c
   nodes = node_count;
   components = component_count;
   stride = component_count == 3 ? 4 : component_count;
-  edges.assign(graph.begin(), graph.end());
-  diagonal.resize(nodes * block_size());
-  upper.resize(edges.size() * block_size());
-  lower.resize(edges.size() * block_size());
+  resize_with_room(edges, graph.size());
+  std::copy(graph.begin(), graph.end(), edges.begin());
+  resize_with_room(diagonal, nodes * block_size());
+  resize_with_room(upper, edges.size() * block_size());
+  resize_with_room(lower, edges.size() * block_size());
   set_zero();
 }
 

@@ -54,10 +54,12 @@ class BlockLU {
   std::vector<double> values_;                       // pivots inverted in place
   std::vector<double> work_;
   std::vector<std::int32_t> where_;
-  std::vector<std::int32_t> amd_;                    // memory of the ordering
-  std::vector<std::vector<std::int32_t>> lower_rows_, adjacency_;
+  // Memory of the analysis.
+  std::vector<std::int32_t> amd_, adjacency_, parent_, ancestor_, reach_;
+  std::vector<std::size_t> adjacency_begin_, reach_begin_, below_;
 
   void order(std::size_t nodes, std::span<const Edge> edges);
+  void find_reach();
 };
 
 // x = A^-1 b by a pivoting sparse LU (Eigen), for the rare matrix that BlockLU cannot solve. Slow and

@@ -1,6 +1,7 @@
 #include "equilibrium/increment.hpp"
 
 #include "contact/frictional.hpp"
+#include "room.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +44,8 @@ void Increment::begin(const Problem& p, const Configuration& from,
   std::fill(start.begin() + static_cast<std::ptrdiff_t>(2 * n), start.end(), 0.0);
   start_deformation = {from.deformation[0], from.deformation[1], from.deformation[2],
                        from.deformation[3]};
-  history.assign(from.contacts.begin(), from.contacts.end());
+  resize_with_room(history, from.contacts.size());
+  std::copy(from.contacts.begin(), from.contacts.end(), history.begin());
   coordinates = start;
   deformation = start_deformation;
   cell = cell_at(p, deformation);
@@ -90,6 +92,7 @@ void Increment::list_neighbours() {
                  coordinates.begin() + static_cast<std::ptrdiff_t>(2 * particles()));
   search_.find(particles(), coordinates.data(), packing.radius.data(),
                packing.frame ? nullptr : cell.data(), gap_, pairs);
+  keep_room(pairs);
   pair_weights.clear();
   if (packing.frame) problem->space->weigh(packing, pairs, pair_weights);
   build_list();
@@ -234,6 +237,7 @@ void Increment::move(std::span<const double> step, double factor) {
 void Increment::advance_history() {
   dissipated += advance_contacts(coordinates, particles(), cell, *problem->law, contacts);
   history.clear();
+  if (history.capacity() < pairs.size()) history.reserve(pairs.capacity());
   const bool tangential = problem->law->tangential();
   const auto n = particles();
   const double* x = coordinates.data();
@@ -266,7 +270,8 @@ void Increment::export_to(const Configuration& from, Configuration& to) const {
   for (std::size_t k = 2 * n; k < coordinates.size(); ++k) {
     to.coordinates[k] += from.coordinates[k];
   }
-  to.contacts.assign(history.begin(), history.end());
+  resize_with_room(to.contacts, history.size());
+  std::copy(history.begin(), history.end(), to.contacts.begin());
   to.dissipated = from.dissipated + dissipated;
 }
 

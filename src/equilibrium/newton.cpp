@@ -52,8 +52,8 @@ bool flow_newton(Increment& increment, double tolerance, int max_factorisations,
     memory.stiffness.assemble(increment, shift);
     const auto r = increment.residual();
     memory.residual.assign(r.begin(), r.end());
-    if (!memory.stiffness.factorise(increment) ||
-        !memory.stiffness.solve(memory.residual, memory.step)) {
+    memory.stiffness.factorise(increment);
+    if (!memory.stiffness.solve(increment, memory.residual, memory.step)) {
       shift = std::max(4 * shift, first_shift);
       if (shift > largest_shift) return false;
       continue;

@@ -1,5 +1,7 @@
 #include "equilibrium/sensitivity.hpp"
 
+#include "room.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -30,8 +32,9 @@ void Sensitivity::start_of_history(const Increment& increment, double start_shar
   const double* h0 = increment.problem->packing->cell.data();
   const auto& f = increment.start_deformation;
   const double* x = increment.start.data();
-  start_turn_.assign(list.size(), {});
-  start_force_.assign(list.size(), {});
+  resize_with_room(start_turn_, list.size());
+  resize_with_room(start_force_, list.size());
+  std::fill(start_force_.begin(), start_force_.end(), std::array<double, 4>{});
   std::size_t h = 0;
   for (std::size_t c = 0; c < list.size(); ++c) {
     const auto i = static_cast<std::size_t>(list.i[c]);
@@ -110,7 +113,7 @@ bool Sensitivity::solve(Increment& increment, double share, double start_share,
         if (space.fixed[q]) right_[k][q] = right_[k][nodes + q] = 0;
       }
     }
-    if (!stiffness.solve(right_[k], motion_[k])) return false;
+    if (!stiffness.solve(increment, right_[k], motion_[k])) return false;
   }
   return true;
 }
@@ -169,6 +172,7 @@ void Sensitivity::carry(const Increment& increment) {
     }
     force.push_back(value);
   }
+  keep_room(force);
   carried_motion_ = motion_;
   carried_ = true;
 }

@@ -1,6 +1,7 @@
 #include "equilibrium/stiffness.hpp"
 
 #include "contact/frictional.hpp"
+#include "room.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +14,9 @@ namespace {
 // Contacts with a smaller gap than this, in radii, are kept in the graph although they carry nothing,
 // so that it lasts while they open and close.
 constexpr double graph_gap = 1e-3;
-// Holds rattlers and the translation of the cell, relative to a contact's stiffness.
-constexpr double grounding = 1e-12;
+// Holds rattlers and the translation of the cell in the factors, relative to the masses; refinement
+// takes it out of the solution again.
+constexpr double grounding = 1e-9;
 
 std::array<double, 9> product(const std::array<double, 9>& a, const std::array<double, 9>& b) {
   std::array<double, 9> c{};
@@ -50,7 +52,8 @@ void Stiffness::find_graph(const Increment& increment) {
   const auto& list = increment.contacts;
   const auto& node = increment.problem->space->node;
   pairs_.clear();
-  edge_of_contact_.assign(list.size(), -2);
+  resize_with_room(edge_of_contact_, list.size());
+  std::fill(edge_of_contact_.begin(), edge_of_contact_.end(), -2);
   for (std::size_t c = 0; c < list.size(); ++c) {
     if (branch_length(increment, c) > (1 + 0.5 * graph_gap) * list.reach[c]) continue;
     const auto [a, b] = std::minmax(node[static_cast<std::size_t>(list.i[c])],
@@ -58,12 +61,14 @@ void Stiffness::find_graph(const Increment& increment) {
     edge_of_contact_[c] = -1;  // a node with itself
     if (a != b) pairs_.push_back({{a, b}, static_cast<std::int32_t>(c)});
   }
+  keep_room(pairs_);
   std::sort(pairs_.begin(), pairs_.end());
   graph_.clear();
   for (const auto& [edge, c] : pairs_) {
     if (graph_.empty() || graph_.back() != edge) graph_.push_back(edge);
     edge_of_contact_[static_cast<std::size_t>(c)] = static_cast<std::int32_t>(graph_.size()) - 1;
   }
+  keep_room(graph_);
   matrix_.reset(increment.nodes(), increment.problem->components(), graph_);
 }
 
@@ -111,12 +116,7 @@ void Stiffness::assemble(const Increment& increment, double shift) {
     subtract(ji, product(map.force_j, by_i));
   }
 
-  for (std::size_t q = 0; q < nodes; ++q) {
-    double* block = matrix_.diagonal.data() + q * size;
-    for (std::size_t k = 0; k < b; ++k) {
-      block[k * s + k] += (shift + grounding) * increment.mass[k * nodes + q];
-    }
-  }
+  add_masses(increment, shift);
   if (space.identity) return;
   const auto clear = [&](double* block, bool rows) {
     for (std::size_t k = 0; k < 2; ++k) {
@@ -142,17 +142,30 @@ void Stiffness::assemble(const Increment& increment, double shift) {
   }
 }
 
-bool Stiffness::factorise(Increment& increment) {
-  ++increment.factorisations;
-  lu_.analyse(matrix_);
-  factorised_ = lu_.factorise(matrix_);
-  check_.resize(increment.unknowns());
-  correction_.resize(increment.unknowns());
-  return true;
+void Stiffness::add_masses(const Increment& increment, double factor) {
+  const auto nodes = increment.nodes();
+  const auto b = static_cast<std::size_t>(matrix_.components);
+  const auto s = static_cast<std::size_t>(matrix_.stride);
+  for (std::size_t q = 0; q < nodes; ++q) {
+    double* block = matrix_.diagonal.data() + q * matrix_.block_size();
+    for (std::size_t k = 0; k < b; ++k) {
+      block[k * s + k] += factor * increment.mass[k * nodes + q];
+    }
+  }
 }
 
-bool Stiffness::solve(std::span<const double> b, std::span<double> x) {
-  constexpr double good = 1e-10;
+void Stiffness::factorise(Increment& increment) {
+  ++increment.factorisations;
+  lu_.analyse(matrix_);
+  add_masses(increment, grounding);
+  factorised_ = lu_.factorise(matrix_);
+  add_masses(increment, -grounding);
+  check_.resize(increment.unknowns());
+  correction_.resize(increment.unknowns());
+}
+
+bool Stiffness::solve(const Increment& increment, std::span<const double> b, std::span<double> x) {
+  constexpr double good = 1e-12;
   constexpr double usable = 1e-6;
   double scale = std::numeric_limits<double>::min();
   for (const double value : b) scale = std::max(scale, std::abs(value));
@@ -170,15 +183,18 @@ bool Stiffness::solve(std::span<const double> b, std::span<double> x) {
   if (factorised_) {
     lu_.solve(b, x);
     double error = defect();
-    if (error <= good) return true;
-    if (std::isfinite(error)) {
+    for (double last = 4 * error; error > good && error < 0.5 * last;) {
       lu_.solve(check_, correction_);
       for (std::size_t k = 0; k < x.size(); ++k) x[k] += correction_[k];
+      last = error;
       error = defect();
-      if (error <= usable) return true;
     }
+    if (error <= usable) return true;
   }
-  return solve_with_pivoting(matrix_, b, x) && defect() <= usable;
+  add_masses(increment, grounding);
+  const bool solved = solve_with_pivoting(matrix_, b, x);
+  add_masses(increment, -grounding);
+  return solved && defect() <= usable;
 }
 
 }  // namespace grainlaw

@@ -16,16 +16,17 @@ class Stiffness {
   // are the identity. Forgotten by the next call.
   void assemble(const Increment& increment, double shift);
 
-  // Factorise what was assembled. False when neither factorisation can.
-  bool factorise(Increment& increment);
+  // Factorise what was assembled.
+  void factorise(Increment& increment);
 
-  // x = K^-1 b, refined once when needed. False when the matrix is singular to working precision.
-  bool solve(std::span<const double> b, std::span<double> x);
+  // x = K^-1 b, refined while that helps; by pivoting LU when it does not. False when the matrix is singular to working precision.
+  bool solve(const Increment& increment, std::span<const double> b, std::span<double> x);
 
   [[nodiscard]] const BlockMatrix& matrix() const { return matrix_; }
 
  private:
   void find_graph(const Increment& increment);
+  void add_masses(const Increment& increment, double factor);
 
   BlockMatrix matrix_;
   BlockLU lu_;

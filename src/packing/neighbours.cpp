@@ -1,6 +1,7 @@
 #include "packing/neighbours.hpp"
 
 #include "error.hpp"
+#include "room.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -136,10 +137,11 @@ void NeighbourSearch::fill_bins(const Grid& grid, std::size_t n, const double* p
   const auto bins =
       static_cast<std::size_t>(grid.padded(0)) * static_cast<std::size_t>(grid.padded(1));
   // bin_end_[b + 1] is first the start of bin b, and its end when all entries are placed.
-  bin_end_.assign(bins + 2, 0);
+  resize_with_room(bin_end_, bins + 2);
+  std::fill(bin_end_.begin(), bin_end_.end(), 0);
   for_images([&](std::size_t, std::int32_t, std::int32_t, std::size_t b) { ++bin_end_[b + 2]; });
   for (std::size_t b = 0; b < bins; ++b) bin_end_[b + 2] += bin_end_[b + 1];
-  entry_.resize(bin_end_[bins + 1]);
+  resize_with_room(entry_, bin_end_[bins + 1]);
   for_images([&](std::size_t p, std::int32_t q0, std::int32_t q1, std::size_t b) {
     const Home& home = home_[p];
     const auto a0 = static_cast<double>(q0);
@@ -157,7 +159,7 @@ void NeighbourSearch::find(std::size_t n, const double* position, const double* 
   if (n == 0) return;
   const Grid grid = make_grid(n, position, radius, cell, gap);
   fill_bins(grid, n, position, radius);
-  hit_.resize(entry_.size() + 1);
+  resize_with_room(hit_, entry_.size() + 1);
 
   for (std::size_t i = 0; i < n; ++i) {
     const Home& home = home_[i];

@@ -1,4 +1,5 @@
-// After warm-up an evaluation allocates nothing. A program of its own: it counts every operator new.
+// After warm-up an evaluation allocates nothing. A program of its own: it counts every operator
+// new.
 #include "support.hpp"
 
 #include <cstdlib>
@@ -12,8 +13,8 @@ long count = 0;
 void* allocate(std::size_t size, std::size_t alignment) {
   if (counting) ++count;
   void* memory = alignment == 0 ? std::malloc(size)
-                                : std::aligned_alloc(alignment, (size + alignment - 1) / alignment *
-                                                                    alignment);
+                                : std::aligned_alloc(
+                                      alignment, (size + alignment - 1) / alignment * alignment);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
@@ -42,7 +43,9 @@ namespace {
 
 constexpr double strain = 2e-4;
 
-Tensor after(int increments) { return {1 + 0.4 * strain * increments, 0, 0, 1 - strain * increments}; }
+Tensor after(int increments) {
+  return {1 + 0.4 * strain * increments, 0, 0, 1 - strain * increments};
+}
 
 // Allocations of every evaluation of `increments`, committed one after the other.
 std::vector<long> allocations(State& state, TangentKind kind, int first, int last) {

@@ -1,8 +1,8 @@
 // The block factorisation against a dense one, on random matrices over random planar graphs.
 #include "equilibrium/block_matrix.hpp"
 
-#include <Eigen/Dense>
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -52,8 +52,8 @@ void fill(BlockMatrix& matrix, std::mt19937& random) {
 Eigen::MatrixXd dense(const BlockMatrix& matrix) {
   const auto nodes = static_cast<Eigen::Index>(matrix.nodes);
   const auto size = static_cast<std::ptrdiff_t>(matrix.block_size());
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(matrix.components * nodes,
-                                                 matrix.components * nodes);
+  Eigen::MatrixXd result =
+      Eigen::MatrixXd::Zero(matrix.components * nodes, matrix.components * nodes);
   const auto add = [&](const std::vector<double>& blocks, std::ptrdiff_t place, Eigen::Index row,
                        Eigen::Index column) {
     for (int c = 0; c < matrix.components; ++c) {
@@ -80,8 +80,7 @@ std::vector<double> random_vector(std::size_t size, std::mt19937& random) {
 }
 
 Eigen::VectorXd as_eigen(const std::vector<double>& values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.data(),
-                                           static_cast<Eigen::Index>(values.size()));
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
 void expect_solution(const BlockMatrix& matrix, const std::vector<double>& b,

@@ -37,7 +37,8 @@ struct Contact {
     const std::vector<ContactHistory> history{{0, 1, {}, false, committed_force}};
     build_contacts(pairs, {}, radius, law(), {start, cell, history}, list);
     const double angle = std::atan2(2.3, 3.1) + turn;
-    z = {0.1,  0.1 + (4 - overlap) * std::cos(angle), -0.2, -0.2 + (4 - overlap) * std::sin(angle),
+    z = {0.1,   0.1 + (4 - overlap) * std::cos(angle),
+         -0.2,  -0.2 + (4 - overlap) * std::sin(angle),
          0.205, -0.103};
   }
   [[nodiscard]] ContactPoint point() const { return contact_point(list, 0, z, 2, cell, law()); }
@@ -71,8 +72,8 @@ Matrix3 differences(const Contact& contact, double step) {
       other.z[5] += by / 0.75;  // lambda_j
     }
     const Forces f = forces(other);
-    return std::array{f.x * at.normal_x + f.y * at.normal_y,
-                      -f.x * at.normal_y + f.y * at.normal_x, f.couple};
+    return std::array{f.x * at.normal_x + f.y * at.normal_y, -f.x * at.normal_y + f.y * at.normal_x,
+                      f.couple};
   };
   Matrix3 result{};
   for (std::size_t column = 0; column < 3; ++column) {

@@ -1,4 +1,5 @@
-// A frame that is cut from a periodic packing, its contacts weighted by their copies, is that packing.
+// A frame that is cut from a periodic packing, its contacts weighted by their copies, is that
+// packing.
 #include "support.hpp"
 
 namespace grainlaw::test {
@@ -18,8 +19,8 @@ Tensor stress_of(const State& state) {
 }
 
 TEST(frame_periodic, stress_is_that_of_the_cell_along_a_path) {
-  // Where rattlers lie between the others is not determined: cell and frame agree as long as none of
-  // them comes to bear, as in this packing.
+  // Where rattlers lie between the others is not determined: cell and frame agree as long as none
+  // of them comes to bear, as in this packing.
   const auto& packing = small_packing(80, 2);
   for (const auto& law : {rough_law(), locked_law(), smooth_law()}) {
     State cell(make_material(describe(packing, law, BoundaryType::periodic_cell, tolerance)));
@@ -39,11 +40,10 @@ TEST(frame_periodic, measures_are_those_of_the_cell) {
   State cell(make_material(
       describe(reference_packing(), rough_law(), BoundaryType::periodic_cell, tolerance)));
   State frame(make_material(framed(reference_packing(), rough_law(), ContactWeight::copies)));
-  for (const auto what :
-       {GRAINLAW_VOLUME, GRAINLAW_VOID_RATIO, GRAINLAW_COORDINATION,
-        GRAINLAW_COORDINATION_NO_RATTLERS, GRAINLAW_ANISOTROPY, GRAINLAW_FABRIC_INTENSITY,
-        GRAINLAW_MEAN_OVERLAP, GRAINLAW_ELASTIC_ENERGY, GRAINLAW_CONTACTS, GRAINLAW_PARTICLES,
-        GRAINLAW_REFERENCE_VOLUME}) {
+  for (const auto what : {GRAINLAW_VOLUME, GRAINLAW_VOID_RATIO, GRAINLAW_COORDINATION,
+                          GRAINLAW_COORDINATION_NO_RATTLERS, GRAINLAW_ANISOTROPY,
+                          GRAINLAW_FABRIC_INTENSITY, GRAINLAW_MEAN_OVERLAP, GRAINLAW_ELASTIC_ENERGY,
+                          GRAINLAW_CONTACTS, GRAINLAW_PARTICLES, GRAINLAW_REFERENCE_VOLUME}) {
     const double expected = measure(cell, what);
     EXPECT_NEAR(measure(frame, what), expected, 1e-9 * std::abs(expected)) << what;
   }
@@ -70,8 +70,7 @@ TEST(frame_periodic, weight_one_starts_at_another_stress) {
 
 TEST(frame_periodic, cell_after_a_frame_in_the_same_thread_is_the_cell) {
   const auto cell = make_material(describe(small_packing(), rough_law()));
-  const auto frame =
-      make_material(framed(small_packing(), rough_law(), ContactWeight::copies));
+  const auto frame = make_material(framed(small_packing(), rough_law(), ContactWeight::copies));
   const Tensor F{1.0003, 0, 0, 0.999};
   State before(cell);
   const Tensor expected = evaluate(before, F).stress;

@@ -284,8 +284,8 @@ TEST(frictional_contact, opening_dissipates_what_the_spring_held) {
 }
 
 TEST(frictional_contact, unloading_below_the_limit_dissipates_as_much_as_opening) {
-  // The overlap falls until the limit is next to nothing: whether the contact then counts as open is
-  // a matter of rounding, and must not matter to the energy.
+  // The overlap falls until the limit is next to nothing: whether the contact then counts as open
+  // is a matter of rounding, and must not matter to the energy.
   Discs discs = pair(rough(), 20);
   discs.x(1) = 4 - 1e-14;
   EXPECT_NEAR(discs.advance(), 0.5 * 20 * 20 / kt, 1e-9);

@@ -1,5 +1,5 @@
-// Hill-Mandel: the converged forces do the work P : dF on every admissible variation, and on a frame
-// the forces of the boundary particles make the same stress.
+// Hill-Mandel: the converged forces do the work P : dF on every admissible variation, and on a
+// frame the forces of the boundary particles make the same stress.
 #include "support.hpp"
 
 #include <random>
@@ -25,9 +25,8 @@ std::vector<MaterialDescription> descriptions(BoundaryType boundary) {
 template <class Visit>
 void at_equilibria(const MaterialDescription& description, Visit&& visit) {
   State state(make_material(description));
-  const Tensor path[] = {{1.001, 2e-4, -1e-4, 0.998},
-                         {1.001, 0.003, 0.001, 0.997},
-                         {0.999, 0.003, 0.002, 0.998}};
+  const Tensor path[] = {
+      {1.001, 2e-4, -1e-4, 0.998}, {1.001, 0.003, 0.001, 0.997}, {0.999, 0.003, 0.002, 0.998}};
   for (const Tensor& F : path) {
     const Tensor turned = product(rotation(0.3), F);
     advance(state, turned);
@@ -206,8 +205,8 @@ TEST(hill_mandel, boundary_particles_average_to_the_deformation) {  // eqs. 1-2
                     const auto p = static_cast<std::size_t>(frame.boundary[q]);
                     for (std::size_t i = 0; i < 2; ++i) {
                       for (std::size_t j = 0; j < 2; ++j) {
-                        mean[2 * i + j] += x[i * packing.size() + p] * frame.area[q][j] /
-                                           polygon_area(packing);
+                        mean[2 * i + j] +=
+                            x[i * packing.size() + p] * frame.area[q][j] / polygon_area(packing);
                       }
                     }
                   }

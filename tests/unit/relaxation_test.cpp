@@ -1,4 +1,5 @@
-// Ways to equilibrium lead to the same one; failure leaves the committed state alone; energy balances.
+// Ways to equilibrium lead to the same one; failure leaves the committed state alone; energy
+// balances.
 #include "equilibrium/chain.hpp"
 #include "homogenise/stress.hpp"
 #include "support.hpp"
@@ -90,7 +91,8 @@ TEST(relaxation, every_way_reaches_the_same_equilibrium_without_slip) {
       const Tensor stress = stress_by(named, *material, elastic_increment);
       EXPECT_LE(relative_difference(stress, chain.stress), 1e-8) << named.name;
     }
-    // The tangential displacement is summed along the way: the same to second order in the increment.
+    // The tangential displacement is summed along the way: the same to second order in the
+    // increment.
     for (const Named& named : ways_of_advancing_history()) {
       const Tensor stress = stress_by(named, *material, elastic_increment);
       EXPECT_LE(relative_difference(stress, chain.stress), 1e-5) << named.name;

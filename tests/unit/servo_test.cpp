@@ -46,13 +46,11 @@ double difference(double inheritance, int increments) {
 
 TEST(servo, meets_the_direct_relaxation) { EXPECT_LE(difference(1, 4), 1e-3); }
 
-TEST(servo, meets_it_more_closely_with_smaller_increments) {
-  EXPECT_LE(difference(1, 16), 3e-4);
-}
+TEST(servo, meets_it_more_closely_with_smaller_increments) { EXPECT_LE(difference(1, 16), 3e-4); }
 
 TEST(servo, without_inheritance_stays_off_by_the_friction_of_starting_over) {
-  // Every increment puts the boundary back to F X and slides it to its fluctuation again; the history
-  // keeps what slid on the way, whatever the increment.
+  // Every increment puts the boundary back to F X and slides it to its fluctuation again; the
+  // history keeps what slid on the way, whatever the increment.
   const double coarse = difference(0, 4);
   EXPECT_LE(coarse, 1e-2);
   EXPECT_GT(coarse, 5e-3);

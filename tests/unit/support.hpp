@@ -133,8 +133,8 @@ struct Evaluation {
 
 inline Evaluation evaluate(State& state, const Tensor& F, TangentKind kind = TangentKind::none) {
   Evaluation result;
-  result.status = state.evaluate(F.data(), kind, result.stress.data(), result.tangent.data(),
-                                 result.report);
+  result.status =
+      state.evaluate(F.data(), kind, result.stress.data(), result.tangent.data(), result.report);
   return result;
 }
 
@@ -172,8 +172,8 @@ inline bool same_bits(const Configuration& a, const Configuration& b) {
     return c.i == d.i && c.j == d.j && c.shift == d.shift && c.sliding == d.sliding &&
            c.tangential_force == d.tangential_force;
   };
-  return a.deformation == b.deformation && a.coordinates == b.coordinates &&
-         a.stress == b.stress && a.dissipated == b.dissipated &&
+  return a.deformation == b.deformation && a.coordinates == b.coordinates && a.stress == b.stress &&
+         a.dissipated == b.dissipated &&
          std::equal(a.contacts.begin(), a.contacts.end(), b.contacts.begin(), b.contacts.end(),
                     same_contact);
 }

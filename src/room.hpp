@@ -1,0 +1,23 @@
+// Vectors that are sized once: what is reused from call to call soon allocates no more.
+#pragma once
+
+#include <cstddef>
+
+namespace grainlaw {
+
+// Resize, and when the vector has to grow leave room for as much as such sizes vary.
+template <class Vector>
+void resize_with_room(Vector& vector, std::size_t size) {
+  if (vector.capacity() < size) vector.reserve(size + size / 2);
+  vector.resize(size);
+}
+
+// The same for a vector that was filled one by one.
+template <class Vector>
+void keep_room(Vector& vector) {
+  if (vector.capacity() < vector.size() + vector.size() / 4) {
+    vector.reserve(vector.size() + vector.size() / 2);
+  }
+}
+
+}  // namespace grainlaw
