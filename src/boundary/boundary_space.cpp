@@ -2,6 +2,7 @@
 
 #include "error.hpp"
 #include "packing/frame.hpp"
+#include "room.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +57,8 @@ BoundarySpace make_boundary_space(const Packing& packing, const BoundaryOptions&
 
 void BoundarySpace::weigh(const Packing& packing, std::span<const NeighbourPair> pairs,
                           std::vector<double>& weights) const {
-  weights.assign(pairs.size(), 1.0);
+  resize_with_room(weights, pairs.size());
+  std::fill(weights.begin(), weights.end(), 1.0);
   if (options.weight == ContactWeight::one) return;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     weights[c] = 1.0 / contact_copies(*packing.frame, pairs[c].i, pairs[c].j);

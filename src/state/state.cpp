@@ -119,7 +119,13 @@ grainlaw_status perturb(Request request, Workspace& w, std::array<double, 16>& t
 }  // namespace
 
 State::State(std::shared_ptr<const Material> material)
-    : material_(std::move(material)), committed_(material_->initial) {}
+    : material_(std::move(material)), committed_(material_->initial) {
+  // The two take turns, and contacts come and go.
+  for (auto* configuration : {&committed_, &trial_}) {
+    configuration->contacts.reserve(material_->initial.contacts.size() * 5 / 4);
+    configuration->coordinates.reserve(material_->initial.coordinates.size());
+  }
+}
 
 bool State::commit() {
   if (!has_trial_) return false;

@@ -86,7 +86,7 @@ TEST(tangent, with_locked_rotation_matches_central_differences) {
 
 TEST(tangent, without_friction_matches_central_differences) {
   // Softer and less linear than with friction: the error of larger stencils is their own.
-  expect_derivative_along(describe(small_packing(), smooth_law()), {2e-7, 1e-7});
+  expect_derivative_along(describe(small_packing(), smooth_law()), {5e-8, 2e-8});
 }
 
 TEST(tangent, of_the_reference_packing_matches_central_differences) {
