@@ -53,11 +53,9 @@ void start_iteration(const Request& request, double share, Increment& increment)
   }
 }
 
-enum class Relaxation { viscous, fire };
-
 // One sub-increment: relaxation, then Newton; when Newton does not get there, both again from where
 // they are, the relaxation ten times tighter.
-bool solve_part(const Request& request, Relaxation kind, Workspace& w) {
+bool solve_part(const Request& request, Workspace& w) {
   constexpr int rounds = 3;
   constexpr int most_factorisations = 50;  // cost about as much as a round's relaxation
   auto& increment = w.increment;
@@ -67,10 +65,7 @@ bool solve_part(const Request& request, Relaxation kind, Workspace& w) {
   double hand_over = switch_tolerance(increment.nodes());
   for (int round = 0; round < rounds; ++round, hand_over *= 0.1) {
     const double tolerance = std::max(hand_over, target);
-    const bool relaxed =
-        kind == Relaxation::fire
-            ? relax_fire(increment, tolerance, limit, w.relaxation)
-            : relax(increment, tolerance, limit, History::committed, w.relaxation);
+    const bool relaxed = relax(increment, tolerance, limit, History::committed, w.relaxation);
     if (increment.touching == 0) return false;
     if (relaxed && tolerance == target) return true;
     if (flow_newton(increment, target, most_factorisations, w.newton)) return true;
@@ -78,8 +73,7 @@ bool solve_part(const Request& request, Relaxation kind, Workspace& w) {
   return false;
 }
 
-bool solve_parts(const Request& request, int parts, Relaxation kind, Workspace& w,
-                 Outcome& outcome) {
+bool solve_parts(const Request& request, int parts, Workspace& w, Outcome& outcome) {
   auto& increment = w.increment;
   w.sensitivity.reset();
   outcome.subincrements = parts;
@@ -91,7 +85,7 @@ bool solve_parts(const Request& request, int parts, Relaxation kind, Workspace& 
     } else {
       increment.deform(between(request.from->deformation, request.deformation, share));
     }
-    if (!solve_part(request, kind, w)) return false;
+    if (!solve_part(request, w)) return false;
     if (outcome.sensitivities) {
       const double start = static_cast<double>(k - 1) / parts;
       outcome.sensitivities = w.sensitivity.solve(increment, share, start, w.newton.stiffness);
@@ -152,13 +146,9 @@ Outcome solve(const Request& request, Workspace& w) {
     if (request.options->method != Method::chain) {
       return attempt(solve_advancing(request, request.options->method, w, outcome));
     }
-    for (const auto kind : {Relaxation::viscous, Relaxation::fire}) {
-      if (attempt(solve_parts(request, parts, kind, w, outcome))) return true;
-      if (w.increment.touching == 0) return false;
-    }
-    for (const int refinement : {2, 4, 8}) {
+    for (const int refinement : {1, 2, 4, 8}) {
       if (parts * refinement > most_subincrements) break;
-      if (attempt(solve_parts(request, parts * refinement, Relaxation::viscous, w, outcome))) return true;
+      if (attempt(solve_parts(request, parts * refinement, w, outcome))) return true;
       if (w.increment.touching == 0) return false;
     }
     return attempt(solve_advancing(request, Method::advancing, w, outcome));

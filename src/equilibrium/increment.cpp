@@ -142,9 +142,24 @@ void Increment::project() {
   }
 }
 
+double Increment::overlap(std::size_t c) const {
+  const auto n = particles();
+  const auto p = static_cast<std::size_t>(contacts.i[c]);
+  const auto q = static_cast<std::size_t>(contacts.j[c]);
+  const double* x = coordinates.data();
+  const double lx = x[q] - x[p] + cell[0] * contacts.shift_x[c] + cell[1] * contacts.shift_y[c];
+  const double ly =
+      x[n + q] - x[n + p] + cell[2] * contacts.shift_x[c] + cell[3] * contacts.shift_y[c];
+  return contacts.reach[c] - std::sqrt(lx * lx + ly * ly);
+}
+
+bool Increment::carries(std::size_t c) const {
+  const double chance = std::max(problem->tolerance * relative_scale(), rounding_force_);
+  return overlap(c) * contacts.normal_stiffness[c] > 10 * chance;
+}
+
 void Increment::refresh_masses() {
   constexpr double factor = 0.8;
-  const auto n = particles();
   const auto m = nodes();
   const auto& law = *problem->law;
   const auto& space = *problem->space;
@@ -152,30 +167,25 @@ void Increment::refresh_masses() {
   std::fill(mass.begin(), mass.end(), 0.0);
   double* translation = mass.data();
   double* rotation = rotating ? translation + 2 * m : nullptr;
-  const double* x = coordinates.data();
-  const double* y = x + n;
   double sum = 0;
   double weights = 0;
   touching = 0;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const auto p = static_cast<std::size_t>(contacts.i[c]);
-    const auto q = static_cast<std::size_t>(contacts.j[c]);
-    const double lx =
-        x[q] - x[p] + cell[0] * contacts.shift_x[c] + cell[1] * contacts.shift_y[c];
-    const double ly =
-        y[q] - y[p] + cell[2] * contacts.shift_x[c] + cell[3] * contacts.shift_y[c];
-    const double d2 = lx * lx + ly * ly;
-    if (d2 >= contacts.reach[c] * contacts.reach[c]) continue;
+    const double depth = overlap(c);
+    if (depth <= 0) continue;
     ++touching;
     const double kn = contacts.normal_stiffness[c];
-    sum += kn * (contacts.reach[c] - std::sqrt(d2));
+    sum += kn * depth;
     weights += contacts.weight_of(c);
+    const auto p = static_cast<std::size_t>(contacts.i[c]);
+    const auto q = static_cast<std::size_t>(contacts.j[c]);
     const auto a = static_cast<std::size_t>(space.node[p]);
     const auto b = static_cast<std::size_t>(space.node[q]);
     translation[a] += kn;
     translation[b] += kn;
     if (rotating) {
-      const double turning = contacts.tangential_stiffness[c] * d2;
+      const double distance = contacts.reach[c] - depth;
+      const double turning = contacts.tangential_stiffness[c] * distance * distance;
       rotation[a] += contacts.lever_i[c] * turning;
       rotation[b] += (1 - contacts.lever_i[c]) * turning;
     }
@@ -239,19 +249,9 @@ void Increment::advance_history() {
   history.clear();
   if (history.capacity() < pairs.size()) history.reserve(pairs.capacity());
   const bool tangential = problem->law->tangential();
-  const auto n = particles();
-  const double* x = coordinates.data();
-  const double* y = x + n;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const auto p = static_cast<std::size_t>(contacts.i[c]);
-    const auto q = static_cast<std::size_t>(contacts.j[c]);
-    const double lx =
-        x[q] - x[p] + cell[0] * contacts.shift_x[c] + cell[1] * contacts.shift_y[c];
-    const double ly =
-        y[q] - y[p] + cell[2] * contacts.shift_x[c] + cell[3] * contacts.shift_y[c];
-    const double normal_force =
-        contacts.normal_stiffness[c] * (contacts.reach[c] - std::sqrt(lx * lx + ly * ly));
-    if (!carries(normal_force)) continue;
+    if (!carries(c)) continue;
+    const double normal_force = overlap(c) * contacts.normal_stiffness[c];
     const double force = tangential ? contacts.start_force[c] : 0.0;
     const double bound = problem->law->friction * normal_force;
     history.push_back({contacts.i[c], contacts.j[c], pairs[c].shift,

@@ -61,11 +61,12 @@ class Increment {
   // Make the present coordinates the start of the history; sums up the dissipated energy.
   void advance_history();
 
+  // Overlap of a listed contact, negative across a gap [m].
+  [[nodiscard]] double overlap(std::size_t c) const;
+
   // Whether a contact counts. Rattlers touch their cage with forces of about the residual, or not, by
   // chance; ten times as much is no chance.
-  [[nodiscard]] bool carries(double normal_force) const {
-    return normal_force > 10 * std::max(problem->tolerance * relative_scale(), rounding_force_);
-  }
+  [[nodiscard]] bool carries(std::size_t c) const;
 
   // Put contacts, coordinates and dissipation into `to`, rotations added to those of `from`.
   void export_to(const Configuration& from, Configuration& to) const;

@@ -22,9 +22,6 @@ struct PublishedOptions;
 bool relax(Increment& increment, double tolerance, long max_steps, History history,
            RelaxationMemory& memory);
 
-// FIRE (Bitzek et al. 2006): inertial relaxation that stops when it runs uphill.
-bool relax_fire(Increment& increment, double tolerance, long max_steps, RelaxationMemory& memory);
-
 // The papers' dynamic relaxation: physical masses, local damping -alpha |f| sign(v) (Liu, Bosco &
 // Suiker 2017 eq. 10), explicit steps, history advanced at every step. Ends at the residual tolerance
 // or, when energy_tolerance > 0, at Ek/Ep <= tolE (eq. 11) once Ek has fallen. `frozen` marks nodes

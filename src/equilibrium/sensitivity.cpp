@@ -165,7 +165,7 @@ void Sensitivity::carry(const Increment& increment) {
   for (std::size_t c = 0; c < list.size(); ++c) {
     const auto point = contact_point(list, c, increment.coordinates, increment.particles(),
                                      increment.cell, *increment.problem->law);
-    if (!increment.carries(point.normal_force)) continue;
+    if (!increment.carries(c)) continue;
     std::array<double, 4> value{};
     for (std::size_t k = 0; k < 4; ++k) {
       value[k] = change(increment, c, point, k).tangential_force / list.weight_of(c);

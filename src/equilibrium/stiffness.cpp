@@ -28,17 +28,6 @@ std::array<double, 9> product(const std::array<double, 9>& a, const std::array<d
   return c;
 }
 
-double branch_length(const Increment& increment, std::size_t c) {
-  const auto& list = increment.contacts;
-  const auto n = increment.particles();
-  const double* x = increment.coordinates.data();
-  const auto p = static_cast<std::size_t>(list.i[c]);
-  const auto q = static_cast<std::size_t>(list.j[c]);
-  const auto& h = increment.cell;
-  return std::hypot(x[q] - x[p] + h[0] * list.shift_x[c] + h[1] * list.shift_y[c],
-                    x[n + q] - x[n + p] + h[2] * list.shift_x[c] + h[3] * list.shift_y[c]);
-}
-
 }  // namespace
 
 ContactMap contact_map(double nx, double ny, double lever) {
@@ -55,7 +44,7 @@ void Stiffness::find_graph(const Increment& increment) {
   resize_with_room(edge_of_contact_, list.size());
   std::fill(edge_of_contact_.begin(), edge_of_contact_.end(), -2);
   for (std::size_t c = 0; c < list.size(); ++c) {
-    if (branch_length(increment, c) > (1 + 0.5 * graph_gap) * list.reach[c]) continue;
+    if (increment.overlap(c) < -0.5 * graph_gap * list.reach[c]) continue;
     const auto [a, b] = std::minmax(node[static_cast<std::size_t>(list.i[c])],
                                     node[static_cast<std::size_t>(list.j[c])]);
     edge_of_contact_[c] = -1;  // a node with itself

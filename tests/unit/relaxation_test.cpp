@@ -26,10 +26,6 @@ const std::vector<Named>& ways_of_committed_history() {
        [](Increment& increment, double tolerance) {
          return relax(increment, tolerance, step_limit, History::committed, memory);
        }},
-      {"FIRE",
-       [](Increment& increment, double tolerance) {
-         return relax_fire(increment, tolerance, step_limit, memory);
-       }},
       {"viscous, then Newton", [](Increment& increment, double tolerance) {
          return relax(increment, 1e-4, step_limit, History::committed, memory) &&
                 flow_newton(increment, tolerance, 50, newton);
