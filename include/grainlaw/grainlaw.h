@@ -6,14 +6,14 @@
  *
  * Conventions, for every function below:
  *   - dim is 2 or 3 (grainlaw_material_dimension). Tensors are row-major: F[i*dim+J] = dx_i/dX_J.
- *   - SI units throughout. Stress in Pa, tension positive. A 2D packing has an out-of-plane thickness;
- *     it is plane strain with F33 = 1 and P33 = 0.
- *   - Every function that can fail returns a grainlaw_status. 0: done. > 0: recoverable, the state is
- *     as it was committed, retry with a smaller step. < 0: caller error or internal fault, and what is
- *     committed has not changed.
+ *   - SI units throughout. Stress in Pa, tension positive. A 2D packing has an out-of-plane
+ * thickness; it is plane strain with F33 = 1 and P33 = 0.
+ *   - Every function that can fail returns a grainlaw_status. 0: done. > 0: recoverable, the state
+ * is as it was committed, retry with a smaller step. < 0: caller error or internal fault, and what
+ * is committed has not changed.
  *   - No exception, exit, abort or print crosses this boundary, and no signal is raised.
- *   - A handle may be used by one thread at a time; different states, also of one material, may be used
- *     by different threads at once. Results do not depend on the number of threads, bit for bit.
+ *   - A handle may be used by one thread at a time; different states, also of one material, may be
+ * used by different threads at once. Results do not depend on the number of threads, bit for bit.
  */
 #ifndef GRAINLAW_GRAINLAW_H
 #define GRAINLAW_GRAINLAW_H
@@ -64,10 +64,10 @@ typedef enum grainlaw_status {
 } grainlaw_status;
 
 /* English text of a status; never null, also for a value that is not in the list. */
-GRAINLAW_API const char *grainlaw_status_text(grainlaw_status);
+GRAINLAW_API const char* grainlaw_status_text(grainlaw_status);
 
 /* Version of the linked library, "major.minor.patch". */
-GRAINLAW_API const char *grainlaw_version(void);
+GRAINLAW_API const char* grainlaw_version(void);
 
 /* Immutable after creation; shared by any number of states and threads. */
 typedef struct grainlaw_material grainlaw_material;
@@ -82,33 +82,33 @@ typedef struct grainlaw_state grainlaw_state;
  * something is wrong, truncated to message_size bytes; it is set to "" on success.
  * Errors: NULL_POINTER, FILE_ERROR, BAD_MATERIAL, BAD_PACKING, NOT_CONVERGED (no equilibrium at
  * F = I), CONTACTS_LOST, OUT_OF_MEMORY. On any error *out is NULL. */
-GRAINLAW_API grainlaw_status grainlaw_material_load(const char *path, grainlaw_material **out,
-                                                    char *message, size_t message_size);
+GRAINLAW_API grainlaw_status grainlaw_material_load(const char* path, grainlaw_material** out,
+                                                    char* message, size_t message_size);
 
-/* The same from text in memory; base_directory (NULL: the working directory) is where relative paths
- * start, and stands for the file's name in messages. */
-GRAINLAW_API grainlaw_status grainlaw_material_parse(const char *toml_text,
-                                                     const char *base_directory,
-                                                     grainlaw_material **out, char *message,
+/* The same from text in memory; base_directory (NULL: the working directory) is where relative
+ * paths start, and stands for the file's name in messages. */
+GRAINLAW_API grainlaw_status grainlaw_material_parse(const char* toml_text,
+                                                     const char* base_directory,
+                                                     grainlaw_material** out, char* message,
                                                      size_t message_size);
 
 /* 2 or 3; 0 for a null or dead handle. */
-GRAINLAW_API int grainlaw_material_dimension(const grainlaw_material *);
+GRAINLAW_API int grainlaw_material_dimension(const grainlaw_material*);
 
 /* Release the handle (NULL is allowed). States made from it stay valid. */
-GRAINLAW_API void grainlaw_material_destroy(grainlaw_material *);
+GRAINLAW_API void grainlaw_material_destroy(grainlaw_material*);
 
 /* ---- state ---------------------------------------------------------------------------------- */
 
 /* A new state at F = I, in equilibrium, with no trial. Errors: NULL_POINTER, BAD_HANDLE,
  * OUT_OF_MEMORY. */
-GRAINLAW_API grainlaw_status grainlaw_state_create(const grainlaw_material *, grainlaw_state **out);
+GRAINLAW_API grainlaw_status grainlaw_state_create(const grainlaw_material*, grainlaw_state** out);
 
 /* An independent copy, committed and trial. Errors as for create. */
-GRAINLAW_API grainlaw_status grainlaw_state_clone(const grainlaw_state *, grainlaw_state **out);
+GRAINLAW_API grainlaw_status grainlaw_state_clone(const grainlaw_state*, grainlaw_state** out);
 
 /* Release the handle (NULL is allowed). */
-GRAINLAW_API void grainlaw_state_destroy(grainlaw_state *);
+GRAINLAW_API void grainlaw_state_destroy(grainlaw_state*);
 
 /* ---- evaluation ----------------------------------------------------------------------------- */
 
@@ -121,10 +121,10 @@ enum {
 
 /* What an evaluation did. Starts with its own size; grows only at its end. */
 typedef struct grainlaw_report {
-  size_t size;            /* bytes of this struct as the caller knows it */
-  double residual;        /* max(|fx|, |fy|, |M|/R) over particles / mean contact normal force [-] */
-  double step_ratio;      /* suggested factor on the step, 0..1; 1 after success [-] */
-  long relaxation_steps;  /* pseudo-time steps [-] */
+  size_t size;           /* bytes of this struct as the caller knows it */
+  double residual;       /* max(|fx|, |fy|, |M|/R) over particles / mean contact normal force [-] */
+  double step_ratio;     /* suggested factor on the step, 0..1; 1 after success [-] */
+  long relaxation_steps; /* pseudo-time steps [-] */
   long servo_corrections; /* outer corrections of the servo method, 0 for direct [-] */
   int factorisations;     /* sparse factorisations, tangent included [-] */
   int subincrements;      /* parts the increment was split into, >= 1 [-] */
@@ -141,63 +141,64 @@ GRAINLAW_API grainlaw_report grainlaw_report_default(void);
 
 /* Deform the committed RVE to the total deformation gradient F, find its equilibrium, and return
  *   P[dim*dim]  first Piola-Kirchhoff stress, Pa, P[i*dim+J], tension positive (may be NULL);
- *   A[dim^4]    tangent dP_iJ/dF_kL, Pa, A[((i*dim+J)*dim+k)*dim+L] (may be NULL; needs a bit of want).
- * The result becomes the trial state. With solver.start = "committed" it is a function of (committed
- * state, F) alone: same bits however often it is called.
- * Errors: NULL_POINTER, BAD_HANDLE, NOT_FINITE, BAD_REPORT, BAD_ARGUMENT, OUT_OF_MEMORY; recoverable:
- * NOT_CONVERGED, CONTACTS_LOST, INVERTED, STEP_TOO_LARGE. On any of them P and A are untouched and
- * the committed state keeps its bits. F that is refused or leads nowhere also drops the trial, so that
- * an ignored failure cannot commit an older one. */
-GRAINLAW_API grainlaw_status grainlaw_evaluate(grainlaw_state *, const double *F, unsigned want,
-                                               double *P, double *A, grainlaw_report *report);
+ *   A[dim^4]    tangent dP_iJ/dF_kL, Pa, A[((i*dim+J)*dim+k)*dim+L] (may be NULL; needs a bit of
+ * want). The result becomes the trial state. With solver.start = "committed" it is a function of
+ * (committed state, F) alone: same bits however often it is called. Errors: NULL_POINTER,
+ * BAD_HANDLE, NOT_FINITE, BAD_REPORT, BAD_ARGUMENT, OUT_OF_MEMORY; recoverable: NOT_CONVERGED,
+ * CONTACTS_LOST, INVERTED, STEP_TOO_LARGE. On any of them P and A are untouched and the committed
+ * state keeps its bits. F that is refused or leads nowhere also drops the trial, so that an ignored
+ * failure cannot commit an older one. */
+GRAINLAW_API grainlaw_status grainlaw_evaluate(grainlaw_state*, const double* F, unsigned want,
+                                               double* P, double* A, grainlaw_report* report);
 
 /* n evaluations spread over `threads` OpenMP threads (<= 0: as many as OpenMP would use), the most
  * expensive points first. F[n*dim*dim], P[n*dim*dim] or NULL, A[n*dim^4] or NULL, status[n],
  * reports[n] or NULL. All states must be distinct and of one dimension. Returns OK when all points
  * are OK, else the status of the first failed point, fatal before recoverable. */
-GRAINLAW_API grainlaw_status grainlaw_evaluate_batch(size_t n, grainlaw_state *const *states,
-                                                     const double *F, unsigned want, double *P,
-                                                     double *A, grainlaw_status *status,
-                                                     grainlaw_report *reports, int threads);
+GRAINLAW_API grainlaw_status grainlaw_evaluate_batch(size_t n, grainlaw_state* const* states,
+                                                     const double* F, unsigned want, double* P,
+                                                     double* A, grainlaw_status* status,
+                                                     grainlaw_report* reports, int threads);
 
 /* Make the trial the committed state. Errors: NULL_POINTER, BAD_HANDLE, NO_TRIAL. */
-GRAINLAW_API grainlaw_status grainlaw_commit(grainlaw_state *);
+GRAINLAW_API grainlaw_status grainlaw_commit(grainlaw_state*);
 
 /* Drop the trial, if any. Errors: NULL_POINTER, BAD_HANDLE. */
-GRAINLAW_API grainlaw_status grainlaw_revert(grainlaw_state *);
+GRAINLAW_API grainlaw_status grainlaw_revert(grainlaw_state*);
 
 /* ---- save and load -------------------------------------------------------------------------- */
 
 /* Write the committed state to bytes. bytes NULL: set *size to the need. Otherwise *size is the
  * capacity on entry, the length on return. Errors: NULL_POINTER, BAD_HANDLE, BUFFER_TOO_SMALL. */
-GRAINLAW_API grainlaw_status grainlaw_state_save(const grainlaw_state *, void *bytes, size_t *size);
+GRAINLAW_API grainlaw_status grainlaw_state_save(const grainlaw_state*, void* bytes, size_t* size);
 
 /* Replace the committed state by saved bytes and drop the trial. Versioned, checksummed; refuses
  * anything damaged, of another version or of another material, and then changes nothing.
  * Errors: NULL_POINTER, BAD_HANDLE, BAD_BYTES, WRONG_VERSION, WRONG_MATERIAL, OUT_OF_MEMORY. */
-GRAINLAW_API grainlaw_status grainlaw_state_load(grainlaw_state *, const void *bytes, size_t size);
+GRAINLAW_API grainlaw_status grainlaw_state_load(grainlaw_state*, const void* bytes, size_t size);
 
 /* ---- measures and output -------------------------------------------------------------------- */
 
-/* Measures of the trial state, or of the committed one when there is no trial: X(name, value, count,
- * text); a count of -2 stands for dim*dim, -1 for the number of rotation components (1 in 2D). */
-#define GRAINLAW_MEASURE_LIST(X)                                                                   \
-  X(GRAINLAW_CAUCHY_STRESS, 0, -2, "Cauchy stress P F^T / det F [Pa], tension positive")           \
-  X(GRAINLAW_VOLUME, 1, 1, "current volume [m3]")                                                  \
-  X(GRAINLAW_VOID_RATIO, 2, 1, "volume of voids / volume of particles [-]")                        \
-  X(GRAINLAW_COORDINATION, 3, 1, "2 C / N over all particles [-]")                                 \
-  X(GRAINLAW_COORDINATION_NO_RATTLERS, 4, 1, "(2 C - N1)/(N - N0 - N1), N_k with k contacts [-]")  \
-  X(GRAINLAW_FABRIC, 5, -2, "fabric tensor (1/C) sum n n, Guo & Zhao eq. 22 [-]")                  \
-  X(GRAINLAW_ANISOTROPY, 6, 1, "largest / smallest fabric eigenvalue - 1, Liu et al. eq. 38 [-]")  \
-  X(GRAINLAW_FABRIC_INTENSITY, 7, 1, "F_a, second invariant of 4 dev fabric, eqs. 24-25 [-]")      \
-  X(GRAINLAW_MEAN_OVERLAP, 8, 1, "mean overlap of touching contacts [m]")                          \
-  X(GRAINLAW_MEAN_ROTATION, 9, -1, "mean particle rotation since F = I [rad]")                     \
-  X(GRAINLAW_ELASTIC_ENERGY, 10, 1, "energy stored in the contacts [J]")                           \
-  X(GRAINLAW_DISSIPATED_ENERGY, 11, 1, "energy dissipated by friction since F = I [J]")            \
-  X(GRAINLAW_BROKEN_BONDS, 12, 1, "number of broken bonds [-]")                                    \
-  X(GRAINLAW_CONTACTS, 13, 1, "number of touching contacts [-]")                                   \
-  X(GRAINLAW_PARTICLES, 14, 1, "number of particles, images of a frame counted once [-]")          \
-  X(GRAINLAW_REFERENCE_VOLUME, 15, 1, "volume at F = I [m3]")                                      \
+/* Measures of the trial state, or of the committed one when there is no trial: X(name, value,
+ * count, text); a count of -2 stands for dim*dim, -1 for the number of rotation components (1 in
+ * 2D). */
+#define GRAINLAW_MEASURE_LIST(X)                                                                  \
+  X(GRAINLAW_CAUCHY_STRESS, 0, -2, "Cauchy stress P F^T / det F [Pa], tension positive")          \
+  X(GRAINLAW_VOLUME, 1, 1, "current volume [m3]")                                                 \
+  X(GRAINLAW_VOID_RATIO, 2, 1, "volume of voids / volume of particles [-]")                       \
+  X(GRAINLAW_COORDINATION, 3, 1, "2 C / N over all particles [-]")                                \
+  X(GRAINLAW_COORDINATION_NO_RATTLERS, 4, 1, "(2 C - N1)/(N - N0 - N1), N_k with k contacts [-]") \
+  X(GRAINLAW_FABRIC, 5, -2, "fabric tensor (1/C) sum n n, Guo & Zhao eq. 22 [-]")                 \
+  X(GRAINLAW_ANISOTROPY, 6, 1, "largest / smallest fabric eigenvalue - 1, Liu et al. eq. 38 [-]") \
+  X(GRAINLAW_FABRIC_INTENSITY, 7, 1, "F_a, second invariant of 4 dev fabric, eqs. 24-25 [-]")     \
+  X(GRAINLAW_MEAN_OVERLAP, 8, 1, "mean overlap of touching contacts [m]")                         \
+  X(GRAINLAW_MEAN_ROTATION, 9, -1, "mean particle rotation since F = I [rad]")                    \
+  X(GRAINLAW_ELASTIC_ENERGY, 10, 1, "energy stored in the contacts [J]")                          \
+  X(GRAINLAW_DISSIPATED_ENERGY, 11, 1, "energy dissipated by friction since F = I [J]")           \
+  X(GRAINLAW_BROKEN_BONDS, 12, 1, "number of broken bonds [-]")                                   \
+  X(GRAINLAW_CONTACTS, 13, 1, "number of touching contacts [-]")                                  \
+  X(GRAINLAW_PARTICLES, 14, 1, "number of particles, images of a frame counted once [-]")         \
+  X(GRAINLAW_REFERENCE_VOLUME, 15, 1, "volume at F = I [m3]")                                     \
   X(GRAINLAW_DEFORMATION_GRADIENT, 16, -2, "F of this state [-]")
 
 typedef enum grainlaw_measure {
@@ -206,22 +207,22 @@ typedef enum grainlaw_measure {
 #undef GRAINLAW_X
 } grainlaw_measure;
 
-/* value NULL: set *count to the number of components. Otherwise *count is the capacity on entry, the
- * number written on return. Errors: NULL_POINTER, BAD_HANDLE, BAD_ARGUMENT (unknown measure),
+/* value NULL: set *count to the number of components. Otherwise *count is the capacity on entry,
+ * the number written on return. Errors: NULL_POINTER, BAD_HANDLE, BAD_ARGUMENT (unknown measure),
  * BUFFER_TOO_SMALL. */
-GRAINLAW_API grainlaw_status grainlaw_state_measure(const grainlaw_state *, grainlaw_measure what,
-                                                    double *value, size_t *count);
+GRAINLAW_API grainlaw_status grainlaw_state_measure(const grainlaw_state*, grainlaw_measure what,
+                                                    double* value, size_t* count);
 
-/* Particles (radius, rotation) and force chains (normal and tangential force) of the trial state, or
- * of the committed one, as one VTK PolyData file (.vtp) for ParaView. Errors: NULL_POINTER,
+/* Particles (radius, rotation) and force chains (normal and tangential force) of the trial state,
+ * or of the committed one, as one VTK PolyData file (.vtp) for ParaView. Errors: NULL_POINTER,
  * BAD_HANDLE, FILE_ERROR. */
-GRAINLAW_API grainlaw_status grainlaw_state_write_vtk(const grainlaw_state *, const char *path);
+GRAINLAW_API grainlaw_status grainlaw_state_write_vtk(const grainlaw_state*, const char* path);
 
-/* Write the same state as a packing: prefix_particles.csv, prefix_contacts.csv (forces included) and
- * prefix_cell.csv, which a material file reads back to the same equilibrium. Errors: NULL_POINTER,
- * BAD_HANDLE, FILE_ERROR. */
-GRAINLAW_API grainlaw_status grainlaw_state_write_packing(const grainlaw_state *,
-                                                          const char *prefix);
+/* Write the same state as a packing: prefix_particles.csv, prefix_contacts.csv (forces included)
+ * and prefix_cell.csv, which a material file reads back to the same equilibrium. Errors:
+ * NULL_POINTER, BAD_HANDLE, FILE_ERROR. */
+GRAINLAW_API grainlaw_status grainlaw_state_write_packing(const grainlaw_state*,
+                                                          const char* prefix);
 
 #ifdef __cplusplus
 }

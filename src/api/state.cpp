@@ -61,12 +61,12 @@ grainlaw_status grainlaw_state_measure(const grainlaw_state* handle, grainlaw_me
   if (count == nullptr) return GRAINLAW_NULL_POINTER;
   return api::guarded([&] {
     const Material& material = handle->state.material();
-    const int components = measure_count(material, what);
+    const int components = measure_count(material.problem(), what);
     if (components < 0) return GRAINLAW_BAD_ARGUMENT;
     const auto need = static_cast<std::size_t>(components);
     if (value != nullptr) {
       if (*count < need) return GRAINLAW_BUFFER_TOO_SMALL;
-      measure(material, handle->state.current(), what, value);
+      measure(material.problem(), handle->state.current(), what, value);
     }
     *count = need;
     return GRAINLAW_OK;

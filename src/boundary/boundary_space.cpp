@@ -36,8 +36,8 @@ BoundarySpace make_boundary_space(const Packing& packing, const BoundaryOptions&
   const auto& frame = *packing.frame;
   space.identity = false;
   space.node = frame.source;
-  space.nodes = 1 + static_cast<std::size_t>(
-                        *std::max_element(frame.source.begin(), frame.source.end()));
+  space.nodes =
+      1 + static_cast<std::size_t>(*std::max_element(frame.source.begin(), frame.source.end()));
   space.fixed.assign(space.nodes, 0);
   space.boundary.assign(space.nodes, 0);
   for (const int q : frame.boundary) {

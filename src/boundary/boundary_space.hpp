@@ -12,9 +12,9 @@
 
 namespace grainlaw {
 
-// periodic-cell: one node per particle, nothing fixed. frame-p (Liu, Bosco & Suiker 2017, eqs. 19-20):
-// one node per particle of the periodic packing that was cut, so that opposite edge particles share
-// theirs, and the four corners share one whose translation is prescribed.
+// periodic-cell: one node per particle, nothing fixed. frame-p (Liu, Bosco & Suiker 2017, eqs.
+// 19-20): one node per particle of the periodic packing that was cut, so that opposite edge
+// particles share theirs, and the four corners share one whose translation is prescribed.
 struct BoundarySpace {
   BoundaryOptions options;
   std::size_t nodes = 0;

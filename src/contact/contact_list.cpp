@@ -10,9 +10,9 @@ namespace grainlaw {
 void ContactList::resize(std::size_t count, bool weighted) {
   resize_with_room(i, count);
   resize_with_room(j, count);
-  for (auto* column : {&shift_x, &shift_y, &reach, &lever_i, &normal_stiffness,
-                       &tangential_stiffness, &start_x, &start_y, &start_turn, &start_force,
-                       &force_x, &force_y, &couple}) {
+  for (auto* column :
+       {&shift_x, &shift_y, &reach, &lever_i, &normal_stiffness, &tangential_stiffness, &start_x,
+        &start_y, &start_turn, &start_force, &force_x, &force_y, &couple}) {
     resize_with_room(*column, count);
   }
   resize_with_room(weight, weighted ? count : 0);

@@ -1,9 +1,9 @@
 // The candidate contacts of one increment, structure of arrays, with the history they start from.
 #pragma once
 
+#include "contact/history.hpp"
 #include "contact/law.hpp"
 #include "packing/neighbours.hpp"
-#include "state/configuration.hpp"
 
 #include <array>
 #include <cstddef>
@@ -33,8 +33,9 @@ struct ContactList {
   void resize(std::size_t count, bool weighted);
 };
 
-// Where the history of an increment starts: coordinates (component-major, rotations when the law has
-// them), the cell there, and the touching contacts, ordered as the neighbour search orders pairs.
+// Where the history of an increment starts: coordinates (component-major, rotations when the law
+// has them), the cell there, and the touching contacts, ordered as the neighbour search orders
+// pairs.
 struct HistoryStart {
   std::span<const double> coordinates;
   std::array<double, 4> cell{};

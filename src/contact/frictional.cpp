@@ -17,8 +17,9 @@ namespace grainlaw {
 namespace {
 
 // The angle from a unit vector to a branch of length d with these inner and cross products: four
-// times the arc tangent of a quarter of it, by its series; to round-off below 60 degrees, to 1e-11 at
-// 86, far beyond what an increment turns a branch. No trigonometric call, so that the loop vectorises.
+// times the arc tangent of a quarter of it, by its series; to round-off below 60 degrees, to 1e-11
+// at 86, far beyond what an increment turns a branch. No trigonometric call, so that the loop
+// vectorises.
 inline __attribute__((always_inline)) double turning(double dot, double cross, double d) {
   const double half = cross / std::max(d + dot, 1e-12 * d);
   const double t = half / (1 + std::sqrt(1 + half * half));
@@ -65,9 +66,11 @@ void evaluate_frictionless(const double* x, const double* y, const std::array<do
 
 // Returns the energy dissipated since the history's start when `advance` moves that start here [J].
 template <bool rotating, bool advance>
-inline __attribute__((always_inline)) double frictional_loop(
-    const double* x, const double* y, const double* rotation, const std::array<double, 4>& cell,
-    double friction, std::size_t size, ContactList& list) {
+inline __attribute__((always_inline)) double frictional_loop(const double* x, const double* y,
+                                                             const double* rotation,
+                                                             const std::array<double, 4>& cell,
+                                                             double friction, std::size_t size,
+                                                             ContactList& list) {
   double* force_x = list.force_x.data();
   double* force_y = list.force_y.data();
   double* couple = list.couple.data();
@@ -122,14 +125,14 @@ template <bool rotating, bool advance>
 double frictional(std::span<const double> coordinates, std::size_t particles,
                   const std::array<double, 4>& cell, double friction, ContactList& list);
 
-#define GRAINLAW_KERNEL(rotating, advance)                                                      \
-  template <>                                                                                   \
-  GRAINLAW_CLONES double frictional<rotating, advance>(                                         \
-      std::span<const double> coordinates, std::size_t particles,                               \
-      const std::array<double, 4>& cell, double friction, ContactList& list) {                  \
-    const double* x = coordinates.data();                                                       \
-    return frictional_loop<rotating, advance>(x, x + particles, x + 2 * particles, cell,        \
-                                              friction, list.size(), list);                     \
+#define GRAINLAW_KERNEL(rotating, advance)                                                         \
+  template <>                                                                                      \
+  GRAINLAW_CLONES double frictional<rotating, advance>(                                            \
+      std::span<const double> coordinates, std::size_t particles,                                  \
+      const std::array<double, 4>& cell, double friction, ContactList& list) {                     \
+    const double* x = coordinates.data();                                                          \
+    return frictional_loop<rotating, advance>(x, x + particles, x + 2 * particles, cell, friction, \
+                                              list.size(), list);                                  \
   }
 GRAINLAW_KERNEL(true, false)
 GRAINLAW_KERNEL(true, true)
@@ -204,13 +207,13 @@ ContactPoint contact_point(const ContactList& list, std::size_t c,
   point.status = ContactStatus::sticking;
   point.normal_force = list.normal_stiffness[c] * overlap;
   if (!law.tangential()) return point;
-  point.turn = turning(list.start_x[c] * point.branch_x + list.start_y[c] * point.branch_y,
-                       list.start_x[c] * point.branch_y - list.start_y[c] * point.branch_x,
-                       point.distance);
+  point.turn =
+      turning(list.start_x[c] * point.branch_x + list.start_y[c] * point.branch_y,
+              list.start_x[c] * point.branch_y - list.start_y[c] * point.branch_x, point.distance);
   if (law.rotating()) {
     const double* rotation = y + particles;
-    point.turn += list.start_turn[c] - list.lever_i[c] * rotation[p] -
-                  (1 - list.lever_i[c]) * rotation[q];
+    point.turn +=
+        list.start_turn[c] - list.lever_i[c] * rotation[p] - (1 - list.lever_i[c]) * rotation[q];
   }
   const double trial =
       list.start_force[c] - list.tangential_stiffness[c] * point.distance * point.turn;
@@ -233,9 +236,15 @@ std::array<double, 9> contact_stiffness(const ContactPoint& point, double kn, do
     by_tangential = 0;
     by_rotation = 0;
   }
-  return {-kn,       -ft / d,                0,
-          by_normal, by_tangential + fn / d, by_rotation,
-          ft + d * by_normal, d * by_tangential, d * by_rotation};
+  return {-kn,
+          -ft / d,
+          0,
+          by_normal,
+          by_tangential + fn / d,
+          by_rotation,
+          ft + d * by_normal,
+          d * by_tangential,
+          d * by_rotation};
 }
 
 }  // namespace grainlaw

@@ -10,15 +10,14 @@
 
 namespace grainlaw {
 
-// Evaluate every contact at `coordinates` (component-major) and write force on j and couple d * ft to
-// the list: fn = kn overlap, ft = clamp(start_force - kt du, +-friction fn), both zero in tension.
-// du = d (turning of the branch - lambda_i dtheta_i - lambda_j dtheta_j).
+// Evaluate every contact at `coordinates` (component-major) and write force on j and couple d * ft
+// to the list: fn = kn overlap, ft = clamp(start_force - kt du, +-friction fn), both zero in
+// tension. du = d (turning of the branch - lambda_i dtheta_i - lambda_j dtheta_j).
 void evaluate_contacts(std::span<const double> coordinates, std::size_t particles,
-                       const std::array<double, 4>& cell, const ContactLaw& law,
-                       ContactList& list);
+                       const std::array<double, 4>& cell, const ContactLaw& law, ContactList& list);
 
-// The same, and the history starts anew from here. Returns the energy dissipated since the old start:
-// sliding force times slip, and what springs give up as contacts unload or open [J].
+// The same, and the history starts anew from here. Returns the energy dissipated since the old
+// start: sliding force times slip, and what springs give up as contacts unload or open [J].
 double advance_contacts(std::span<const double> coordinates, std::size_t particles,
                         const std::array<double, 4>& cell, const ContactLaw& law,
                         ContactList& list);

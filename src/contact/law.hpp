@@ -7,11 +7,11 @@ enum class LawKind { frictional };
 
 struct ContactLaw {
   LawKind kind = LawKind::frictional;
-  double young = 0;              // kn = young * 2 Ri Rj / (Ri + Rj), Guo & Zhao eq. 14 [Pa]; or
-  double normal_stiffness = 0;   // kn itself, used when young is 0 [N/m]
-  double ratio = 0;              // kt / kn [-]
-  double friction = 0;           // tan(phi) [-]
-  bool rotation = true;          // false: particles keep their orientation
+  double young = 0;             // kn = young * 2 Ri Rj / (Ri + Rj), Guo & Zhao eq. 14 [Pa]; or
+  double normal_stiffness = 0;  // kn itself, used when young is 0 [N/m]
+  double ratio = 0;             // kt / kn [-]
+  double friction = 0;          // tan(phi) [-]
+  bool rotation = true;         // false: particles keep their orientation
 
   // Normal stiffness of a contact between radii a and b [N/m].
   [[nodiscard]] double stiffness(double a, double b) const {

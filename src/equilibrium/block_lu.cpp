@@ -185,8 +185,8 @@ void BlockLU::order(std::size_t nodes, std::span<const Edge> edges) {
   position_.assign(next, next + nodes);
 }
 
-// For every row of the factor the columns left of the diagonal that it reaches (Davis 2006, chapter 4:
-// paths in the elimination tree), sorted; and how many rows every column has below the diagonal.
+// For every row of the factor the columns left of the diagonal that it reaches (Davis 2006, chapter
+// 4: paths in the elimination tree), sorted; and how many rows every column has below the diagonal.
 void BlockLU::find_reach() {
   resize_with_room(adjacency_begin_, nodes_ + 1);
   std::fill(adjacency_begin_.begin(), adjacency_begin_.end(), 0);
@@ -273,8 +273,10 @@ void BlockLU::analyse(const BlockMatrix& matrix) {
   }
 
   const auto slot_of = [&](std::int32_t row, std::int32_t column) {
-    const auto first = rows_.begin() + static_cast<std::ptrdiff_t>(begin_[static_cast<std::size_t>(column)]);
-    const auto last = rows_.begin() + static_cast<std::ptrdiff_t>(begin_[static_cast<std::size_t>(column) + 1]);
+    const auto first =
+        rows_.begin() + static_cast<std::ptrdiff_t>(begin_[static_cast<std::size_t>(column)]);
+    const auto last =
+        rows_.begin() + static_cast<std::ptrdiff_t>(begin_[static_cast<std::size_t>(column) + 1]);
     return static_cast<std::size_t>(std::lower_bound(first, last, row) - rows_.begin());
   };
   resize_with_room(upper_slot_, edges_.size());

@@ -72,7 +72,8 @@ bool solve_with_pivoting(const BlockMatrix& matrix, std::span<const double> b,
   sparse.setFromTriplets(triplets.begin(), triplets.end());
   Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(sparse);
   if (lu.info() != Eigen::Success) return false;
-  Eigen::Map<Eigen::VectorXd>(x.data(), n) = lu.solve(Eigen::Map<const Eigen::VectorXd>(b.data(), n));
+  Eigen::Map<Eigen::VectorXd>(x.data(), n) =
+      lu.solve(Eigen::Map<const Eigen::VectorXd>(b.data(), n));
   return lu.info() == Eigen::Success;
 }
 

@@ -1,5 +1,5 @@
-// Sparse matrix of small blocks on the graph of nodes, and its LU factorisation with the blocks on the
-// diagonal as pivots, in an order found once per graph.
+// Sparse matrix of small blocks on the graph of nodes, and its LU factorisation with the blocks on
+// the diagonal as pivots, in an order found once per graph.
 #pragma once
 
 #include <cstddef>
@@ -17,9 +17,9 @@ struct BlockMatrix {
   int components = 3;
   int stride = 4;
   std::size_t nodes = 0;
-  std::vector<Edge> edges;               // unique, ordered
-  std::vector<double> diagonal;          // [nodes] blocks
-  std::vector<double> upper, lower;      // [edges] blocks (first, second) and (second, first)
+  std::vector<Edge> edges;           // unique, ordered
+  std::vector<double> diagonal;      // [nodes] blocks
+  std::vector<double> upper, lower;  // [edges] blocks (first, second) and (second, first)
 
   [[nodiscard]] std::size_t block_size() const {
     return static_cast<std::size_t>(components * stride);
@@ -47,11 +47,11 @@ class BlockLU {
   int components_ = 0;
   std::size_t nodes_ = 0;
   std::vector<Edge> edges_;
-  std::vector<std::int32_t> position_;               // node -> place in the elimination
-  std::vector<std::size_t> begin_, diagonal_;        // per column: first slot, slot of the pivot
-  std::vector<std::int32_t> rows_;                   // per slot, ascending within a column
-  std::vector<std::size_t> upper_slot_, lower_slot_; // per edge
-  std::vector<double> values_;                       // pivots inverted in place
+  std::vector<std::int32_t> position_;                // node -> place in the elimination
+  std::vector<std::size_t> begin_, diagonal_;         // per column: first slot, slot of the pivot
+  std::vector<std::int32_t> rows_;                    // per slot, ascending within a column
+  std::vector<std::size_t> upper_slot_, lower_slot_;  // per edge
+  std::vector<double> values_;                        // pivots inverted in place
   std::vector<double> work_;
   std::vector<std::int32_t> where_;
   // Memory of the analysis.
@@ -62,8 +62,8 @@ class BlockLU {
   void find_reach();
 };
 
-// x = A^-1 b by a pivoting sparse LU (Eigen), for the rare matrix that BlockLU cannot solve. Slow and
-// allocating. False when singular.
+// x = A^-1 b by a pivoting sparse LU (Eigen), for the rare matrix that BlockLU cannot solve. Slow
+// and allocating. False when singular.
 bool solve_with_pivoting(const BlockMatrix& matrix, std::span<const double> b, std::span<double> x);
 
 }  // namespace grainlaw

@@ -109,8 +109,8 @@ bool solve_advancing(const Request& request, Method method, Workspace& w, Outcom
   if (request.problem->space->options.method == BoundaryMethod::servo) {
     done = solve_servo(increment, *request.options, request.tolerance, w.relaxation);
   } else if (method == Method::published) {
-    done = relax_published(increment, request.tolerance, request.options->published, {},
-                           w.relaxation);
+    done =
+        relax_published(increment, request.tolerance, request.options->published, {}, w.relaxation);
   } else {
     done = relax(increment, request.tolerance, 20 * relaxation_limit(increment.nodes()),
                  History::advancing, w.relaxation);
@@ -154,8 +154,7 @@ Outcome solve(const Request& request, Workspace& w) {
     return attempt(solve_advancing(request, Method::advancing, w, outcome));
   };
   if (!chain()) {
-    outcome.status =
-        w.increment.touching == 0 ? GRAINLAW_CONTACTS_LOST : GRAINLAW_NOT_CONVERGED;
+    outcome.status = w.increment.touching == 0 ? GRAINLAW_CONTACTS_LOST : GRAINLAW_NOT_CONVERGED;
     outcome.step_ratio = 0.5;
   }
   w.increment.relaxation_steps = steps;

@@ -11,8 +11,8 @@ namespace grainlaw {
 
 namespace {
 
-// Neighbours are listed within this gap, in mean radii: wide enough that an increment of 0.1 % rarely
-// lists twice, narrow enough that few listed pairs never touch.
+// Neighbours are listed within this gap, in mean radii: wide enough that an increment of 0.1 %
+// rarely lists twice, narrow enough that few listed pairs never touch.
 constexpr double gap_in_radii = 0.1;
 // Whose rounding errors add up in a residual.
 constexpr double contacts_of_a_particle = 8;

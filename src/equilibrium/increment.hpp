@@ -1,12 +1,12 @@
-// One increment of deformation being solved: unknowns, contacts, forces and residuals. Everything the
-// solvers share, and all their memory; sized once, reused from call to call by one thread.
+// One increment of deformation being solved: unknowns, contacts, forces and residuals. Everything
+// the solvers share, and all their memory; sized once, reused from call to call by one thread.
 #pragma once
 
 #include "boundary/boundary_space.hpp"
 #include "contact/contact_list.hpp"
-#include "contact/law.hpp"
+#include "equilibrium/configuration.hpp"
+#include "equilibrium/problem.hpp"
 #include "packing/neighbours.hpp"
-#include "state/configuration.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,21 +16,10 @@
 
 namespace grainlaw {
 
-// What stays the same for every increment of a material.
-struct Problem {
-  const Packing* packing = nullptr;
-  const ContactLaw* law = nullptr;
-  const BoundarySpace* space = nullptr;
-  double force_floor = 0;  // residuals are relative to max(mean normal force, this) [N]
-  double tolerance = 0;    // of equilibria; contacts that carry about as little are none [-]
-
-  [[nodiscard]] int components() const { return law->rotating() ? 3 : 2; }
-};
-
 class Increment {
  public:
-  // Start from a configuration; `deformation` is the F (row-major 2x2) to be reached without rotation,
-  // the guess is the affine image. Rotations are counted from here.
+  // Start from a configuration; `deformation` is the F (row-major 2x2) to be reached without
+  // rotation, the guess is the affine image. Rotations are counted from here.
   void begin(const Problem& problem, const Configuration& from,
              const std::array<double, 4>& deformation);
 
@@ -42,15 +31,16 @@ class Increment {
   // The same with the friction history advanced to here.
   void update_forces_advancing();
 
-  // Mean normal force, and pseudo-masses of the nodes: 0.8 x the stiffness of the touching contacts,
-  // never below one contact's worth (mechanics of the relaxation: unit pseudo-time step).
+  // Mean normal force, and pseudo-masses of the nodes: 0.8 x the stiffness of the touching
+  // contacts, never below one contact's worth (mechanics of the relaxation: unit pseudo-time step).
   void refresh_masses();
 
   // Largest residual force (moment / R) over max(mean normal force, floor) [-]; infinite when no
   // contact is left or a number is not finite.
   [[nodiscard]] double residual_norm() const;
 
-  // The residual that the rounding of coordinates leaves at worst: no tolerance below it can be met [-].
+  // The residual that the rounding of coordinates leaves at worst: no tolerance below it can be met
+  // [-].
   [[nodiscard]] double rounding_residual() const {
     return touching > 0 ? rounding_force_ / relative_scale() : 0;
   }
@@ -64,8 +54,8 @@ class Increment {
   // Overlap of a listed contact, negative across a gap [m].
   [[nodiscard]] double overlap(std::size_t c) const;
 
-  // Whether a contact counts. Rattlers touch their cage with forces of about the residual, or not, by
-  // chance; ten times as much is no chance.
+  // Whether a contact counts. Rattlers touch their cage with forces of about the residual, or not,
+  // by chance; ten times as much is no chance.
   [[nodiscard]] bool carries(std::size_t c) const;
 
   // Put contacts, coordinates and dissipation into `to`, rotations added to those of `from`.

@@ -10,17 +10,17 @@ enum class Start { committed, trial };
 enum class Method { chain, advancing, published };
 
 struct PublishedOptions {
-  double damping = 0.7;               // alpha = beta of Liu et al. (2017) eq. 10 [-]
-  double time_step_ratio = 0.3;       // of the critical step min sqrt(m / kn) [-]
-  double energy_tolerance = 0;        // tolE of eq. 11; 0: use the residual tolerance alone [-]
+  double damping = 0.7;          // alpha = beta of Liu et al. (2017) eq. 10 [-]
+  double time_step_ratio = 0.3;  // of the critical step min sqrt(m / kn) [-]
+  double energy_tolerance = 0;   // tolE of eq. 11; 0: use the residual tolerance alone [-]
   long max_steps = 400000;
 };
 
 struct SolverOptions {
-  double tolerance = 1e-6;            // largest particle residual / mean contact normal force [-]
+  double tolerance = 1e-6;  // largest particle residual / mean contact normal force [-]
   Start start = Start::committed;
   Method method = Method::chain;
-  double increment_limit = 1;         // Pi above which an increment is split [-]
+  double increment_limit = 1;  // Pi above which an increment is split [-]
   PublishedOptions published;
 };
 

@@ -28,9 +28,9 @@ bool relax(Increment& increment, double tolerance, long max_steps, History histo
            RelaxationMemory& memory) {
   constexpr double largest_damping = 1.9;
   constexpr double largest_floor = 0.5;
-  constexpr long window = 100;          // steps after which the floor is reviewed
+  constexpr long window = 100;             // steps after which the floor is reviewed
   constexpr double enough_progress = 0.5;  // of the residual, over a window
-  constexpr double oscillating = 2;     // largest / smallest residual of a window
+  constexpr double oscillating = 2;        // largest / smallest residual of a window
   const std::size_t size = increment.unknowns();
   memory.velocity.assign(size, 0.0);
   memory.previous.assign(size, 0.0);

@@ -54,8 +54,8 @@ void Sensitivity::start_of_history(const Increment& increment, double start_shar
       (k < 2 ? dx : dy) += start_share * reference[k % 2];
       start_turn_[c][k] = -(lx * dy - ly * dx) / d2;
       if (rotating) {
-        start_turn_[c][k] += list.lever_i[c] * z[2 * nodes + a] +
-                             (1 - list.lever_i[c]) * z[2 * nodes + b];
+        start_turn_[c][k] +=
+            list.lever_i[c] * z[2 * nodes + a] + (1 - list.lever_i[c]) * z[2 * nodes + b];
       }
     }
     const auto key = std::tie(list.i[c], list.j[c], increment.pairs[c].shift);
@@ -84,8 +84,8 @@ bool Sensitivity::solve(Increment& increment, double share, double start_share,
   }
 
   for (std::size_t c = 0; c < list.size(); ++c) {
-    const auto point = contact_point(list, c, increment.coordinates, increment.particles(),
-                                     increment.cell, law);
+    const auto point =
+        contact_point(list, c, increment.coordinates, increment.particles(), increment.cell, law);
     if (point.status == ContactStatus::open) continue;
     const auto a = static_cast<std::size_t>(space.node[static_cast<std::size_t>(list.i[c])]);
     const auto b = static_cast<std::size_t>(space.node[static_cast<std::size_t>(list.j[c])]);
@@ -99,8 +99,7 @@ bool Sensitivity::solve(Increment& increment, double share, double start_share,
       r[nodes + b] += q.force_y;
       if (!rotating) continue;
       const double stretch = point.normal_x * q.branch_x + point.normal_y * q.branch_y;
-      const double couple =
-          point.tangential_force * stretch + point.distance * q.tangential_force;
+      const double couple = point.tangential_force * stretch + point.distance * q.tangential_force;
       r[2 * nodes + a] -= list.lever_i[c] * couple;
       r[2 * nodes + b] -= (1 - list.lever_i[c]) * couple;
     }
@@ -147,14 +146,13 @@ Sensitivity::Change Sensitivity::change(const Increment& increment, std::size_t 
   const auto q = apply(stiffness, normal, tangential, rotation);
   double by_history = 0;
   if (carried_ && point.status == ContactStatus::sticking) {
-    by_history = start_force_[c][k] -
-                 list.tangential_stiffness[c] * point.distance * start_turn_[c][k];
+    by_history =
+        start_force_[c][k] - list.tangential_stiffness[c] * point.distance * start_turn_[c][k];
   }
   const double along_t = q[1] + by_history;
   result.force_x = q[0] * nx - along_t * ny;
   result.force_y = q[0] * ny + along_t * nx;
-  result.tangential_force =
-      (q[2] - point.tangential_force * normal) / point.distance + by_history;
+  result.tangential_force = (q[2] - point.tangential_force * normal) / point.distance + by_history;
   return result;
 }
 

@@ -17,11 +17,12 @@ class Sensitivity {
  public:
   void reset() { carried_ = false; }
 
-  // Solve K dz = dr/dF at a converged sub-increment that ends at `share` and began at `start_share`.
-  // False when the stiffness is singular.
+  // Solve K dz = dr/dF at a converged sub-increment that ends at `share` and began at
+  // `start_share`. False when the stiffness is singular.
   bool solve(Increment& increment, double share, double start_share, Stiffness& stiffness);
 
-  // Keep what the next sub-increment's history depends on; call before Increment::advance_history().
+  // Keep what the next sub-increment's history depends on; call before
+  // Increment::advance_history().
   void carry(const Increment& increment);
 
   // Change of the force on j (x, y) and of the branch (x, y) of contact c, for column k.
@@ -36,11 +37,11 @@ class Sensitivity {
 
   using Columns = std::array<std::vector<double>, 4>;
   double share_ = 1;
-  Columns motion_;                                      // nodes, component-major
+  Columns motion_;  // nodes, component-major
   bool carried_ = false;
-  Columns carried_motion_;                              // at the start of the history
-  std::vector<std::array<double, 4>> carried_force_;    // per contact of increment.history
-  std::vector<std::array<double, 4>> start_turn_;       // per listed contact
+  Columns carried_motion_;                            // at the start of the history
+  std::vector<std::array<double, 4>> carried_force_;  // per contact of increment.history
+  std::vector<std::array<double, 4>> start_turn_;     // per listed contact
   std::vector<std::array<double, 4>> start_force_;
   Columns right_;
 };

@@ -8,8 +8,9 @@ namespace grainlaw {
 
 namespace {
 
-// Boundary particles to F X + n_f (x - F X at the start), rotations kept (Table 2, 2.1.A; with n_f = 0
-// Table 3, 1.1.A). Keeping rotations instead of Q = I, and rotating with F, is what makes it objective.
+// Boundary particles to F X + n_f (x - F X at the start), rotations kept (Table 2, 2.1.A; with n_f
+// = 0 Table 3, 1.1.A). Keeping rotations instead of Q = I, and rotating with F, is what makes it
+// objective.
 void predict_boundary(Increment& increment, double inheritance) {
   const auto& packing = *increment.problem->packing;
   const auto n = packing.size();
@@ -62,10 +63,11 @@ bool solve_servo(Increment& increment, const SolverOptions& options, double tole
       const double kn = law.stiffness(radius, radius);
       const double share = smallest * smallest / (radius * radius);  // gains scale with 1/M
       const double m = packing.density * std::numbers::pi * radius * radius * packing.thickness;
-      const double force_scale = m * radius / (dt * dt);             // eq. 37
+      const double force_scale = m * radius / (dt * dt);  // eq. 37
       if (!space.fixed[q]) {
         for (std::size_t k = 0; k < 2; ++k) {
-          // The boundary force a balances the contact forces, so a+ + a- = -r and du = -g (a+ + a-).
+          // The boundary force a balances the contact forces, so a+ + a- = -r and du = -g (a+ +
+          // a-).
           step[k * nodes + q] = servo.gain_force / kn * share * r[k * nodes + q];
           sum += std::pow(r[k * nodes + q] / force_scale, 2);
         }

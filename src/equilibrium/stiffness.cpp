@@ -11,8 +11,8 @@ namespace grainlaw {
 
 namespace {
 
-// Contacts with a smaller gap than this, in radii, are kept in the graph although they carry nothing,
-// so that it lasts while they open and close.
+// Contacts with a smaller gap than this, in radii, are kept in the graph although they carry
+// nothing, so that it lasts while they open and close.
 constexpr double graph_gap = 1e-3;
 // Holds rattlers and the translation of the cell in the factors, relative to the masses; refinement
 // takes it out of the solution again.
@@ -163,9 +163,9 @@ bool Stiffness::solve(const Increment& increment, std::span<const double> b, std
     double largest = 0;
     for (std::size_t k = 0; k < x.size(); ++k) {
       check_[k] = b[k] - check_[k];
-      largest = std::max(largest, std::isfinite(check_[k])
-                                      ? std::abs(check_[k])
-                                      : std::numeric_limits<double>::infinity());
+      largest =
+          std::max(largest, std::isfinite(check_[k]) ? std::abs(check_[k])
+                                                     : std::numeric_limits<double>::infinity());
     }
     return largest / scale;
   };

@@ -19,7 +19,8 @@ class Stiffness {
   // Factorise what was assembled.
   void factorise(Increment& increment);
 
-  // x = K^-1 b, refined while that helps; by pivoting LU when it does not. False when the matrix is singular to working precision.
+  // x = K^-1 b, refined while that helps; by pivoting LU when it does not. False when the matrix is
+  // singular to working precision.
   bool solve(const Increment& increment, std::span<const double> b, std::span<double> x);
 
   [[nodiscard]] const BlockMatrix& matrix() const { return matrix_; }

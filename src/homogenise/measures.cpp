@@ -16,12 +16,12 @@ std::array<double, 4> cauchy_stress(const Configuration& at) {
 }
 
 // Weighted number of contacts of every node.
-std::vector<double> contacts_of_nodes(const Material& material,
+std::vector<double> contacts_of_nodes(const Problem& problem,
                                       const std::vector<ContactView>& contacts) {
-  std::vector<double> count(material.space.nodes, 0.0);
+  std::vector<double> count(problem.space->nodes, 0.0);
   for (const auto& c : contacts) {
-    count[static_cast<std::size_t>(material.space.node[static_cast<std::size_t>(c.i)])] += c.weight;
-    count[static_cast<std::size_t>(material.space.node[static_cast<std::size_t>(c.j)])] += c.weight;
+    count[static_cast<std::size_t>(problem.space->node[static_cast<std::size_t>(c.i)])] += c.weight;
+    count[static_cast<std::size_t>(problem.space->node[static_cast<std::size_t>(c.j)])] += c.weight;
   }
   return count;
 }
@@ -32,14 +32,14 @@ double weighted_number(const std::vector<ContactView>& contacts) {
   return number;
 }
 
-double coordination(const Material& material, const std::vector<ContactView>& contacts,
+double coordination(const Problem& problem, const std::vector<ContactView>& contacts,
                     bool rattlers) {
   const double number = weighted_number(contacts);
-  const auto nodes = static_cast<double>(material.space.nodes);
+  const auto nodes = static_cast<double>(problem.space->nodes);
   if (rattlers) return 2 * number / nodes;
   double none = 0;
   double one = 0;
-  for (const double count : contacts_of_nodes(material, contacts)) {
+  for (const double count : contacts_of_nodes(problem, contacts)) {
     none += count < 0.5 ? 1 : 0;
     one += count >= 0.5 && count < 1.5 ? 1 : 0;
   }
@@ -66,28 +66,28 @@ double half_difference(const std::array<double, 4>& phi) {
   return std::hypot(0.5 * (phi[0] - phi[3]), phi[1]);
 }
 
-double elastic_energy(const Material& material, const std::vector<ContactView>& contacts) {
+double elastic_energy(const Problem& problem, const std::vector<ContactView>& contacts) {
   double energy = 0;
   for (const auto& c : contacts) {
-    const auto& radius = material.packing.radius;
-    const double kn = material.law.stiffness(radius[static_cast<std::size_t>(c.i)],
+    const auto& radius = problem.packing->radius;
+    const double kn = problem.law->stiffness(radius[static_cast<std::size_t>(c.i)],
                                              radius[static_cast<std::size_t>(c.j)]);
     energy += 0.5 * c.weight * c.normal_force * c.normal_force / kn;
     if (c.tangential_force != 0) {
-      energy += 0.5 * c.weight * c.tangential_force * c.tangential_force /
-                (material.law.ratio * kn);
+      energy +=
+          0.5 * c.weight * c.tangential_force * c.tangential_force / (problem.law->ratio * kn);
     }
   }
   return energy;
 }
 
-double mean_rotation(const Material& material, const Configuration& at) {
-  const auto n = material.packing.size();
+double mean_rotation(const Problem& problem, const Configuration& at) {
+  const auto n = problem.packing->size();
   if (at.coordinates.size() < 3 * n) return 0;
   // Copies of a frame turn alike and count once.
-  std::vector<double> rotation(material.space.nodes, 0.0);
+  std::vector<double> rotation(problem.space->nodes, 0.0);
   for (std::size_t p = 0; p < n; ++p) {
-    rotation[static_cast<std::size_t>(material.space.node[p])] = at.coordinates[2 * n + p];
+    rotation[static_cast<std::size_t>(problem.space->node[p])] = at.coordinates[2 * n + p];
   }
   double sum = 0;
   for (const double value : rotation) sum += value;
@@ -96,8 +96,8 @@ double mean_rotation(const Material& material, const Configuration& at) {
 
 }  // namespace
 
-std::vector<ContactView> contact_views(const Material& material, const Configuration& at) {
-  const auto& packing = material.packing;
+std::vector<ContactView> contact_views(const Problem& problem, const Configuration& at) {
+  const auto& packing = *problem.packing;
   const auto n = packing.size();
   const auto& f = at.deformation;
   const auto& h = packing.cell;
@@ -105,7 +105,7 @@ std::vector<ContactView> contact_views(const Material& material, const Configura
   std::vector<NeighbourPair> pairs;
   for (const auto& c : at.contacts) pairs.push_back({c.i, c.j, c.shift});
   std::vector<double> weights(pairs.size(), 1.0);
-  if (packing.frame) material.space.weigh(packing, pairs, weights);
+  if (packing.frame) problem.space->weigh(packing, pairs, weights);
   std::vector<ContactView> views;
   views.reserve(at.contacts.size());
   for (std::size_t k = 0; k < at.contacts.size(); ++k) {
@@ -121,8 +121,8 @@ std::vector<ContactView> contact_views(const Material& material, const Configura
     view.branch_x = x[j] - x[i] + f[0] * sx + f[1] * sy;
     view.branch_y = x[n + j] - x[n + i] + f[2] * sx + f[3] * sy;
     view.overlap = packing.radius[i] + packing.radius[j] - std::hypot(view.branch_x, view.branch_y);
-    view.normal_force = std::max(
-        0.0, material.law.stiffness(packing.radius[i], packing.radius[j]) * view.overlap);
+    view.normal_force =
+        std::max(0.0, problem.law->stiffness(packing.radius[i], packing.radius[j]) * view.overlap);
     view.tangential_force = c.tangential_force;
     view.weight = weights[k];
     views.push_back(view);
@@ -130,23 +130,25 @@ std::vector<ContactView> contact_views(const Material& material, const Configura
   return views;
 }
 
-int measure_count(const Material& material, grainlaw_measure what) {
-  const int dimension = material.packing.dimension;
+int measure_count(const Problem& problem, grainlaw_measure what) {
+  const int dimension = problem.packing->dimension;
   switch (what) {
-#define GRAINLAW_X(name, value, count, text) \
-  case name:                                 \
-    return (count) == -2 ? dimension * dimension : (count) == -1 ? (dimension == 2 ? 1 : 3) : (count);
+#define GRAINLAW_X(name, value, count, text)          \
+  case name:                                          \
+    return (count) == -2   ? dimension * dimension    \
+           : (count) == -1 ? (dimension == 2 ? 1 : 3) \
+                           : (count);
     GRAINLAW_MEASURE_LIST(GRAINLAW_X)
 #undef GRAINLAW_X
   }
   return -1;
 }
 
-void measure(const Material& material, const Configuration& at, grainlaw_measure what,
+void measure(const Problem& problem, const Configuration& at, grainlaw_measure what,
              double* value) {
   const auto& f = at.deformation;
-  const double volume = material.space.reference_volume * (f[0] * f[3] - f[1] * f[2]);
-  const auto contacts = contact_views(material, at);
+  const double volume = problem.space->reference_volume * (f[0] * f[3] - f[1] * f[2]);
+  const auto contacts = contact_views(problem, at);
   const auto copy = [&](const std::array<double, 4>& tensor) {
     std::copy(tensor.begin(), tensor.end(), value);
   };
@@ -157,13 +159,13 @@ void measure(const Material& material, const Configuration& at, grainlaw_measure
       *value = volume;
       return;
     case GRAINLAW_VOID_RATIO:
-      *value = volume / material.space.solid_volume - 1;
+      *value = volume / problem.space->solid_volume - 1;
       return;
     case GRAINLAW_COORDINATION:
-      *value = coordination(material, contacts, true);
+      *value = coordination(problem, contacts, true);
       return;
     case GRAINLAW_COORDINATION_NO_RATTLERS:
-      *value = coordination(material, contacts, false);
+      *value = coordination(problem, contacts, false);
       return;
     case GRAINLAW_FABRIC:
       return copy(fabric(contacts));
@@ -184,10 +186,10 @@ void measure(const Material& material, const Configuration& at, grainlaw_measure
       return;
     }
     case GRAINLAW_MEAN_ROTATION:
-      *value = mean_rotation(material, at);
+      *value = mean_rotation(problem, at);
       return;
     case GRAINLAW_ELASTIC_ENERGY:
-      *value = elastic_energy(material, contacts);
+      *value = elastic_energy(problem, contacts);
       return;
     case GRAINLAW_DISSIPATED_ENERGY:
       *value = at.dissipated;
@@ -199,10 +201,10 @@ void measure(const Material& material, const Configuration& at, grainlaw_measure
       *value = weighted_number(contacts);
       return;
     case GRAINLAW_PARTICLES:
-      *value = static_cast<double>(material.space.nodes);
+      *value = static_cast<double>(problem.space->nodes);
       return;
     case GRAINLAW_REFERENCE_VOLUME:
-      *value = material.space.reference_volume;
+      *value = problem.space->reference_volume;
       return;
     case GRAINLAW_DEFORMATION_GRADIENT:
       return copy({f[0], f[1], f[2], f[3]});

@@ -1,11 +1,12 @@
 // What a configuration can tell: stress, void ratio, coordination, fabric, energies.
 #pragma once
 
-#include "material/material.hpp"
-#include "packing/neighbours.hpp"
+#include "equilibrium/configuration.hpp"
+#include "equilibrium/problem.hpp"
 
 #include <grainlaw/grainlaw.h>
 
+#include <array>
 #include <vector>
 
 namespace grainlaw {
@@ -20,13 +21,12 @@ struct ContactView {
   double tangential_force;    // on j, along the normal turned by +90 degrees [N]
   double weight;              // 1, or 1 / copies on a frame [-]
 };
-std::vector<ContactView> contact_views(const Material& material, const Configuration& at);
+std::vector<ContactView> contact_views(const Problem& problem, const Configuration& at);
 
 // Number of components of a measure; -1 when unknown.
-int measure_count(const Material& material, grainlaw_measure what);
+int measure_count(const Problem& problem, grainlaw_measure what);
 
 // Fills value[measure_count]. Definitions in grainlaw.h.
-void measure(const Material& material, const Configuration& at, grainlaw_measure what,
-             double* value);
+void measure(const Problem& problem, const Configuration& at, grainlaw_measure what, double* value);
 
 }  // namespace grainlaw

@@ -88,10 +88,9 @@ std::array<double, 16> elastic_tangent(const Increment& increment) {
       for (std::size_t j = 0; j < 2; ++j) {
         for (std::size_t k = 0; k < 2; ++k) {
           for (std::size_t l = 0; l < 2; ++l) {
-            tangent[((2 * i + j) * 2 + k) * 2 + l] +=
-                (list.normal_stiffness[c] * n[i] * n[k] +
-                 list.tangential_stiffness[c] * t[i] * t[k]) *
-                branch[j] * branch[l] / volume;
+            tangent[((2 * i + j) * 2 + k) * 2 + l] += (list.normal_stiffness[c] * n[i] * n[k] +
+                                                       list.tangential_stiffness[c] * t[i] * t[k]) *
+                                                      branch[j] * branch[l] / volume;
           }
         }
       }

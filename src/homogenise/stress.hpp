@@ -13,8 +13,8 @@ namespace grainlaw {
 // Love's formula for the cell (Guo & Zhao 2014, eq. 5).
 std::array<double, 4> piola_stress(const Increment& increment);
 
-// dP_iJ/dF_kL condensed: the derivative along the branch of equilibria, exact where no contact changes
-// status. A[((i*2+J)*2+k)*2+L] [Pa].
+// dP_iJ/dF_kL condensed: the derivative along the branch of equilibria, exact where no contact
+// changes status. A[((i*2+J)*2+k)*2+L] [Pa].
 std::array<double, 16> condensed_tangent(const Increment& increment,
                                          const Sensitivity& sensitivity);
 

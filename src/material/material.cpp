@@ -28,7 +28,8 @@ Configuration given_configuration(const Material& material) {
   if (material.law.rotating()) given.coordinates.resize(3 * n, 0.0);
   for (const auto& contact : packing.contacts) {
     ContactHistory history;
-    // Seen from the other side branch, normal, tangent and force all turn round; the component stays.
+    // Seen from the other side branch, normal, tangent and force all turn round; the component
+    // stays.
     const bool turn = contact.i > contact.j || (contact.i == contact.j && contact.shift[0] < 0) ||
                       (contact.i == contact.j && contact.shift[0] == 0 && contact.shift[1] < 0);
     history.i = turn ? contact.j : contact.i;
@@ -54,8 +55,8 @@ Configuration given_configuration(const Material& material) {
   return given;
 }
 
-// Contact forces in the files must be those of this law: a packing made with another stiffness would
-// start from another equilibrium without a word.
+// Contact forces in the files must be those of this law: a packing made with another stiffness
+// would start from another equilibrium without a word.
 void check_given_forces(const Material& material) {
   constexpr double tolerance = 0.01;
   const auto& packing = material.packing;
@@ -75,10 +76,11 @@ void check_given_forces(const Material& material) {
     found += std::max(overlap, 0.0) * material.law.stiffness(packing.radius[i], packing.radius[j]);
   }
   if (given > 0 && std::abs(found - given) > tolerance * given) {
-    throw Error(GRAINLAW_BAD_PACKING,
-                fmt::format("contact forces of the packing: their sum is {:.6g} N, but overlaps and "
-                            "stiffness of the material give {:.6g} N; expected the same within 1 %",
-                            given, found));
+    throw Error(
+        GRAINLAW_BAD_PACKING,
+        fmt::format("contact forces of the packing: their sum is {:.6g} N, but overlaps and "
+                    "stiffness of the material give {:.6g} N; expected the same within 1 %",
+                    given, found));
   }
 }
 
@@ -91,9 +93,9 @@ std::uint64_t fingerprint_of(const Material& material) {
   const auto add_all = [&](const std::vector<double>& values) {
     add(values.data(), values.size() * sizeof(double));
   };
-  const double law[] = {material.law.young, material.law.normal_stiffness, material.law.ratio,
-                        material.law.friction, material.law.rotation ? 1.0 : 0.0,
-                        material.packing.thickness};
+  const double law[] = {
+      material.law.young,    material.law.normal_stiffness,     material.law.ratio,
+      material.law.friction, material.law.rotation ? 1.0 : 0.0, material.packing.thickness};
   const int boundary[] = {static_cast<int>(material.space.options.type),
                           static_cast<int>(material.space.options.weight)};
   add(law, sizeof law);
@@ -117,8 +119,9 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
   if (description.boundary.type == BoundaryType::frame_p && !material->packing.frame) {
     material->packing = cut_frame(material->packing);
   } else if (description.boundary.type == BoundaryType::periodic_cell && material->packing.frame) {
-    throw Error(GRAINLAW_BAD_PACKING,
-                "the packing is a frame; expected a periodic packing, or boundary.type = \"frame-p\"");
+    throw Error(
+        GRAINLAW_BAD_PACKING,
+        "the packing is a frame; expected a periodic packing, or boundary.type = \"frame-p\"");
   }
   material->space = make_boundary_space(material->packing, description.boundary);
   material->fingerprint = fingerprint_of(*material);
@@ -142,11 +145,11 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
                 "the packing has no contacts at F = I; expected one that carries stress");
   }
   if (outcome.status != GRAINLAW_OK) {
-    throw Error(outcome.status, fmt::format("the packing found no equilibrium at F = I: residual "
-                                            "{:.3g} after {} relaxation steps, expected {:.3g}",
-                                            workspace.increment.residual_norm(),
-                                            workspace.increment.relaxation_steps,
-                                            request.tolerance));
+    throw Error(outcome.status,
+                fmt::format("the packing found no equilibrium at F = I: residual "
+                            "{:.3g} after {} relaxation steps, expected {:.3g}",
+                            workspace.increment.residual_norm(),
+                            workspace.increment.relaxation_steps, request.tolerance));
   }
   const auto stress = piola_stress(workspace.increment);
   workspace.increment.advance_history();

@@ -2,11 +2,12 @@
 #pragma once
 
 #include "boundary/boundary_space.hpp"
-#include "equilibrium/options.hpp"
 #include "contact/law.hpp"
+#include "equilibrium/configuration.hpp"
+#include "equilibrium/options.hpp"
+#include "equilibrium/problem.hpp"
 #include "packing/generator.hpp"
 #include "packing/packing.hpp"
-#include "state/configuration.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -22,6 +23,12 @@ struct Material {
   Configuration initial;          // equilibrium at F = I
   double initial_mean_force = 0;  // mean normal contact force there [N]
   std::uint64_t fingerprint = 0;  // tells saved states of different materials apart
+
+  // What the solvers see of it. Residuals are never relative to less than 1e-3 of the force at F =
+  // I, so that a packing without stress does not pass as converged.
+  [[nodiscard]] Problem problem() const {
+    return {&packing, &law, &space, 1e-3 * initial_mean_force, solver.tolerance};
+  }
 };
 
 // What a material file says, before any equilibrium.

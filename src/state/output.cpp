@@ -14,7 +14,7 @@ void write_force_chains(const std::string& path, const Material& material,
                         const Configuration& at) {
   const std::size_t n = material.packing.size();
   std::vector<VtkContact> chains;
-  for (const ContactView& c : contact_views(material, at))
+  for (const ContactView& c : contact_views(material.problem(), at))
     chains.push_back({c.i, c.j, {c.branch_x, c.branch_y, 0}, c.normal_force, c.tangential_force});
   const std::span<const double> coordinates(at.coordinates);
   write_vtk(path, coordinates.first(2 * n), material.packing.radius, coordinates.subspan(2 * n),
@@ -30,7 +30,7 @@ Packing as_packing(const Material& material, const Configuration& at) {
   packing.cell = {F[0] * H[0] + F[1] * H[2], F[0] * H[1] + F[1] * H[3], F[2] * H[0] + F[3] * H[2],
                   F[2] * H[1] + F[3] * H[3]};
   packing.contacts.clear();
-  for (const ContactView& c : contact_views(material, at)) {
+  for (const ContactView& c : contact_views(material.problem(), at)) {
     const double per_length = c.tangential_force / std::hypot(c.branch_x, c.branch_y);
     packing.contacts.push_back({c.i,
                                 c.j,

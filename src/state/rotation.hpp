@@ -1,5 +1,5 @@
-// The rotation of an increment and what it does to stress and tangent. A rotation changes nothing in
-// the packing, so an increment is solved without it: dF = R U, F* = U F_n, P(F) = R P*(F*).
+// The rotation of an increment and what it does to stress and tangent. A rotation changes nothing
+// in the packing, so an increment is solved without it: dF = R U, F* = U F_n, P(F) = R P*(F*).
 #pragma once
 
 #include <array>

@@ -1,8 +1,8 @@
 // An equilibrium as bytes and back: the same on every machine, and refused when anything is wrong.
 #pragma once
 
+#include "equilibrium/configuration.hpp"
 #include "material/material.hpp"
-#include "state/configuration.hpp"
 
 #include <cstddef>
 #include <span>

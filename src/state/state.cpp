@@ -17,8 +17,8 @@ namespace {
 
 // A larger stretch in one increment would leave no contact of the committed packing where it was.
 constexpr double largest_stretch_change = 0.3;
-// Step of the forward differences of the perturbed tangent: well above the tolerance it is solved to,
-// well below the increments of a host.
+// Step of the forward differences of the perturbed tangent: well above the tolerance it is solved
+// to, well below the increments of a host.
 constexpr double perturbation = 1e-5;
 constexpr double perturbed_tolerance = 1e-9;
 
@@ -153,8 +153,7 @@ grainlaw_status State::evaluate(const double* F, TangentKind kind, double* P, do
   }
 
   Workspace& w = workspace();
-  const Problem problem{&material.packing, &material.law, &material.space,
-                        1e-3 * material.initial_mean_force, material.solver.tolerance};
+  const Problem problem = material.problem();
   Request request{&problem, &material.solver, &committed_, split.target};
   request.tolerance = material.solver.tolerance;
   request.sensitivities = kind == TangentKind::exact;
@@ -187,8 +186,8 @@ grainlaw_status State::evaluate(const double* F, TangentKind kind, double* P, do
   w.increment.advance_history();
   w.increment.export_to(committed_, trial_);
   report.contacts = static_cast<int>(trial_.contacts.size());
-  report.sliding = static_cast<int>(std::count_if(
-      trial_.contacts.begin(), trial_.contacts.end(), [](const auto& c) { return c.sliding; }));
+  report.sliding = static_cast<int>(std::count_if(trial_.contacts.begin(), trial_.contacts.end(),
+                                                  [](const auto& c) { return c.sliding; }));
   report.status_changes = status_changes(committed_, trial_);
   if (kind == TangentKind::perturbed) {
     if (const auto status = perturb(request, w, tangent, report); status != GRAINLAW_OK) {

@@ -68,7 +68,7 @@ void expect_equal_work(const State& state, const Tensor& F, std::mt19937& random
 
   double work = 0;
   double magnitude = 0;
-  for (const auto& c : contact_views(material, state.current())) {
+  for (const auto& c : contact_views(material.problem(), state.current())) {
     const auto i = static_cast<std::size_t>(c.i);
     const auto j = static_cast<std::size_t>(c.j);
     const auto a = static_cast<std::size_t>(space.node[i]);
@@ -121,7 +121,7 @@ Surroundings surroundings(const State& state) {
   const Material& material = state.material();
   const auto n = material.packing.size();
   Surroundings result{std::vector<std::array<double, 2>>(n), std::vector<double>(n), 0};
-  const auto views = contact_views(material, state.current());
+  const auto views = contact_views(material.problem(), state.current());
   for (const auto& c : views) {
     const auto i = static_cast<std::size_t>(c.i);
     const auto j = static_cast<std::size_t>(c.j);

@@ -13,8 +13,8 @@ const State& reference_state() {
 
 Tensor tensor(const State& state, grainlaw_measure what) {
   Tensor value{};
-  EXPECT_EQ(measure_count(state.material(), what), 4);
-  measure(state.material(), state.current(), what, value.data());
+  EXPECT_EQ(measure_count(state.material().problem(), what), 4);
+  measure(state.material().problem(), state.current(), what, value.data());
   return value;
 }
 
@@ -67,7 +67,7 @@ TEST(measures, fabric_and_anisotropy_follow_their_equations) {
   State state = reference_state();
   advance(state, {1.002, 0.001, 0, 0.996}, 4);
   Tensor fabric{};  // Guo & Zhao (2014) eq. 22
-  const auto views = contact_views(state.material(), state.current());
+  const auto views = contact_views(state.material().problem(), state.current());
   for (const auto& c : views) {
     const double d = std::hypot(c.branch_x, c.branch_y);
     const double n[2] = {c.branch_x / d, c.branch_y / d};

@@ -157,7 +157,7 @@ inline void advance(State& state, const Tensor& F, int steps) {
 
 inline double measure(const State& state, grainlaw_measure what) {
   double value = 0;
-  measure(state.material(), state.current(), what, &value);
+  measure(state.material().problem(), state.current(), what, &value);
   return value;
 }
 
@@ -185,7 +185,7 @@ using BearingContact = std::tuple<int, int, std::array<int, 2>, bool>;
 inline std::vector<BearingContact> bearing_contacts(const State& state) {
   constexpr double least = 1e-5;     // of the mean normal force
   constexpr double rounding = 1e-6;  // of the friction limit of the weakest of them
-  const auto views = contact_views(state.material(), state.current());
+  const auto views = contact_views(state.material().problem(), state.current());
   double mean = 0;
   for (const auto& view : views) mean += view.normal_force / static_cast<double>(views.size());
   std::vector<BearingContact> result;

@@ -21,9 +21,9 @@ struct Variant {
   double inheritance;  // of the servo's prediction, n_f [-]
 };
 
-// All on the same frame. The servo is the published one, with and without prediction; "direct" relaxes
-// the frame with the particles: by the servo's own relaxation, by the viscous one with the history
-// advancing too, and by the default with friction as a function of F.
+// All on the same frame. The servo is the published one, with and without prediction; "direct"
+// relaxes the frame with the particles: by the servo's own relaxation, by the viscous one with the
+// history advancing too, and by the default with friction as a function of F.
 constexpr std::array<Variant, 5> variants{
     {{"servo, n_f = 1", "servo", "published", 1},
      {"servo, n_f = 0", "servo", "published", 0},
@@ -31,8 +31,8 @@ constexpr std::array<Variant, 5> variants{
      {"direct, advancing history", "direct", "advancing", 1},
      {"direct", "direct", "chain", 1}}};
 
-// eps_a over the tolerance of the particles' residuals: the servo's r_a is relative to M R / dt^2, here
-// about a thousand mean contact forces, so that both stop at the same unbalanced force.
+// eps_a over the tolerance of the particles' residuals: the servo's r_a is relative to M R / dt^2,
+// here about a thousand mean contact forces, so that both stop at the same unbalanced force.
 constexpr double servo_tolerance = 1e-3;
 
 struct ShearRun {

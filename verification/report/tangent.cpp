@@ -47,8 +47,8 @@ struct ProbeResult {
   double elastic = std::numeric_limits<double>::quiet_NaN();
   double perturbed = std::numeric_limits<double>::quiet_NaN();
   double differences = std::numeric_limits<double>::quiet_NaN();  // between two stencils
-  double step = 0;       // of the finer stencil [-]
-  bool changed = false;  // within that stencil
+  double step = 0;                                                // of the finer stencil [-]
+  bool changed = false;                                           // within that stencil
   bool claimed_exact = false;
   grainlaw_report report = grainlaw_report_default();
 };
@@ -137,11 +137,10 @@ void run(const ReportOptions& options, double tolerance, int states, double axia
   for (Probe& probe : probe_path("shear", material, shear_segment(shear, steps), every))
     probes.push_back(std::move(probe));
 
-  Table table(
-      fmt::format("tangent of single increments at solver tolerance {:.0e} [-]", tolerance),
-      {"path", "strain[-]", "contacts[-]", "sliding[-]", "status_changes[-]", "subincrements[-]",
-       "exact_error[-]", "elastic_error[-]", "perturbed_error[-]", "differences_error[-]", "stencil[-]",
-       "changes_inside"});
+  Table table(fmt::format("tangent of single increments at solver tolerance {:.0e} [-]", tolerance),
+              {"path", "strain[-]", "contacts[-]", "sliding[-]", "status_changes[-]",
+               "subincrements[-]", "exact_error[-]", "elastic_error[-]", "perturbed_error[-]",
+               "differences_error[-]", "stencil[-]", "changes_inside"});
   std::vector<ProbeResult> results;
   Progress progress("tangents");
   for (const Probe& probe : probes) {
@@ -150,8 +149,7 @@ void run(const ReportOptions& options, double tolerance, int states, double axia
     table.row({probe.path, probe.strain, static_cast<double>(r.report.contacts),
                static_cast<double>(r.report.sliding), static_cast<double>(r.report.status_changes),
                static_cast<double>(r.report.subincrements), r.exact, r.elastic, r.perturbed,
-               r.differences, r.step,
-               r.changed ? "yes" : "no"});
+               r.differences, r.step, r.changed ? "yes" : "no"});
     progress.update(static_cast<double>(results.size()) / static_cast<double>(probes.size()), "");
   }
   table.print();
