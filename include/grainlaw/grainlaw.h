@@ -7,13 +7,14 @@
  * Conventions, for every function below:
  *   - dim is 2 or 3 (grainlaw_material_dimension). Tensors are row-major: F[i*dim+J] = dx_i/dX_J.
  *   - SI units throughout. Stress in Pa, tension positive. A 2D packing has an out-of-plane
- * thickness; it is plane strain with F33 = 1 and P33 = 0.
+ *     thickness; it is plane strain with F33 = 1 and P33 = 0.
  *   - Every function that can fail returns a grainlaw_status. 0: done. > 0: recoverable, the state
- * is as it was committed, retry with a smaller step. < 0: caller error or internal fault, and what
- * is committed has not changed.
+ *     is as it was committed, retry with a smaller step. < 0: caller error or internal fault, and
+ *     what is committed has not changed.
  *   - No exception, exit, abort or print crosses this boundary, and no signal is raised.
  *   - A handle may be used by one thread at a time; different states, also of one material, may be
- * used by different threads at once. Results do not depend on the number of threads, bit for bit.
+ *     used by different threads at once. Results do not depend on the number of threads, bit for
+ *     bit.
  */
 #ifndef GRAINLAW_GRAINLAW_H
 #define GRAINLAW_GRAINLAW_H

@@ -146,7 +146,7 @@ Outcome solve(const Request& request, Workspace& w) {
     if (request.options->method != Method::chain) {
       return attempt(solve_advancing(request, request.options->method, w, outcome));
     }
-    for (const int refinement : {1, 2, 4, 8}) {
+    for (const int refinement : {1, 2, 4}) {
       if (parts * refinement > most_subincrements) break;
       if (attempt(solve_parts(request, parts * refinement, w, outcome))) return true;
       if (w.increment.touching == 0) return false;

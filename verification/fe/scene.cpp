@@ -42,6 +42,8 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
   scene.options.tangent =
       tangent_bit(table.choice_or("tangent", "exact", {"exact", "elastic", "perturbed"}));
   scene.options.tolerance = table.number_or("tolerance", scene.options.tolerance, positive);
+  scene.options.max_cuts = table.integer_or("max_cuts", scene.options.max_cuts, 0);
+  scene.options.loose_tolerance = table.number_or("loose_tolerance", 0, not_negative);
   scene.options.max_iterations =
       table.integer_or("max_iterations", scene.options.max_iterations, 1);
   scene.options.threads = table.integer_or("threads", 0, 0);

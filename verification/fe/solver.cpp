@@ -81,33 +81,42 @@ class LoadStepper {
     LoadStep step;
     int cuts = 0;
     int iterations = 0;
+    int loose_parts = 0;
     double done = from;
     double part = to - from;
     const double smallest = std::ldexp(to - from, -options_.max_cuts);
+    bool loose = false;
     do {
       const double next = done + part > to - 1e-9 * (to - from) ? to : done + part;
       double ratio = usual_cut;
       std::string reason;
       const auto first = step.residuals.size();
-      const bool converged = attempt(next, step.residuals, ratio, reason);
+      const double tolerance = loose ? options_.loose_tolerance : options_.tolerance;
+      const bool converged = attempt(next, tolerance, step.residuals, ratio, reason);
       iterations += static_cast<int>(step.residuals.size() - first) - 1;
       if (converged) {
         points_.commit();
         part = std::min(to - next, 2 * (next - done));
         done = next;
+        loose = false;
         continue;
       }
       points_.revert();
       ++cuts;
       part = (next - done) * std::clamp(ratio, smallest_cut, usual_cut);
-      if (part < smallest || to == from)
+      if (part >= smallest && to > from) continue;
+      if (loose || options_.loose_tolerance == 0)
         throw ComputationError(
             fmt::format("load step {} failed at {:.1e} of the run: {}", number, part, reason));
+      loose = true;
+      ++loose_parts;
+      part = to - done;
     } while (done < to);
     step.record = points_.record();
     step.record.step = number;
     step.record.effort.iterations = iterations;
     step.record.effort.cuts = cuts;
+    step.record.effort.loose = loose_parts;
     return step;
   }
 
@@ -117,7 +126,7 @@ class LoadStepper {
   // Increments of prescribed displacement enter through the right-hand side of the first solve,
   // which extrapolates the committed equilibrium by its tangent; boundary values never jump ahead
   // alone.
-  bool attempt(double fraction, std::vector<double>& residuals, double& ratio,
+  bool attempt(double fraction, double tolerance, std::vector<double>& residuals, double& ratio,
                std::string& reason) {
     Eigen::VectorXd displacement = displacement_;
     System system = system_;
@@ -142,7 +151,7 @@ class LoadStepper {
       }
       system = assemble(model_, points_, displacement, fraction);
       residuals.push_back(error(system, prescribed));
-      if (residuals.back() <= options_.tolerance) {
+      if (residuals.back() <= tolerance) {
         displacement_ = displacement;
         system_ = system;
         committed_fraction_ = fraction;

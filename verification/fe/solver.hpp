@@ -12,6 +12,10 @@ struct SolverOptions {
   double tolerance = 1e-8;  // |force on the unknowns| / |nodal forces of the stresses| [-]
   int max_iterations = 20;  // of one attempt, then the step is cut
   int max_cuts = 10;        // halvings of one step, at most
+  // Where contacts collapse P(F) jumps, and no displacement balances the loads to the last digit. A
+  // step at its smallest cut is then taken whole to this residual, and the record counts it as a
+  // loose part; 0: never [-].
+  double loose_tolerance = 0;
   int threads = 0;          // <= 0: as many as the library takes
 };
 

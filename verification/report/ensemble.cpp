@@ -39,7 +39,7 @@ Member run_member(const ReportOptions& options, long seed, int steps) {
   change(source, "solver", "start", std::string("trial"));  // see scenes/drained_point.toml
   try {
     const Material material = make_material(source);
-    PointDriver driver(material, {});
+    PointDriver driver(material, report_options());
     std::vector<double> strain{0};
     std::vector<double> stress{-1e-3 * driver.record().cauchy(1, 1)};
     std::vector<double> late;
