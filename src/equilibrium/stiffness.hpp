@@ -23,8 +23,6 @@ class Stiffness {
   // singular to working precision.
   bool solve(const Increment& increment, std::span<const double> b, std::span<double> x);
 
-  [[nodiscard]] const BlockMatrix& matrix() const { return matrix_; }
-
  private:
   void find_graph(const Increment& increment);
   void add_masses(const Increment& increment, double factor);
