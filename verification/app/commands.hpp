@@ -9,6 +9,6 @@ namespace verification {
 void add_point_command(CLI::App& app);
 void add_solve_command(CLI::App& app);
 void add_pack_command(CLI::App& app);
-void add_report_command(CLI::App& app);
+void add_study_command(CLI::App& app);
 
 }  // namespace verification

@@ -1,9 +1,9 @@
-// `grainlaw report drained`: the drained test of one finite element, of one representative volume
+// `grainlaw study drained`: the drained test of one finite element, of one representative volume
 // and of the packing alone, beside YADE's run of the same packing. Reads their tables; runs
 // nothing.
 
-#include "report/report.hpp"
-#include "report/statistics.hpp"
+#include "study/study.hpp"
+#include "study/statistics.hpp"
 
 #include "app/csv.hpp"
 #include "app/figure.hpp"
@@ -62,7 +62,7 @@ Curves yade_run(const std::string& name, const std::filesystem::path& path) {
   return curves;
 }
 
-void print_stresses(const ReportOptions& options, const std::vector<Curves>& runs) {
+void print_stresses(const StudyOptions& options, const std::vector<Curves>& runs) {
   std::vector<std::string> columns{"axial_stress[kPa]"};
   for (const Curves& run : runs) columns.push_back(run.name);
   Table table("drained compression at a lateral stress of 100 kPa", columns);
@@ -78,7 +78,7 @@ void print_stresses(const ReportOptions& options, const std::vector<Curves>& run
   line("peak", [](const Curves& run) { return largest(run.axial_stress); });
   line("mean 6-10 %", [](const Curves& run) { return run.mean_stress(6, 10); });
   table.print();
-  table.write(std::filesystem::path(options.output) / "report_drained.csv");
+  table.write(std::filesystem::path(options.output) / "study_drained.csv");
 }
 
 // Largest relative difference of axial stress up to a strain before the peak, where the path does
@@ -94,7 +94,7 @@ void print_agreement(const Curves& a, const Curves& b) {
 }
 
 void draw_comparison(const std::vector<Curves>& runs, const std::filesystem::path& stem) {
-  // In the order of run_report: own runs first, then YADE's.
+  // In the order of run_study: own runs first, then YADE's.
   constexpr std::array<const char*, 5> colours{colour::blue, colour::orange, colour::green,
                                                colour::black, colour::grey};
   constexpr std::array<Stroke, 5> strokes{Stroke::solid, Stroke::dashed, Stroke::solid,
@@ -121,7 +121,7 @@ struct Arguments {
   std::string dem = "direct_dem.csv";
 };
 
-void run_report(const ReportOptions& options, const Arguments& arguments) {
+void run_study(const StudyOptions& options, const Arguments& arguments) {
   const std::filesystem::path output = options.output;
   const std::filesystem::path reference = std::filesystem::path(options.scenes) / "reference";
   const std::vector<Curves> runs{own_run("single element", output / arguments.element),
@@ -140,17 +140,17 @@ void run_report(const ReportOptions& options, const Arguments& arguments) {
 
 }  // namespace
 
-void add_drained_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options) {
+void add_drained_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
-      report.add_subcommand("drained", "compare finished drained tests with each other and YADE");
+      study.add_subcommand("drained", "compare finished drained tests with each other and YADE");
   command->add_option("--element", arguments->element, "table of `grainlaw solve`, in --output")
       ->capture_default_str();
   command->add_option("--point", arguments->point, "table of `grainlaw point`, in --output")
       ->capture_default_str();
   command->add_option("--dem", arguments->dem, "table of the packing alone, in --output")
       ->capture_default_str();
-  command->callback([arguments, options] { run_report(*options, *arguments); });
+  command->callback([arguments, options] { run_study(*options, *arguments); });
 }
 
 }  // namespace verification

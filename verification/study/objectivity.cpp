@@ -1,6 +1,6 @@
-// `grainlaw report objectivity`: rigid rotations, symmetry of the Cauchy stress, and energy.
+// `grainlaw study objectivity`: rigid rotations, symmetry of the Cauchy stress, and energy.
 
-#include "report/report.hpp"
+#include "study/study.hpp"
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ Tensor rotation(double angle) {
 
 // |P(Q F) - Q P(F)| / |P(F)| of the same increment seen by a turned observer, and
 // |sigma12 - sigma21| / |sigma|.
-void report_rotations(const ReportOptions& options, const Material& material, double tolerance) {
+void study_rotations(const StudyOptions& options, const Material& material, double tolerance) {
   const std::vector<Probe> probes =
       probe_path("drained", material, drained_segment(-0.02, drained_pressure, 20), 4);
   Table table(
@@ -42,12 +42,12 @@ void report_rotations(const ReportOptions& options, const Material& material, do
     }
   }
   table.print();
-  table.write(std::filesystem::path(options.output) / "report_objectivity.csv");
+  table.write(std::filesystem::path(options.output) / "study_objectivity.csv");
 }
 
 // The work of the boundary goes into the contacts or is dissipated. The trapezoid rule on P:dF and
 // the friction of whole increments agree with each other as increments shrink.
-void report_energy(const ReportOptions& options, const Material& material) {
+void study_energy(const StudyOptions& options, const Material& material) {
   constexpr double axial = 0.01;
   Table table("energy of the drained path to 1 % axial strain",
               {"increment[-]", "external_work[J]", "elastic_change[J]", "dissipated[J]",
@@ -62,20 +62,20 @@ void report_energy(const ReportOptions& options, const Material& material) {
                (end.external_work - elastic - end.dissipated_energy) / end.external_work});
   }
   table.print();
-  table.write(std::filesystem::path(options.output) / "report_energy.csv");
+  table.write(std::filesystem::path(options.output) / "study_energy.csv");
 }
 
 }  // namespace
 
-void add_objectivity_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options) {
+void add_objectivity_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options) {
   auto tolerance = std::make_shared<double>(1e-10);
   CLI::App* command =
-      report.add_subcommand("objectivity", "rigid rotations, symmetry of stress, energy");
+      study.add_subcommand("objectivity", "rigid rotations, symmetry of stress, energy");
   command->add_option("--tolerance", *tolerance, "of the equilibria [-]")->capture_default_str();
   command->callback([tolerance, options] {
     const Material material = make_material(options->material(*tolerance));
-    report_rotations(*options, material, *tolerance);
-    report_energy(*options, material);
+    study_rotations(*options, material, *tolerance);
+    study_energy(*options, material);
   });
 }
 

@@ -1,6 +1,6 @@
-// `grainlaw report servo`: the published servo on a frame against direct relaxation.
+// `grainlaw study servo`: the published servo on a frame against direct relaxation.
 
-#include "report/report.hpp"
+#include "study/study.hpp"
 
 #include "app/progress.hpp"
 
@@ -42,7 +42,7 @@ struct ShearRun {
   std::string failure;
 };
 
-ShearRun shear_frame(const ReportOptions& options, const Variant& variant, double shear,
+ShearRun shear_frame(const StudyOptions& options, const Variant& variant, double shear,
                      double increment, double spacing, double tolerance) {
   ShearRun run;
   MaterialSource source = options.material(tolerance);
@@ -79,7 +79,7 @@ double distance(const ShearRun& a, const ShearRun& b) {
   return largest;
 }
 
-void run_report(const ReportOptions& options, double shear, double tolerance) {
+void run_study(const StudyOptions& options, double shear, double tolerance) {
   constexpr double spacing = 0.005;  // the largest increment
   Table table(
       fmt::format("frame-p sheared to F12 = {:g} [-], tolerance {:.0e} [-]; distances are the "
@@ -98,24 +98,24 @@ void run_report(const ReportOptions& options, double shear, double tolerance) {
     }
   }
   table.print();
-  table.write(std::filesystem::path(options.output) / "report_servo.csv");
+  table.write(std::filesystem::path(options.output) / "study_servo.csv");
 }
 
 }  // namespace
 
-void add_servo_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options) {
+void add_servo_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options) {
   struct Arguments {
     double shear = 0.005;
     double tolerance = 1e-4;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
-      report.add_subcommand("servo", "the published servo against direct relaxation");
+      study.add_subcommand("servo", "the published servo against direct relaxation");
   command->add_option("--shear", arguments->shear, "F12 at the end [-]")->capture_default_str();
   command->add_option("--tolerance", arguments->tolerance, "of the equilibria [-]")
       ->capture_default_str();
   command->callback(
-      [arguments, options] { run_report(*options, arguments->shear, arguments->tolerance); });
+      [arguments, options] { run_study(*options, arguments->shear, arguments->tolerance); });
 }
 
 }  // namespace verification

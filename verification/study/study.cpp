@@ -1,4 +1,4 @@
-#include "report/report.hpp"
+#include "study/study.hpp"
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"
@@ -11,7 +11,7 @@
 
 namespace verification {
 
-std::filesystem::path ReportOptions::scene(const std::string& name) const {
+std::filesystem::path StudyOptions::scene(const std::string& name) const {
   const std::filesystem::path path = std::filesystem::path(scenes) / name;
   if (!std::filesystem::is_regular_file(path))
     throw InputError(
@@ -21,7 +21,7 @@ std::filesystem::path ReportOptions::scene(const std::string& name) const {
   return path;
 }
 
-MaterialSource ReportOptions::material(double tolerance) const {
+MaterialSource StudyOptions::material(double tolerance) const {
   MaterialSource source;
   source.file = scene("yade400.toml");
   source.base = source.file.parent_path();
@@ -67,7 +67,7 @@ void Table::write(const std::filesystem::path& path) const {
   if (!stream) throw ComputationError(fmt::format("{}: cannot be written", path.string()));
 }
 
-PointOptions report_options() {
+PointOptions study_options() {
   PointOptions options;
   options.max_cuts = 4;
   options.loose_tolerance = 0.1;
@@ -78,7 +78,7 @@ std::vector<Probe> probe_path(const std::string& name, const Material& material,
                               const Segment& segment, int every) {
   std::vector<Probe> probes;
   Progress progress(name + " path");
-  PointDriver driver(material, report_options());
+  PointDriver driver(material, study_options());
   driver.run(segment, [&](const PointStep& step) {
     progress.update(step.fraction, "");
     if (step.record.step % every != 0) return;
@@ -89,21 +89,21 @@ std::vector<Probe> probe_path(const std::string& name, const Material& material,
   return probes;
 }
 
-void add_report_command(CLI::App& app) {
-  CLI::App* report = app.add_subcommand("report", "measure what the project claims");
-  report->require_subcommand(1);
-  auto options = std::make_shared<ReportOptions>();
-  report->add_option("--scenes", options->scenes, "directory with the scenes")
+void add_study_command(CLI::App& app) {
+  CLI::App* study = app.add_subcommand("study", "measure what the project claims");
+  study->require_subcommand(1);
+  auto options = std::make_shared<StudyOptions>();
+  study->add_option("--scenes", options->scenes, "directory with the scenes")
       ->capture_default_str();
-  report->add_option("--output", options->output, "directory for the results")
+  study->add_option("--output", options->output, "directory for the results")
       ->capture_default_str();
-  add_drained_report(*report, options);
-  add_tangent_report(*report, options);
-  add_newton_report(*report, options);
-  add_objectivity_report(*report, options);
-  add_servo_report(*report, options);
-  add_ensemble_report(*report, options);
-  add_timing_report(*report, options);
+  add_drained_study(*study, options);
+  add_tangent_study(*study, options);
+  add_newton_study(*study, options);
+  add_objectivity_study(*study, options);
+  add_servo_study(*study, options);
+  add_ensemble_study(*study, options);
+  add_timing_study(*study, options);
 }
 
 }  // namespace verification

@@ -1,7 +1,7 @@
-// `grainlaw report newton`: convergence of the finite element Newton method by kind of tangent.
+// `grainlaw study newton`: convergence of the finite element Newton method by kind of tangent.
 
-#include "report/report.hpp"
-#include "report/statistics.hpp"
+#include "study/study.hpp"
+#include "study/statistics.hpp"
 
 #include "app/progress.hpp"
 #include "fe/scene.hpp"
@@ -49,7 +49,7 @@ Run solve_drained(const FiniteElementScene& scene, const std::string& tangent, i
 constexpr std::size_t first_shown = 6;
 constexpr std::size_t every_shown = 10;
 
-void run_report(const ReportOptions& options, int steps, int max_iterations) {
+void run_study(const StudyOptions& options, int steps, int max_iterations) {
   const SceneFile file(options.scene("drained.toml"));
   const FiniteElementScene scene = read_fe_scene(file);
   constexpr std::array<const char*, 2> kinds{"exact", "elastic"};
@@ -70,7 +70,7 @@ void run_report(const ReportOptions& options, int steps, int max_iterations) {
                runs[k].evaluations / done, runs[k].cuts});
   }
   table.print();
-  table.write(std::filesystem::path(options.output) / "report_newton.csv");
+  table.write(std::filesystem::path(options.output) / "study_newton.csv");
 
   std::vector<std::string> columns{"iteration[-]"};
   std::vector<const std::vector<double>*> histories;
@@ -94,19 +94,19 @@ void run_report(const ReportOptions& options, int steps, int max_iterations) {
     if (i <= first_shown || i % every_shown == 0) shown.row(cells);
   }
   shown.print();
-  history.write(std::filesystem::path(options.output) / "report_newton_residuals.csv");
+  history.write(std::filesystem::path(options.output) / "study_newton_residuals.csv");
 }
 
 }  // namespace
 
-void add_newton_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options) {
+void add_newton_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options) {
   struct Arguments {
     int steps = 15;
     int max_iterations = 100;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
-      report.add_subcommand("newton", "finite element iterations with exact and elastic tangent");
+      study.add_subcommand("newton", "finite element iterations with exact and elastic tangent");
   command->add_option("--steps", arguments->steps, "load steps of drained.toml [-]")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
@@ -114,7 +114,7 @@ void add_newton_report(CLI::App& report, const std::shared_ptr<ReportOptions>& o
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->callback(
-      [arguments, options] { run_report(*options, arguments->steps, arguments->max_iterations); });
+      [arguments, options] { run_study(*options, arguments->steps, arguments->max_iterations); });
 }
 
 }  // namespace verification

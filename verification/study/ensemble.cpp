@@ -1,8 +1,8 @@
-// `grainlaw report ensemble`: drained compression of several packings of one recipe, as a mean with
+// `grainlaw study ensemble`: drained compression of several packings of one recipe, as a mean with
 // its standard error, beside the same ensemble run with YADE.
 
-#include "report/report.hpp"
-#include "report/statistics.hpp"
+#include "study/study.hpp"
+#include "study/statistics.hpp"
 
 #include "app/csv.hpp"
 
@@ -29,7 +29,7 @@ struct Member {
   std::string failure;
 };
 
-Member run_member(const ReportOptions& options, long seed, int steps) {
+Member run_member(const StudyOptions& options, long seed, int steps) {
   Member member;
   member.seed = seed;
   MaterialSource source;
@@ -39,7 +39,7 @@ Member run_member(const ReportOptions& options, long seed, int steps) {
   change(source, "solver", "start", std::string("trial"));  // see scenes/drained_point.toml
   try {
     const Material material = make_material(source);
-    PointDriver driver(material, report_options());
+    PointDriver driver(material, study_options());
     std::vector<double> strain{0};
     std::vector<double> stress{-1e-3 * driver.record().cauchy(1, 1)};
     std::vector<double> late;
@@ -60,7 +60,7 @@ Member run_member(const ReportOptions& options, long seed, int steps) {
   return member;
 }
 
-std::vector<Member> run_members(const ReportOptions& options, int count, int steps, int threads) {
+std::vector<Member> run_members(const StudyOptions& options, int count, int steps, int threads) {
   std::vector<Member> members(static_cast<std::size_t>(count));
   std::atomic<int> next{0};
   std::mutex printing;
@@ -98,7 +98,7 @@ constexpr std::array<Quantity, 6> quantities{{
 }};
 constexpr double yade_packings = 8;
 
-void run_report(const ReportOptions& options, int count, int steps, int threads) {
+void run_study(const StudyOptions& options, int count, int steps, int threads) {
   const std::vector<Member> members = run_members(options, count, steps, threads);
   Table each("packings", {"seed[-]", "void_ratio[-]", "stress_0.5[kPa]", "stress_1[kPa]",
                           "peak[kPa]", "mean_6_10[kPa]", "volumetric_strain[%]"});
@@ -113,7 +113,7 @@ void run_report(const ReportOptions& options, int count, int steps, int threads)
               m.residual, m.volumetric_strain});
   }
   each.print();
-  each.write(std::filesystem::path(options.output) / "report_ensemble_packings.csv");
+  each.write(std::filesystem::path(options.output) / "study_ensemble_packings.csv");
 
   Table table(
       fmt::format("drained compression, mean of {} packings against YADE's eight; s.e. is the "
@@ -134,19 +134,19 @@ void run_report(const ReportOptions& options, int count, int steps, int threads)
                std::abs(combined) <= 2 ? "yes" : "no"});
   }
   table.print();
-  table.write(std::filesystem::path(options.output) / "report_ensemble.csv");
+  table.write(std::filesystem::path(options.output) / "study_ensemble.csv");
 }
 
 }  // namespace
 
-void add_ensemble_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options) {
+void add_ensemble_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options) {
   struct Arguments {
     int packings = 8;
     int steps = 100;
     int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   };
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = report.add_subcommand("ensemble", "drained tests of several packings");
+  CLI::App* command = study.add_subcommand("ensemble", "drained tests of several packings");
   command->add_option("--packings", arguments->packings, "seeds 1 to this number [-]")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
@@ -157,7 +157,7 @@ void add_ensemble_report(CLI::App& report, const std::shared_ptr<ReportOptions>&
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->callback([arguments, options] {
-    run_report(*options, arguments->packings, arguments->steps, arguments->threads);
+    run_study(*options, arguments->packings, arguments->steps, arguments->threads);
   });
 }
 

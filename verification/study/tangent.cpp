@@ -1,7 +1,7 @@
-// `grainlaw report tangent`: the returned tangents against central differences.
+// `grainlaw study tangent`: the returned tangents against central differences.
 
-#include "report/report.hpp"
-#include "report/statistics.hpp"
+#include "study/study.hpp"
+#include "study/statistics.hpp"
 
 #include "app/progress.hpp"
 
@@ -128,7 +128,7 @@ void summarise(const std::vector<ProbeResult>& results) {
       changed / all, failed / all, claimed / all);
 }
 
-void run(const ReportOptions& options, double tolerance, int states, double axial, double shear) {
+void run(const StudyOptions& options, double tolerance, int states, double axial, double shear) {
   constexpr int steps = 100;
   const Material material = make_material(options.material(tolerance));
   const int every = std::max(1, steps / states);
@@ -153,13 +153,13 @@ void run(const ReportOptions& options, double tolerance, int states, double axia
     progress.update(static_cast<double>(results.size()) / static_cast<double>(probes.size()), "");
   }
   table.print();
-  table.write(std::filesystem::path(options.output) / "report_tangent.csv");
+  table.write(std::filesystem::path(options.output) / "study_tangent.csv");
   summarise(results);
 }
 
 }  // namespace
 
-void add_tangent_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options) {
+void add_tangent_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options) {
   struct Arguments {
     double tolerance = 1e-12;
     int states = 20;
@@ -167,7 +167,7 @@ void add_tangent_report(CLI::App& report, const std::shared_ptr<ReportOptions>& 
     double shear = 0.1;
   };
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = report.add_subcommand("tangent", "tangents against central differences");
+  CLI::App* command = study.add_subcommand("tangent", "tangents against central differences");
   command->add_option("--tolerance", arguments->tolerance, "of the equilibria [-]")
       ->capture_default_str();
   command->add_option("--states", arguments->states, "increments looked at on either path [-]")

@@ -1,7 +1,7 @@
-// `grainlaw report timing`: CPU time of one evaluation along the drained path.
+// `grainlaw study timing`: CPU time of one evaluation along the drained path.
 
-#include "report/report.hpp"
-#include "report/statistics.hpp"
+#include "study/study.hpp"
+#include "study/statistics.hpp"
 
 #include "app/progress.hpp"
 
@@ -55,13 +55,13 @@ void summarise(Table& table, const std::vector<Cost>& costs, double limit) {
   table.row({range, "median", median(plain), median(exact), median(steps), median(factorisations)});
 }
 
-void run_report(const ReportOptions& options, double tolerance, double axial) {
+void run_study(const StudyOptions& options, double tolerance, double axial) {
   constexpr double increment = 0.001;
   constexpr double before_peak = 0.015;
   const Material material = make_material(options.material(tolerance));
   std::vector<Cost> costs;
   Progress progress("timing");
-  PointDriver driver(material, report_options());
+  PointDriver driver(material, study_options());
   const int steps = static_cast<int>(axial / increment + 0.5);
   driver.run(drained_segment(-axial, drained_pressure, steps), [&](const PointStep& step) {
     progress.update(step.fraction, "");
@@ -76,7 +76,7 @@ void run_report(const ReportOptions& options, double tolerance, double axial) {
     each.row({cost.strain, cost.plain, cost.with_exact,
               static_cast<double>(cost.report.relaxation_steps),
               static_cast<double>(cost.report.factorisations)});
-  each.write(std::filesystem::path(options.output) / "report_timing.csv");
+  each.write(std::filesystem::path(options.output) / "study_timing.csv");
   Table table(
       fmt::format("one evaluation of a 0.1 % increment of the drained path, tolerance {:.0e} "
                   "[-], one thread; steps and factorisations without tangent",
@@ -90,19 +90,19 @@ void run_report(const ReportOptions& options, double tolerance, double axial) {
 
 }  // namespace
 
-void add_timing_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options) {
+void add_timing_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options) {
   struct Arguments {
     double tolerance = 1e-6;
     double axial = 0.1;
   };
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = report.add_subcommand("timing", "CPU time per evaluation");
+  CLI::App* command = study.add_subcommand("timing", "CPU time per evaluation");
   command->add_option("--tolerance", arguments->tolerance, "of the equilibria [-]")
       ->capture_default_str();
   command->add_option("--axial", arguments->axial, "axial strain of the path [-]")
       ->capture_default_str();
   command->callback(
-      [arguments, options] { run_report(*options, arguments->tolerance, arguments->axial); });
+      [arguments, options] { run_study(*options, arguments->tolerance, arguments->axial); });
 }
 
 }  // namespace verification

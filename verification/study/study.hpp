@@ -1,4 +1,4 @@
-// What the reports share: where scenes lie, the reference material, tables, runs along a path.
+// What the studies share: where scenes lie, the reference material, tables, runs along a path.
 #pragma once
 
 #include "app/material.hpp"
@@ -15,7 +15,7 @@
 
 namespace verification {
 
-struct ReportOptions {
+struct StudyOptions {
   std::string scenes = "verification/scenes";  // directory with yade400.toml and the other scenes
   std::string output = ".";
 
@@ -63,20 +63,20 @@ struct Probe {
 std::vector<Probe> probe_path(const std::string& name, const Material& material,
                               const Segment& segment, int every);
 
-// Stress control that gets over collapses after the peak at any price: reports look at increments,
+// Stress control that gets over collapses after the peak at any price: studies look at increments,
 // not at the path.
-PointOptions report_options();
+PointOptions study_options();
 
 // The lateral stress of the drained tests [Pa].
 inline constexpr double drained_pressure = -100e3;
 
-// Each reads its own options under `report` and runs in its callback.
-void add_tangent_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options);
-void add_newton_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options);
-void add_objectivity_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options);
-void add_servo_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options);
-void add_ensemble_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options);
-void add_timing_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options);
-void add_drained_report(CLI::App& report, const std::shared_ptr<ReportOptions>& options);
+// Each reads its own options under `study` and runs in its callback.
+void add_tangent_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
+void add_newton_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
+void add_objectivity_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
+void add_servo_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
+void add_ensemble_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
+void add_timing_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
+void add_drained_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 
 }  // namespace verification
