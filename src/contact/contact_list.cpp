@@ -2,31 +2,50 @@
 
 #include "room.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
 namespace grainlaw {
 
-void ContactList::resize(std::size_t count, bool weighted) {
-  resize_with_room(i, count);
-  resize_with_room(j, count);
-  for (auto* column :
-       {&shift_x, &shift_y, &reach, &lever_i, &normal_stiffness, &tangential_stiffness, &start_x,
-        &start_y, &start_turn, &start_force, &force_x, &force_y, &couple}) {
-    resize_with_room(*column, count);
+void ContactList::resize(std::size_t contacts, bool weighted, double radius) {
+  count = contacts;
+  turns_far = false;
+  const std::size_t padded = (contacts + group - 1) / group * group;
+  resize_with_room(forces, padded);
+  const auto fit = [&](auto& column, auto filling) {
+    resize_with_room(column, padded);
+    std::fill(column.begin() + static_cast<std::ptrdiff_t>(contacts), column.end(), filling);
+  };
+  // Filled up with a particle beside itself at twice its diameter, without stiffness.
+  fit(i, 0);
+  fit(j, 0);
+  for (auto* column : {&shift_x, &shift_y, &offset_y, &normal_stiffness, &tangential_stiffness,
+                       &start_y, &start_roll, &start_force}) {
+    fit(*column, 0.0);
   }
-  resize_with_room(weight, weighted ? count : 0);
+  fit(offset_x, 4 * radius);
+  fit(reach, 2 * radius);
+  fit(inverse_reach, 0.5 / radius);
+  fit(lever_i, 0.5);
+  fit(start_x, 1.0);
+  if (weighted) {
+    fit(weight, 1.0);
+  } else {
+    weight.clear();
+  }
 }
 
 void build_contacts(std::span<const NeighbourPair> pairs, std::span<const double> pair_weights,
-                    std::span<const double> radius, const ContactLaw& law,
-                    const HistoryStart& start, ContactList& list) {
+                    std::span<const double> radius, std::span<const int> node, std::size_t nodes,
+                    const ContactLaw& law, const std::array<double, 4>& cell, const HistoryStart& start,
+                    ContactList& list) {
   const std::size_t n = radius.size();
   const double* x = start.coordinates.data();
   const double* y = x + n;
   const double* rotation = law.rotating() ? y + n : nullptr;
   const double ratio = law.tangential() ? law.ratio : 0;
-  list.resize(pairs.size(), !pair_weights.empty());
+  list.resize(pairs.size(), !pair_weights.empty(), radius.empty() ? 1 : radius[0]);
   std::size_t h = 0;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& pair = pairs[c];
@@ -40,7 +59,10 @@ void build_contacts(std::span<const NeighbourPair> pairs, std::span<const double
     list.j[c] = pair.j;
     list.shift_x[c] = s0;
     list.shift_y[c] = s1;
+    list.offset_x[c] = cell[0] * s0 + cell[1] * s1;
+    list.offset_y[c] = cell[2] * s0 + cell[3] * s1;
     list.reach[c] = radius[p] + radius[q];
+    list.inverse_reach[c] = 1 / list.reach[c];
     list.lever_i[c] = radius[p] / list.reach[c];
     list.normal_stiffness[c] = weight * law.stiffness(radius[p], radius[q]);
     list.tangential_stiffness[c] = ratio * list.normal_stiffness[c];
@@ -51,8 +73,7 @@ void build_contacts(std::span<const NeighbourPair> pairs, std::span<const double
     const double d = std::hypot(lx, ly);
     list.start_x[c] = d > 0 ? lx / d : 1;
     list.start_y[c] = d > 0 ? ly / d : 0;
-    list.start_turn[c] =
-        rotation ? list.lever_i[c] * rotation[p] + (1 - list.lever_i[c]) * rotation[q] : 0;
+    list.start_roll[c] = rotation ? radius[p] * rotation[p] + radius[q] * rotation[q] : 0;
 
     while (h < start.contacts.size() &&
            std::tie(start.contacts[h].i, start.contacts[h].j, start.contacts[h].shift) < key) {
@@ -63,6 +84,8 @@ void build_contacts(std::span<const NeighbourPair> pairs, std::span<const double
         std::tie(start.contacts[h].i, start.contacts[h].j, start.contacts[h].shift) == key;
     list.start_force[c] = known ? weight * start.contacts[h].tangential_force : 0;
   }
+  const std::span<const std::int32_t> i(list.i), j(list.j);
+  list.sums.arrange(i.first(pairs.size()), j.first(pairs.size()), node, nodes);
 }
 
 }  // namespace grainlaw

@@ -1,6 +1,7 @@
 // The candidate contacts of one increment, structure of arrays, with the history they start from.
 #pragma once
 
+#include "contact/contact_sums.hpp"
 #include "contact/history.hpp"
 #include "contact/law.hpp"
 #include "packing/neighbours.hpp"
@@ -13,24 +14,31 @@
 namespace grainlaw {
 
 // Contact c joins i[c] and j[c]; its branch is x_j - x_i + cell * shift. Stiffness and committed
-// tangential force carry the contact's weight (1 for a cell, 1/copies on a frame).
+// tangential force carry the contact's weight (1 for a cell, 1/copies on a frame). The arrays are
+// filled up to whole groups of `group` with contacts that never touch.
 struct ContactList {
+  static constexpr std::size_t group = 8;
+
+  std::size_t count = 0;
   std::vector<std::int32_t> i, j;
   std::vector<double> shift_x, shift_y;      // lattice counts [-]
-  std::vector<double> reach;                 // R_i + R_j [m]
+  std::vector<double> offset_x, offset_y;    // cell * shift [m]
+  std::vector<double> reach, inverse_reach;  // R_i + R_j [m], and 1 / it
   std::vector<double> lever_i;               // lambda_i = R_i / (R_i + R_j) [-]
   std::vector<double> normal_stiffness;      // kn [N/m]
   std::vector<double> tangential_stiffness;  // kt [N/m]
   std::vector<double> start_x, start_y;      // unit normal at the start of the increment [-]
-  std::vector<double> start_turn;            // lambda_i theta_i + lambda_j theta_j there [rad]
+  std::vector<double> start_roll;            // R_i theta_i + R_j theta_j there [m]
   std::vector<double> start_force;           // tangential force there [N]
   std::vector<double> weight;                // empty when all are 1 [-]
-  // Result of the last force evaluation: force on j, and d * ft for the moments.
-  std::vector<double> force_x, force_y, couple;
+  bool turns_far = false;  // a touching branch has turned beyond the short series since the start
 
-  [[nodiscard]] std::size_t size() const { return i.size(); }
+  std::vector<ForceRecord> forces;  // of the last evaluation, on j
+  ContactSums sums;                 // of them over the contacts of every node
+
+  [[nodiscard]] std::size_t size() const { return count; }
   [[nodiscard]] double weight_of(std::size_t c) const { return weight.empty() ? 1.0 : weight[c]; }
-  void resize(std::size_t count, bool weighted);
+  void resize(std::size_t contacts, bool weighted, double radius);
 };
 
 // Where the history of an increment starts: coordinates (component-major, rotations when the law
@@ -42,10 +50,12 @@ struct HistoryStart {
   std::span<const ContactHistory> contacts;
 };
 
-// Fill the list from pairs (ordered) and the history (ordered alike). A contact of the history that
-// is not among the pairs has opened and is forgotten. weight_of_pair gives 1 or 1/copies.
+// Fill the list for a cell from pairs (ordered) and the history (ordered alike). A contact of the history that
+// is not among the pairs has opened and is forgotten. pair_weights is empty or holds 1
+// or 1/copies; forces are summed over the nodes that the particles belong to.
 void build_contacts(std::span<const NeighbourPair> pairs, std::span<const double> pair_weights,
-                    std::span<const double> radius, const ContactLaw& law,
-                    const HistoryStart& start, ContactList& list);
+                    std::span<const double> radius, std::span<const int> node, std::size_t nodes,
+                    const ContactLaw& law, const std::array<double, 4>& cell, const HistoryStart& start,
+                    ContactList& list);
 
 }  // namespace grainlaw

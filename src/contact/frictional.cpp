@@ -1,203 +1,341 @@
 #include "contact/frictional.hpp"
 
+#include "simd.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define GRAINLAW_CLONES \
-  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define GRAINLAW_CLONES
-#endif
 
 namespace grainlaw {
 
 namespace {
 
-// The angle from a unit vector to a branch of length d with these inner and cross products: four
-// times the arc tangent of a quarter of it, by its series; to round-off below 60 degrees, to 1e-11
-// at 86, far beyond what an increment turns a branch. No trigonometric call, so that the loop
-// vectorises.
-inline __attribute__((always_inline)) double turning(double dot, double cross, double d) {
-  const double half = cross / std::max(d + dot, 1e-12 * d);
-  const double t = half / (1 + std::sqrt(1 + half * half));
-  const double u = t * t;
-  double series = 1.0 / 23;
-  series = 1.0 / 21 - u * series;
-  series = 1.0 / 19 - u * series;
-  series = 1.0 / 17 - u * series;
-  series = 1.0 / 15 - u * series;
-  series = 1.0 / 13 - u * series;
-  series = 1.0 / 11 - u * series;
-  series = 1.0 / 9 - u * series;
-  series = 1.0 / 7 - u * series;
-  series = 1.0 / 5 - u * series;
-  series = 1.0 / 3 - u * series;
-  series = 1.0 - u * series;
-  return 4 * t * series;
-}
+using namespace simd;
+
+// The force on i against that on j.
+constexpr ForceRecord opposite = {-1, -1, 1, 1};
+
+static_assert(sizeof(ParticleRecord) == sizeof(Record) && sizeof(ForceRecord) == sizeof(Record));
 
 constexpr double tiny = std::numeric_limits<double>::min();
+// Up to this tangent the short series of an angle is exact to round-off: 7 degrees, which hardly a
+// touching contact turns by in an increment of a host's size.
+constexpr double short_series = 0.125;
 
-GRAINLAW_CLONES
-void evaluate_frictionless(const double* x, const double* y, const std::array<double, 4>& cell,
-                           std::size_t size, const ContactList& list, double* force_x,
-                           double* force_y) {
-  const std::int32_t* ci = list.i.data();
-  const std::int32_t* cj = list.j.data();
-  const double* s0 = list.shift_x.data();
-  const double* s1 = list.shift_y.data();
-  const double* reach = list.reach.data();
-  const double* kn = list.normal_stiffness.data();
-  const double h0 = cell[0], h1 = cell[1], h2 = cell[2], h3 = cell[3];
-#pragma omp simd
-  for (std::size_t c = 0; c < size; ++c) {
-    const double lx = x[cj[c]] - x[ci[c]] + h0 * s0[c] + h1 * s1[c];
-    const double ly = y[cj[c]] - y[ci[c]] + h2 * s0[c] + h3 * s1[c];
-    const double d = std::sqrt(lx * lx + ly * ly + tiny);
-    const double overlap = reach[c] - d;
-    const double f = (overlap > 0 ? kn[c] * overlap : 0.0) / d;
-    force_x[c] = f * lx;
-    force_y[c] = f * ly;
+// The arc tangent of t by its series, without a trigonometric call; to round-off for |t| <= 0.125.
+// Summed in pairs: one long chain of multiplications would set the pace of the whole loop.
+template <class Vector>
+GRAINLAW_INLINE Vector arc_tangent(const Vector& t) {
+  const Vector u = t * t;
+  const Vector u2 = u * u;
+  const Vector a = (1.0 - u * (1.0 / 3)) + u2 * (1.0 / 5 - u * (1.0 / 7));
+  const Vector b = (1.0 / 9 - u * (1.0 / 11)) + u2 * (1.0 / 13 - u * (1.0 / 15));
+  return t * (a + (u2 * u2) * (b + (u2 * u2) * (1.0 / 17)));
+}
+
+struct Loop {
+  const ParticleRecord* particles;
+  double friction;
+  ContactList* list;
+};
+
+// The records of four (or twice four) particles, one a row.
+template <std::size_t width>
+GRAINLAW_INLINE Lanes<width> record(const double* records, const std::int32_t* index,
+                                    std::size_t k) {
+  const auto at = [&](std::size_t lane) {
+    return load<4>(records + 4 * static_cast<std::size_t>(index[lane]));
+  };
+  if constexpr (width == 4) {
+    return at(k);
+  } else {
+    return beside(at(k), at(k + 4));
   }
 }
 
-// Returns the energy dissipated since the history's start when `advance` moves that start here [J].
-template <bool rotating, bool advance>
-inline __attribute__((always_inline)) double frictional_loop(const double* x, const double* y,
-                                                             const double* rotation,
-                                                             const std::array<double, 4>& cell,
-                                                             double friction, std::size_t size,
-                                                             ContactList& list) {
-  double* force_x = list.force_x.data();
-  double* force_y = list.force_y.data();
-  double* couple = list.couple.data();
-  const std::int32_t* ci = list.i.data();
-  const std::int32_t* cj = list.j.data();
-  const double* s0 = list.shift_x.data();
-  const double* s1 = list.shift_y.data();
-  const double* reach = list.reach.data();
-  const double* lever = list.lever_i.data();
-  const double* kn = list.normal_stiffness.data();
-  const double* kt = list.tangential_stiffness.data();
-  double* nx0 = list.start_x.data();
-  double* ny0 = list.start_y.data();
-  double* turn0 = list.start_turn.data();
-  double* ft0 = list.start_force.data();
-  double dissipated = 0;
-  const double h0 = cell[0], h1 = cell[1], h2 = cell[2], h3 = cell[3];
-#pragma omp simd reduction(+ : dissipated)
-  for (std::size_t c = 0; c < size; ++c) {
-    const double lx = x[cj[c]] - x[ci[c]] + h0 * s0[c] + h1 * s1[c];
-    const double ly = y[cj[c]] - y[ci[c]] + h2 * s0[c] + h3 * s1[c];
-    const double d = std::sqrt(lx * lx + ly * ly + tiny);
-    const double overlap = reach[c] - d;
-    const double fn = overlap > 0 ? kn[c] * overlap : 0.0;
-    double turn = turning(nx0[c] * lx + ny0[c] * ly, nx0[c] * ly - ny0[c] * lx, d);
-    if constexpr (rotating) {
-      turn += turn0[c] - lever[c] * rotation[ci[c]] - (1 - lever[c]) * rotation[cj[c]];
+// What is known of a block of contacts. The loops go over a block in steps, each with short chains of
+// operations that depend on each other, so that the processor finds others to do meanwhile.
+constexpr std::size_t block = 4 * ContactList::group;
+struct alignas(64) Block {
+  double x[block], y[block];  // branch [m]
+  double reach[block];        // R_i + R_j [m]
+  double roll[block];         // R_i theta_i + R_j theta_j [m]
+  double distance[block], inverse[block], tangent[block], normal_force[block];
+};
+
+// Branches: the particles' records subtracted and transposed.
+template <std::size_t width>
+GRAINLAW_INLINE void find_branches(const double* particles, const ContactList& list,
+                                   std::size_t first, std::size_t size, Block& at) {
+  using V = Lanes<width>;
+  V sign;  // p_j - sign p_i = (l_x, l_y, rolls, radii)
+  for (std::size_t k = 0; k < width; ++k) sign[k] = k % 4 < 2 ? 1 : -1;
+  const std::int32_t* i = list.i.data() + first;
+  const std::int32_t* j = list.j.data() + first;
+  const double* offset_x = list.offset_x.data() + first;
+  const double* offset_y = list.offset_y.data() + first;
+  for (std::size_t c = 0; c < size; c += width) {
+    V a = record<width>(particles, j + c, 0) - sign * record<width>(particles, i + c, 0);
+    V b = record<width>(particles, j + c, 1) - sign * record<width>(particles, i + c, 1);
+    V e = record<width>(particles, j + c, 2) - sign * record<width>(particles, i + c, 2);
+    V d = record<width>(particles, j + c, 3) - sign * record<width>(particles, i + c, 3);
+    transpose(a, b, e, d);
+    store(at.x + c, a + load<width>(offset_x + c));
+    store(at.y + c, b + load<width>(offset_y + c));
+    store(at.roll + c, e);
+    store(at.reach + c, d);
+  }
+}
+
+// The columns (x, y, roll, unused) of some contacts as records.
+template <std::size_t width>
+GRAINLAW_INLINE void put_records(Lanes<width> x, Lanes<width> y, Lanes<width> roll,
+                                 Lanes<width> unused, double* to) {
+  transpose(x, y, roll, unused);
+  if constexpr (width == 4) {
+    store(to, x);
+    store(to + 4, y);
+    store(to + 8, roll);
+    store(to + 12, unused);
+  } else {
+    store(to, first(x));
+    store(to + 4, first(y));
+    store(to + 8, first(roll));
+    store(to + 12, first(unused));
+    store(to + 16, second(x));
+    store(to + 20, second(y));
+    store(to + 24, second(roll));
+    store(to + 28, second(unused));
+  }
+}
+
+enum class Kinematics { frictionless, locked, rotating };
+
+struct LoopResult {
+  double beyond;      // > 0: a touching branch turned beyond the short series
+  double dissipated;  // when advancing [J]
+};
+
+// Normal forces, and the tangent of the turning since the start of the increment. Returns by how
+// much a touching branch has turned beyond the short series.
+template <std::size_t width>
+GRAINLAW_INLINE Lanes<width> find_normals(const ContactList& list, std::size_t first,
+                                          std::size_t size, Block& at) {
+  using V = Lanes<width>;
+  const V zero{};
+  V beyond{};
+  const double* kn = list.normal_stiffness.data() + first;
+  const double* start_x = list.start_x.data() + first;
+  const double* start_y = list.start_y.data() + first;
+  for (std::size_t c = 0; c < size; c += width) {
+    const V x = load<width>(at.x + c);
+    const V y = load<width>(at.y + c);
+    const V nx = load<width>(start_x + c);
+    const V ny = load<width>(start_y + c);
+    const V square = x * x + y * y + tiny;
+    const V distance = square_root(square);
+    const V overlap = load<width>(at.reach + c) - distance;
+    const V dot = nx * x + ny * y;
+    const V cross = nx * y - ny * x;
+    // One division for 1/d and 1/dot, beside the square root, not after it.
+    const V ahead = dot > zero ? dot : square;
+    const V quotient = 1 / (square * ahead);
+    const V excess = magnitude(cross) - short_series * dot;
+    beyond = largest(beyond, overlap > zero ? excess : zero);
+    store(at.distance + c, distance);
+    store(at.inverse + c, distance * (ahead * quotient));
+    store(at.tangent + c, cross * (square * quotient));
+    store(at.normal_force + c, load<width>(kn + c) * largest(overlap, zero));
+  }
+  return beyond;
+}
+
+// `far` takes turns of any size by halving the angle; `advance` moves the start of the history here
+// and returns what was dissipated.
+template <std::size_t width, Kinematics kinematics, bool far, bool advance>
+GRAINLAW_INLINE Lanes<width> find_forces(double friction, ContactList& list, std::size_t first,
+                                         std::size_t size, const Block& at) {
+  using V = Lanes<width>;
+  constexpr bool rotating = kinematics == Kinematics::rotating;
+  const V zero{};
+  V dissipated{};
+  const double* inverse_reach = list.inverse_reach.data() + first;
+  const double* stiffness = list.tangential_stiffness.data() + first;
+  double* start_x = list.start_x.data() + first;
+  double* start_y = list.start_y.data() + first;
+  double* start_roll = list.start_roll.data() + first;
+  double* start_force = list.start_force.data() + first;
+  double* forces = &list.forces[first].x;
+  for (std::size_t c = 0; c < size; c += width) {
+    const V x = load<width>(at.x + c);
+    const V y = load<width>(at.y + c);
+    const V distance = load<width>(at.distance + c);
+    const V inverse = load<width>(at.inverse + c);
+    const V fn = load<width>(at.normal_force + c);
+    V turn;
+    if constexpr (far) {
+      const V dot = load<width>(start_x + c) * x + load<width>(start_y + c) * y;
+      const V cross = load<width>(start_x + c) * y - load<width>(start_y + c) * x;
+      const V half = cross / largest(distance + dot, 1e-12 * distance);
+      const V quarter = half / (1 + square_root(1 + half * half));
+      const V eighth = quarter / (1 + square_root(1 + quarter * quarter));
+      const V sixteenth = eighth / (1 + square_root(1 + eighth * eighth));
+      turn = 32 * arc_tangent(sixteenth / (1 + square_root(1 + sixteenth * sixteenth)));
+    } else {
+      turn = arc_tangent(load<width>(at.tangent + c));
     }
-    const double trial = ft0[c] - kt[c] * d * turn;
-    const double bound = friction * fn;
-    const double ft = std::min(std::max(trial, -bound), bound);
-    const double inverse = 1 / d;
-    force_x[c] = (fn * lx - ft * ly) * inverse;
-    force_y[c] = (fn * ly + ft * lx) * inverse;
-    if constexpr (rotating) couple[c] = d * ft;
+    V slip = distance * turn;
+    const V stretch = distance * load<width>(inverse_reach + c);
+    const V roll = load<width>(at.roll + c);
+    if constexpr (rotating) slip += stretch * (load<width>(start_roll + c) - roll);
+    const V kt = load<width>(stiffness + c);
+    const V start = load<width>(start_force + c);
+    const V trial = start - kt * slip;
+    const V bound = friction * fn;
+    const V ft = smallest(largest(trial, -bound), bound);
+    put_records<width>((fn * x - ft * y) * inverse, (fn * y + ft * x) * inverse,
+                       rotating ? -stretch * ft : zero, zero, forces + 4 * c);
     if constexpr (advance) {
       // Sliding at ft, and what the spring gives up when the bound falls below its force.
-      const double excess = std::max(std::abs(ft0[c]) - bound, 0.0);
-      dissipated += (std::abs(ft * (trial - ft)) + 0.5 * excess * excess) / kt[c];
-      nx0[c] = lx * inverse;
-      ny0[c] = ly * inverse;
-      if constexpr (rotating) {
-        turn0[c] = lever[c] * rotation[ci[c]] + (1 - lever[c]) * rotation[cj[c]];
-      }
-      ft0[c] = ft;
+      const V excess = largest(magnitude(start) - bound, zero);
+      const V lost = (magnitude(ft * (trial - ft)) + 0.5 * excess * excess) / kt;
+      dissipated += kt > zero ? lost : zero;
+      store(start_x + c, x * inverse);
+      store(start_y + c, y * inverse);
+      if constexpr (rotating) store(start_roll + c, roll);
+      store(start_force + c, ft);
     }
   }
   return dissipated;
 }
 
-template <bool rotating, bool advance>
-double frictional(std::span<const double> coordinates, std::size_t particles,
-                  const std::array<double, 4>& cell, double friction, ContactList& list);
-
-#define GRAINLAW_KERNEL(rotating, advance)                                                         \
-  template <>                                                                                      \
-  GRAINLAW_CLONES double frictional<rotating, advance>(                                            \
-      std::span<const double> coordinates, std::size_t particles,                                  \
-      const std::array<double, 4>& cell, double friction, ContactList& list) {                     \
-    const double* x = coordinates.data();                                                          \
-    return frictional_loop<rotating, advance>(x, x + particles, x + 2 * particles, cell, friction, \
-                                              list.size(), list);                                  \
+template <std::size_t width, Kinematics kinematics, bool far, bool advance>
+GRAINLAW_INLINE LoopResult contact_loop(const Loop& loop) {
+  using V = Lanes<width>;
+  ContactList& list = *loop.list;
+  V beyond{};
+  V dissipated{};
+  Block at;
+  for (std::size_t first = 0; first < list.i.size(); first += block) {
+    const std::size_t size = std::min(block, list.i.size() - first);
+    find_branches<width>(&loop.particles->x, list, first, size, at);
+    if constexpr (kinematics == Kinematics::frictionless) {
+      for (std::size_t c = 0; c < size; c += width) {
+        const V x = load<width>(at.x + c);
+        const V y = load<width>(at.y + c);
+        const V distance = square_root(x * x + y * y + tiny);
+        const V overlap = load<width>(at.reach + c) - distance;
+        const V fn = load<width>(&list.normal_stiffness[first + c]) * largest(overlap, V{});
+        const V f = fn / distance;
+        put_records<width>(f * x, f * y, V{}, V{}, &list.forces[first + c].x);
+      }
+    } else {
+      beyond = largest(beyond, find_normals<width>(list, first, size, at));
+      dissipated += find_forces<width, kinematics, far, advance>(loop.friction, list, first, size,
+                                                                 at);
+    }
   }
-GRAINLAW_KERNEL(true, false)
-GRAINLAW_KERNEL(true, true)
-GRAINLAW_KERNEL(false, false)
-GRAINLAW_KERNEL(false, true)
-#undef GRAINLAW_KERNEL
+  return {most(beyond), sum(dissipated)};
+}
+
+// Records (kn, kn, kt d^2 / (R_i + R_j), 1) of the touching contacts.
+template <std::size_t width>
+GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
+  using V = Lanes<width>;
+  ContactList& list = *loop.list;
+  const V zero{};
+  const V one = zero + 1.0;
+  V force{}, weight{}, touching{};
+  const bool weighted = !list.weight.empty();
+  Block at;
+  for (std::size_t first = 0; first < list.i.size(); first += block) {
+    const std::size_t size = std::min(block, list.i.size() - first);
+    find_branches<width>(&loop.particles->x, list, first, size, at);
+    for (std::size_t c = 0; c < size; c += width) {
+      const V x = load<width>(at.x + c);
+      const V y = load<width>(at.y + c);
+      const V square = x * x + y * y + tiny;
+      const V overlap = load<width>(at.reach + c) - square_root(square);
+      const auto here = overlap > zero;
+      const V kn = here ? load<width>(&list.normal_stiffness[first + c]) : zero;
+      const V kt = here ? load<width>(&list.tangential_stiffness[first + c]) : zero;
+      const V touches = here ? one : zero;
+      force += kn * overlap;
+      touching += touches;
+      if (weighted) weight += here ? load<width>(&list.weight[first + c]) : zero;
+      put_records<width>(kn, kn, kt * square * load<width>(&list.inverse_reach[first + c]),
+                         touches, &list.forces[first + c].x);
+    }
+  }
+  return {sum(force), weighted ? sum(weight) : sum(touching), static_cast<int>(sum(touching))};
+}
+
+#define GRAINLAW_LOOP(Result, name, loop_of, ...)                                  \
+  GRAINLAW_CLONES_OF_FOUR Result name##_of_four(const Loop& loop) {                \
+    return loop_of<4 __VA_OPT__(, ) __VA_ARGS__>(loop);                            \
+  }                                                                                \
+  GRAINLAW_OF_EIGHT Result name##_of_eight(const Loop& loop) {                     \
+    return loop_of<8 __VA_OPT__(, ) __VA_ARGS__>(loop);                            \
+  }                                                                                \
+  Result name(const Loop& loop) {                                                  \
+    return eight_lanes() ? name##_of_eight(loop) : name##_of_four(loop);           \
+  }
+GRAINLAW_LOOP(LoopResult, frictionless, contact_loop, Kinematics::frictionless, false, false)
+GRAINLAW_LOOP(LoopResult, locked_near, contact_loop, Kinematics::locked, false, false)
+GRAINLAW_LOOP(LoopResult, locked_far, contact_loop, Kinematics::locked, true, false)
+GRAINLAW_LOOP(LoopResult, locked_advancing, contact_loop, Kinematics::locked, true, true)
+GRAINLAW_LOOP(LoopResult, rotating_near, contact_loop, Kinematics::rotating, false, false)
+GRAINLAW_LOOP(LoopResult, rotating_far, contact_loop, Kinematics::rotating, true, false)
+GRAINLAW_LOOP(LoopResult, rotating_advancing, contact_loop, Kinematics::rotating, true, true)
+GRAINLAW_LOOP(ContactTotals, stiffnesses, stiffness_loop)
+#undef GRAINLAW_LOOP
 
 }  // namespace
 
-void evaluate_contacts(std::span<const double> coordinates, std::size_t particles,
-                       const std::array<double, 4>& cell, const ContactLaw& law,
-                       ContactList& list) {
-  if (law.rotating()) {
-    frictional<true, false>(coordinates, particles, cell, law.friction, list);
-  } else if (law.tangential()) {
-    frictional<false, false>(coordinates, particles, cell, law.friction, list);
+void evaluate_contacts(std::span<const ParticleRecord> particles, const ContactLaw& law,
+                       ContactList& list, std::span<ForceRecord> forces) {
+  const Loop loop{particles.data(), law.friction, &list};
+  if (!law.tangential()) {
+    frictionless(loop);
   } else {
-    const double* x = coordinates.data();
-    evaluate_frictionless(x, x + particles, cell, list.size(), list, list.force_x.data(),
-                          list.force_y.data());
+    if (!list.turns_far) {
+      list.turns_far = (law.rotating() ? rotating_near(loop) : locked_near(loop)).beyond > 0;
+    }
+    if (list.turns_far) law.rotating() ? rotating_far(loop) : locked_far(loop);
   }
+  list.sums.add_up(list.forces, opposite, forces);
 }
 
-double advance_contacts(std::span<const double> coordinates, std::size_t particles,
-                        const std::array<double, 4>& cell, const ContactLaw& law,
-                        ContactList& list) {
-  if (law.rotating()) {
-    return frictional<true, true>(coordinates, particles, cell, law.friction, list);
+double advance_contacts(std::span<const ParticleRecord> particles, const ContactLaw& law,
+                        ContactList& list, std::span<ForceRecord> forces) {
+  if (!law.tangential()) {
+    evaluate_contacts(particles, law, list, forces);
+    return 0;
   }
-  if (law.tangential()) {
-    return frictional<false, true>(coordinates, particles, cell, law.friction, list);
-  }
-  evaluate_contacts(coordinates, particles, cell, law, list);
-  return 0;
+  const Loop loop{particles.data(), law.friction, &list};
+  list.turns_far = false;
+  const auto result = law.rotating() ? rotating_advancing(loop) : locked_advancing(loop);
+  list.sums.add_up(list.forces, opposite, forces);
+  return result.dissipated;
 }
 
-void accumulate_forces(const ContactList& list, std::size_t particles, bool rotating,
-                       std::span<double> forces) {
-  std::fill(forces.begin(), forces.end(), 0.0);
-  double* rx = forces.data();
-  double* ry = rx + particles;
-  double* moment = ry + particles;
-  for (std::size_t c = 0; c < list.size(); ++c) {
-    const auto p = static_cast<std::size_t>(list.i[c]);
-    const auto q = static_cast<std::size_t>(list.j[c]);
-    rx[p] -= list.force_x[c];
-    ry[p] -= list.force_y[c];
-    rx[q] += list.force_x[c];
-    ry[q] += list.force_y[c];
-    if (!rotating) continue;
-    moment[p] -= list.lever_i[c] * list.couple[c];
-    moment[q] -= (1 - list.lever_i[c]) * list.couple[c];
-  }
+ContactTotals sum_stiffnesses(std::span<const ParticleRecord> particles, ContactList& list,
+                              std::span<ForceRecord> sums) {
+  const auto totals = stiffnesses({particles.data(), 0, &list});
+  list.sums.add_up(list.forces, {1, 1, 1, 1}, sums);
+  return totals;
 }
 
 ContactPoint contact_point(const ContactList& list, std::size_t c,
                            std::span<const double> coordinates, std::size_t particles,
-                           const std::array<double, 4>& cell, const ContactLaw& law) {
+                           const std::array<double, 4>& /*cell*/, const ContactLaw& law) {
   const double* x = coordinates.data();
   const double* y = x + particles;
   const auto p = static_cast<std::size_t>(list.i[c]);
   const auto q = static_cast<std::size_t>(list.j[c]);
   ContactPoint point{};
-  point.branch_x = x[q] - x[p] + cell[0] * list.shift_x[c] + cell[1] * list.shift_y[c];
-  point.branch_y = y[q] - y[p] + cell[2] * list.shift_x[c] + cell[3] * list.shift_y[c];
+  point.branch_x = x[q] - x[p] + list.offset_x[c];
+  point.branch_y = y[q] - y[p] + list.offset_y[c];
   point.distance =
       std::sqrt(point.branch_x * point.branch_x + point.branch_y * point.branch_y + tiny);
   point.normal_x = point.branch_x / point.distance;
@@ -208,12 +346,12 @@ ContactPoint contact_point(const ContactList& list, std::size_t c,
   point.normal_force = list.normal_stiffness[c] * overlap;
   if (!law.tangential()) return point;
   point.turn =
-      turning(list.start_x[c] * point.branch_x + list.start_y[c] * point.branch_y,
-              list.start_x[c] * point.branch_y - list.start_y[c] * point.branch_x, point.distance);
+      std::atan2(list.start_x[c] * point.branch_y - list.start_y[c] * point.branch_x,
+                 list.start_x[c] * point.branch_x + list.start_y[c] * point.branch_y);
   if (law.rotating()) {
     const double* rotation = y + particles;
-    point.turn +=
-        list.start_turn[c] - list.lever_i[c] * rotation[p] - (1 - list.lever_i[c]) * rotation[q];
+    point.turn += list.start_roll[c] / list.reach[c] - list.lever_i[c] * rotation[p] -
+                  (1 - list.lever_i[c]) * rotation[q];
   }
   const double trial =
       list.start_force[c] - list.tangential_stiffness[c] * point.distance * point.turn;

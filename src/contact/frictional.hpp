@@ -10,21 +10,28 @@
 
 namespace grainlaw {
 
-// Evaluate every contact at `coordinates` (component-major) and write force on j and couple d * ft
-// to the list: fn = kn overlap, ft = clamp(start_force - kt du, +-friction fn), both zero in
-// tension. du = d (turning of the branch - lambda_i dtheta_i - lambda_j dtheta_j).
-void evaluate_contacts(std::span<const double> coordinates, std::size_t particles,
-                       const std::array<double, 4>& cell, const ContactLaw& law, ContactList& list);
+// Sum the forces of all contacts onto the nodes (overwritten): fn = kn overlap, ft =
+// clamp(start_force - kt du, +-friction fn), both zero in tension; du = d (turning of the branch -
+// lambda_i dtheta_i - lambda_j dtheta_j).
+void evaluate_contacts(std::span<const ParticleRecord> particles, const ContactLaw& law,
+                       ContactList& list, std::span<ForceRecord> nodes);
 
 // The same, and the history starts anew from here. Returns the energy dissipated since the old
 // start: sliding force times slip, and what springs give up as contacts unload or open [J].
-double advance_contacts(std::span<const double> coordinates, std::size_t particles,
-                        const std::array<double, 4>& cell, const ContactLaw& law,
-                        ContactList& list);
+double advance_contacts(std::span<const ParticleRecord> particles, const ContactLaw& law,
+                        ContactList& list, std::span<ForceRecord> nodes);
 
-// Sum the contacts' forces and moments onto their particles (component-major, overwritten).
-void accumulate_forces(const ContactList& list, std::size_t particles, bool rotating,
-                       std::span<double> forces);
+// Over all touching contacts.
+struct ContactTotals {
+  double force;    // sum of the normal forces [N]
+  double weights;  // sum of the weights [-]
+  int touching;
+};
+
+// Sum over the touching contacts of every node (overwritten): kn in x and y [N/m], kt d^2 /
+// (R_i + R_j) in roll [N], their number in `unused`.
+ContactTotals sum_stiffnesses(std::span<const ParticleRecord> particles, ContactList& list,
+                              std::span<ForceRecord> nodes);
 
 enum class ContactStatus : char { open, sticking, sliding };
 

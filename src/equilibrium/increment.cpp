@@ -49,8 +49,11 @@ void Increment::begin(const Problem& p, const Configuration& from,
   coordinates = start;
   deformation = start_deformation;
   cell = cell_at(p, deformation);
-  forces.resize(n * components);
-  if (!p.space->identity) node_residual.resize(unknowns());
+  records.resize(n);
+  for (std::size_t q = 0; q < n; ++q) records[q] = {0, 0, 0, p.packing->radius[q]};
+  forces.resize(nodes());
+  stiffness_sums_.resize(nodes());
+  node_residual.resize(unknowns());
   mass.resize(unknowns());
   node_radius.resize(nodes());
   for (std::size_t q = 0; q < n; ++q) {
@@ -100,7 +103,8 @@ void Increment::list_neighbours() {
 
 void Increment::build_list() {
   const HistoryStart from{start, cell_at(*problem, start_deformation), history};
-  build_contacts(pairs, pair_weights, problem->packing->radius, *problem->law, from, contacts);
+  build_contacts(pairs, pair_weights, problem->packing->radius, problem->space->node, nodes(),
+                 *problem->law, cell, from, contacts);
 }
 
 void Increment::keep_neighbours() {
@@ -114,31 +118,61 @@ void Increment::keep_neighbours() {
   if (4 * largest > gap_ * gap_) list_neighbours();
 }
 
+void Increment::load_records() {
+  const auto n = particles();
+  const double* x = coordinates.data();
+  const double* y = x + n;
+  const double* rotation = problem->law->rotating() ? y + n : nullptr;
+  for (std::size_t p = 0; p < n; ++p) {
+    auto& record = records[p];
+    record.x = x[p];
+    record.y = y[p];
+    if (rotation) record.roll = record.radius * rotation[p];
+  }
+}
+
+void Increment::store_records() {
+  const auto n = particles();
+  double* x = coordinates.data();
+  double* y = x + n;
+  double* rotation = problem->law->rotating() ? y + n : nullptr;
+  for (std::size_t p = 0; p < n; ++p) {
+    const auto& record = records[p];
+    x[p] = record.x;
+    y[p] = record.y;
+    if (rotation) rotation[p] = record.roll / record.radius;
+  }
+}
+
 void Increment::update_forces() {
-  evaluate_contacts(coordinates, particles(), cell, *problem->law, contacts);
+  load_records();
+  evaluate_contacts(records, *problem->law, contacts, forces);
   project();
 }
 
 void Increment::update_forces_advancing() {
-  dissipated += advance_contacts(coordinates, particles(), cell, *problem->law, contacts);
+  load_records();
+  dissipated += advance_contacts(records, *problem->law, contacts, forces);
   project();
 }
 
 void Increment::project() {
-  const auto& space = *problem->space;
-  accumulate_forces(contacts, particles(), problem->law->rotating(), forces);
-  if (space.identity) return;
-  std::fill(node_residual.begin(), node_residual.end(), 0.0);
-  const auto n = particles();
   const auto m = nodes();
-  const int components = problem->components();
-  for (int k = 0; k < components; ++k) {
-    const double* force = forces.data() + static_cast<std::size_t>(k) * n;
-    double* reduced = node_residual.data() + static_cast<std::size_t>(k) * m;
-    for (std::size_t p = 0; p < n; ++p) reduced[space.node[p]] += force[p];
-  }
+  hold_fixed(forces);
+  double* r = node_residual.data();
   for (std::size_t q = 0; q < m; ++q) {
-    if (space.fixed[q]) node_residual[q] = node_residual[m + q] = 0;
+    r[q] = forces[q].x;
+    r[m + q] = forces[q].y;
+  }
+  if (!problem->law->rotating()) return;
+  for (std::size_t q = 0; q < m; ++q) r[2 * m + q] = forces[q].roll * node_radius[q];
+}
+
+void Increment::hold_fixed(std::span<ForceRecord> residual) const {
+  const auto& space = *problem->space;
+  if (space.identity) return;
+  for (std::size_t q = 0; q < nodes(); ++q) {
+    if (space.fixed[q]) residual[q].x = residual[q].y = 0;
   }
 }
 
@@ -147,9 +181,8 @@ double Increment::overlap(std::size_t c) const {
   const auto p = static_cast<std::size_t>(contacts.i[c]);
   const auto q = static_cast<std::size_t>(contacts.j[c]);
   const double* x = coordinates.data();
-  const double lx = x[q] - x[p] + cell[0] * contacts.shift_x[c] + cell[1] * contacts.shift_y[c];
-  const double ly =
-      x[n + q] - x[n + p] + cell[2] * contacts.shift_x[c] + cell[3] * contacts.shift_y[c];
+  const double lx = x[q] - x[p] + contacts.offset_x[c];
+  const double ly = x[n + q] - x[n + p] + contacts.offset_y[c];
   return contacts.reach[c] - std::sqrt(lx * lx + ly * ly);
 }
 
@@ -162,41 +195,19 @@ void Increment::refresh_masses() {
   constexpr double factor = 0.8;
   const auto m = nodes();
   const auto& law = *problem->law;
-  const auto& space = *problem->space;
   const bool rotating = law.rotating();
-  std::fill(mass.begin(), mass.end(), 0.0);
+  load_records();
+  const auto totals = sum_stiffnesses(records, contacts, stiffness_sums_);
+  touching = totals.touching;
+  mean_force = touching > 0 ? totals.force / totals.weights : 0;
   double* translation = mass.data();
   double* rotation = rotating ? translation + 2 * m : nullptr;
-  double sum = 0;
-  double weights = 0;
-  touching = 0;
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const double depth = overlap(c);
-    if (depth <= 0) continue;
-    ++touching;
-    const double kn = contacts.normal_stiffness[c];
-    sum += kn * depth;
-    weights += contacts.weight_of(c);
-    const auto p = static_cast<std::size_t>(contacts.i[c]);
-    const auto q = static_cast<std::size_t>(contacts.j[c]);
-    const auto a = static_cast<std::size_t>(space.node[p]);
-    const auto b = static_cast<std::size_t>(space.node[q]);
-    translation[a] += kn;
-    translation[b] += kn;
-    if (rotating) {
-      const double distance = contacts.reach[c] - depth;
-      const double turning = contacts.tangential_stiffness[c] * distance * distance;
-      rotation[a] += contacts.lever_i[c] * turning;
-      rotation[b] += (1 - contacts.lever_i[c]) * turning;
-    }
-  }
-  mean_force = touching > 0 ? sum / weights : 0;
   for (std::size_t q = 0; q < m; ++q) {
     const double r = node_radius[q];
     const double kn = law.stiffness(r, r);
-    translation[q] = factor * std::max(translation[q], kn);
-    translation[m + q] = translation[q];
-    if (rotating) rotation[q] = factor * std::max(rotation[q], 2 * law.ratio * kn * r * r);
+    const auto& sum = stiffness_sums_[q];
+    translation[q] = translation[m + q] = factor * std::max(sum.x, kn);
+    if (rotating) rotation[q] = factor * std::max(sum.roll * r, 2 * law.ratio * kn * r * r);
   }
 }
 
@@ -245,7 +256,8 @@ void Increment::move(std::span<const double> step, double factor) {
 }
 
 void Increment::advance_history() {
-  dissipated += advance_contacts(coordinates, particles(), cell, *problem->law, contacts);
+  load_records();
+  dissipated += advance_contacts(records, *problem->law, contacts, forces);
   history.clear();
   if (history.capacity() < pairs.size()) history.reserve(pairs.capacity());
   const bool tangential = problem->law->tangential();

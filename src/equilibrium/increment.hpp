@@ -26,7 +26,7 @@ class Increment {
   // Reach for another F from the present history; the guess moves affinely with it.
   void deform(const std::array<double, 4>& deformation);
 
-  // Forces at the present coordinates, and the reduced residual; relists neighbours when needed.
+  // Forces at the present coordinates, and the reduced residual.
   void update_forces();
   // The same with the friction history advanced to here.
   void update_forces_advancing();
@@ -35,7 +35,7 @@ class Increment {
   // contacts, never below one contact's worth (mechanics of the relaxation: unit pseudo-time step).
   void refresh_masses();
 
-  // Largest residual force (moment / R) over max(mean normal force, floor) [-]; infinite when no
+  // Largest residual force (moment / R) of update_forces over max(mean normal force, floor) [-]; infinite when no
   // contact is left or a number is not finite.
   [[nodiscard]] double residual_norm() const;
 
@@ -64,9 +64,14 @@ class Increment {
   // Relist neighbours when a particle may have come near one that is not listed.
   void keep_neighbours();
 
-  [[nodiscard]] std::span<const double> residual() const {
-    return problem->space->identity ? std::span<const double>(forces) : node_residual;
-  }
+  // No force on prescribed translations.
+  void hold_fixed(std::span<ForceRecord> residual) const;
+
+  // Coordinates to the records that contacts read, and back.
+  void load_records();
+  void store_records();
+
+  [[nodiscard]] std::span<const double> residual() const { return node_residual; }
   [[nodiscard]] std::size_t particles() const { return problem->packing->size(); }
   [[nodiscard]] std::size_t nodes() const { return problem->space->nodes; }
   [[nodiscard]] std::size_t unknowns() const {
@@ -81,8 +86,9 @@ class Increment {
   std::vector<double> coordinates;            // component-major: positions, rotation increments
   std::vector<double> start;                  // coordinates where the history starts
   std::vector<ContactHistory> history;        // touching contacts there
-  std::vector<double> forces;                 // on particles, component-major [N, N m]
-  std::vector<double> node_residual;          // reduced; unused when the space is the identity
+  std::vector<ParticleRecord> records;        // the coordinates as contacts read them
+  std::vector<ForceRecord> forces;            // on nodes
+  std::vector<double> node_residual;          // reduced, component-major [N, N m]
   std::vector<double> mass;                   // nodes, component-major
   std::vector<double> node_radius;            // [m]
   ContactList contacts;
@@ -100,6 +106,7 @@ class Increment {
   void build_list();
   void project();
 
+  std::vector<ForceRecord> stiffness_sums_;
   std::vector<double> listed_;  // positions when the neighbours were listed
   double gap_ = 0;
   double rounding_force_ = 0;  // [N]

@@ -47,8 +47,8 @@ double energy_ratio(const Increment& increment, const std::vector<double>& mass,
   const auto& list = increment.contacts;
   for (std::size_t c = 0; c < list.size(); ++c) {
     const double ft = list.start_force[c];
-    const double f2 = list.force_x[c] * list.force_x[c] + list.force_y[c] * list.force_y[c];
-    potential += 0.5 * std::max(f2 - ft * ft, 0.0) / list.normal_stiffness[c];
+    const double depth = std::max(increment.overlap(c), 0.0);
+    potential += 0.5 * list.normal_stiffness[c] * depth * depth;
     if (ft != 0) potential += 0.5 * ft * ft / list.tangential_stiffness[c];
   }
   return kinetic / std::max(potential, 1e-300);

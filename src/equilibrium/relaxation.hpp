@@ -13,7 +13,7 @@ enum class History { committed, advancing };
 
 // Memory of the relaxations, reused from call to call.
 struct RelaxationMemory {
-  std::vector<double> velocity, previous, correction;
+  std::vector<double> velocity, previous, mass, gain, correction;
 };
 
 struct PublishedOptions;

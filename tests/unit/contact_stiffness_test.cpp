@@ -1,5 +1,5 @@
 // The stiffness of a contact is the derivative of its law, in every status.
-#include "contact/frictional.hpp"
+#include "contact_support.hpp"
 #include "equilibrium/stiffness.hpp"
 
 #include <gtest/gtest.h>
@@ -25,6 +25,8 @@ ContactLaw law() {
   return law;
 }
 
+const std::vector<double> radius{1, 3};
+
 // Radii 1 and 3 on an oblique branch, turned and moved from where the history started.
 struct Contact {
   ContactList list;
@@ -33,9 +35,8 @@ struct Contact {
   Contact(double committed_force, double overlap, double turn) {
     const std::vector<double> start{0, 3.1, 0, 2.3, 0.2, -0.1};
     const std::vector<NeighbourPair> pairs{{0, 1, {}}};
-    const std::vector<double> radius{1, 3};
     const std::vector<ContactHistory> history{{0, 1, {}, false, committed_force}};
-    build_contacts(pairs, {}, radius, law(), {start, cell, history}, list);
+    test::build(pairs, radius, law(), cell, {start, cell, history}, list);
     const double angle = std::atan2(2.3, 3.1) + turn;
     z = {0.1,   0.1 + (4 - overlap) * std::cos(angle),
          -0.2,  -0.2 + (4 - overlap) * std::sin(angle),
@@ -52,8 +53,9 @@ struct Forces {
 };
 
 Forces forces(Contact contact) {
-  evaluate_contacts(contact.z, 2, cell, law(), contact.list);
-  return {contact.list.force_x[0], contact.list.force_y[0], contact.list.couple[0]};
+  test::forces(contact.z, radius, law(), contact.list);
+  const ForceRecord& on_j = contact.list.forces[0];
+  return {on_j.x, on_j.y, -on_j.roll * contact.list.reach[0]};
 }
 
 // Central differences of (force along n, force along t, couple) by (normal displacement, tangential
@@ -139,9 +141,7 @@ TEST(contact_stiffness, maps_to_the_forces_on_both_discs) {
       for (const double side : {1.0, -1.0}) {
         Contact other = c.contact;
         other.z[column] += side * step;
-        std::vector<double> force(6);
-        evaluate_contacts(other.z, 2, cell, law(), other.list);
-        accumulate_forces(other.list, 2, true, force);
+        const auto force = test::forces(other.z, radius, law(), other.list);
         for (std::size_t row = 0; row < 6; ++row) change[row] += side * force[row] / (2 * step);
       }
       const std::size_t q = column % 2;

@@ -1,7 +1,6 @@
 // The frictional contact of two or three discs against closed forms.
-#include "contact/frictional.hpp"
+#include "contact_support.hpp"
 
-#include "contact/contact_list.hpp"
 #include "contact/law.hpp"
 
 #include <gtest/gtest.h>
@@ -41,7 +40,7 @@ struct Discs {
   Discs(const ContactLaw& contact_law, std::vector<double> radii, std::vector<double> coordinates,
         std::vector<ContactHistory> history = {}, std::vector<NeighbourPair> pairs = {{0, 1, {}}})
       : law(contact_law), radius(std::move(radii)), start(std::move(coordinates)), z(start) {
-    build_contacts(pairs, {}, radius, law, {start, cell, history}, list);
+    test::build(pairs, radius, law, cell, {start, cell, history}, list);
     force.resize(z.size());
   }
   [[nodiscard]] std::size_t size() const { return radius.size(); }
@@ -49,11 +48,11 @@ struct Discs {
   double& y(std::size_t p) { return z[size() + p]; }
   double& turn(std::size_t p) { return z[2 * size() + p]; }
 
-  void evaluate() {
-    evaluate_contacts(z, size(), cell, law, list);
-    accumulate_forces(list, size(), law.rotating(), force);
+  void evaluate() { force = test::forces(z, radius, law, list); }
+  double advance() {
+    std::vector<ForceRecord> sums(size());
+    return advance_contacts(test::records(z, radius), law, list, sums);
   }
-  double advance() { return advance_contacts(z, size(), cell, law, list); }
   [[nodiscard]] ContactPoint point(std::size_t c = 0) const {
     return contact_point(list, c, z, size(), cell, law);
   }
@@ -80,8 +79,8 @@ void rotate(Discs& discs, double angle) {
 TEST(frictional_contact, pushes_with_stiffness_times_overlap) {
   Discs discs = pair();
   discs.evaluate();
-  EXPECT_NEAR(discs.list.force_x[0], kn * 0.1, 1e-11);
-  EXPECT_EQ(discs.list.force_y[0], 0);
+  EXPECT_NEAR(discs.list.forces[0].x, kn * 0.1, 1e-11);
+  EXPECT_EQ(discs.list.forces[0].y, 0);
   EXPECT_EQ(discs.force[0], -discs.force[1]);
   EXPECT_GT(discs.force[1], 0);
   const auto k = contact_stiffness(discs.point(), kn, kt, friction);
@@ -120,8 +119,8 @@ TEST(frictional_contact, sticks_against_an_oblique_motion) {
   ASSERT_LT(std::abs(ft), friction * fn);
   const double c = (3.9 - u) / d;
   const double s = v / d;
-  EXPECT_NEAR(discs.list.force_x[0], fn * c - ft * s, 1e-11);
-  EXPECT_NEAR(discs.list.force_y[0], fn * s + ft * c, 1e-11);
+  EXPECT_NEAR(discs.list.forces[0].x, fn * c - ft * s, 1e-11);
+  EXPECT_NEAR(discs.list.forces[0].y, fn * s + ft * c, 1e-11);
   EXPECT_EQ(discs.point().status, ContactStatus::sticking);
 }
 
@@ -200,8 +199,8 @@ TEST(frictional_contact, without_friction_only_pushes) {
   discs.y(1) = 0.2;
   discs.evaluate();
   const double d = std::hypot(3.9, 0.2);
-  EXPECT_NEAR(discs.list.force_x[0], kn * (4 - d) * 3.9 / d, 1e-11);
-  EXPECT_NEAR(discs.list.force_y[0], kn * (4 - d) * 0.2 / d, 1e-11);
+  EXPECT_NEAR(discs.list.forces[0].x, kn * (4 - d) * 3.9 / d, 1e-11);
+  EXPECT_NEAR(discs.list.forces[0].y, kn * (4 - d) * 0.2 / d, 1e-11);
   EXPECT_EQ(discs.advance(), 0);
 }
 
@@ -224,22 +223,21 @@ TEST(frictional_contact, disc_touches_its_own_image) {
   const std::vector<double> start{0.3, 0.4, 0};
   const ContactLaw law = rough();
   ContactList list;
-  build_contacts(pairs, {}, radius, law, {start, narrow, {}}, list);
+  test::build(pairs, radius, law, narrow, {start, narrow, {}}, list);
   std::vector<double> z = start;
   z[2] = 0.01;
-  evaluate_contacts(z, 1, narrow, law, list);
-  EXPECT_NEAR(list.force_x[0], kn * 0.1, 1e-11);
-  EXPECT_NEAR(list.force_y[0], kt * 1.9 * 0.01, 1e-11);  // both sides turn
-  std::vector<double> force(3);
-  accumulate_forces(list, 1, true, force);
+  const auto force = test::forces(z, radius, law, list);
+  EXPECT_NEAR(list.forces[0].x, kn * 0.1, 1e-11);
+  EXPECT_NEAR(list.forces[0].y, kt * 1.9 * 0.01, 1e-11);  // both sides turn
   EXPECT_EQ(force[0], 0);
   EXPECT_EQ(force[1], 0);
   EXPECT_NEAR(force[2], -1.9 * kt * 1.9 * 0.01, 1e-11);
   // A simple shear of the cell turns the branch.
   const std::array<double, 4> sheared{1.9, 0.2, 0.02, 10};
-  evaluate_contacts(start, 1, sheared, law, list);
+  test::build(pairs, radius, law, sheared, {start, narrow, {}}, list);
   const double d = std::hypot(1.9, 0.02);
-  EXPECT_NEAR(list.couple[0], -kt * d * d * std::atan2(0.02, 1.9), 1e-10);
+  EXPECT_NEAR(test::forces(start, radius, law, list)[2],
+              d * kt * d * std::atan2(0.02, 1.9), 1e-10);
 }
 
 TEST(frictional_contact, three_discs_in_a_row_add_up) {

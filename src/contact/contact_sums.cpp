@@ -1,0 +1,91 @@
+#include "contact/contact_sums.hpp"
+
+#include "room.hpp"
+#include "simd.hpp"
+
+#include <algorithm>
+
+namespace grainlaw {
+
+namespace {
+
+using namespace simd;
+
+struct Gather {
+  const double* values;
+  const std::uint32_t* contact;
+  const std::uint32_t* node;
+  double* sums;
+  ForceRecord sign;
+};
+
+GRAINLAW_CLONES void gather(Gather& g, std::size_t nodes, std::size_t as_i, std::size_t as_j) {
+  const Record sign = load<4>(&g.sign.x);
+  const std::uint32_t* contact = g.contact;
+  for (std::size_t q = 0; q < nodes; ++q) {
+    Record on_i{};
+    Record on_j{};
+    for (std::size_t k = 0; k < as_i; ++k) on_i += load<4>(g.values + 4 * std::size_t{*contact++});
+    for (std::size_t k = 0; k < as_j; ++k) on_j += load<4>(g.values + 4 * std::size_t{*contact++});
+    store(g.sums + 4 * std::size_t{*g.node++}, on_j + sign * on_i);
+  }
+  g.contact = contact;
+}
+
+}  // namespace
+
+void ContactSums::arrange(std::span<const std::int32_t> i, std::span<const std::int32_t> j,
+                          std::span<const int> node, std::size_t nodes) {
+  const auto node_of = [&](std::int32_t particle) {
+    return static_cast<std::size_t>(node[static_cast<std::size_t>(particle)]);
+  };
+  const auto zeroes = [](std::vector<std::uint32_t>& counts, std::size_t size) {
+    resize_with_room(counts, size);
+    std::fill(counts.begin(), counts.end(), 0U);
+  };
+  zeroes(as_i_, nodes);
+  zeroes(as_j_, nodes);
+  std::uint32_t most = 0;
+  for (std::size_t c = 0; c < i.size(); ++c) {
+    most = std::max(most, ++as_i_[node_of(i[c])]);
+    most = std::max(most, ++as_j_[node_of(j[c])]);
+  }
+
+  // Nodes sorted by both numbers, by counting.
+  const std::uint32_t stride = most + 1;
+  const auto kind = [&](std::size_t q) { return std::size_t{as_i_[q]} * stride + as_j_[q]; };
+  zeroes(kinds_, std::size_t{stride} * stride + 1);
+  for (std::size_t q = 0; q < nodes; ++q) ++kinds_[kind(q) + 1];
+  runs_.clear();
+  for (std::uint32_t a = 0; a < stride; ++a) {
+    for (std::uint32_t b = 0; b < stride; ++b) {
+      const std::size_t k = std::size_t{a} * stride + b;
+      if (kinds_[k + 1] > 0) runs_.push_back({kinds_[k + 1], a, b});
+      kinds_[k + 1] += kinds_[k];
+    }
+  }
+  keep_room(runs_);
+  resize_with_room(node_, nodes);
+  for (std::size_t q = 0; q < nodes; ++q) node_[kinds_[kind(q)]++] = static_cast<std::uint32_t>(q);
+
+  resize_with_room(begin_, nodes);
+  std::uint32_t free = 0;
+  for (const std::uint32_t q : node_) {
+    begin_[q] = free;
+    free += as_i_[q] + as_j_[q];
+    as_j_[q] = begin_[q] + as_i_[q];  // from here on where the next one goes
+  }
+  resize_with_room(contact_, 2 * i.size());
+  for (std::size_t c = 0; c < i.size(); ++c) {
+    contact_[begin_[node_of(i[c])]++] = static_cast<std::uint32_t>(c);
+    contact_[as_j_[node_of(j[c])]++] = static_cast<std::uint32_t>(c);
+  }
+}
+
+void ContactSums::add_up(std::span<const ForceRecord> values, const ForceRecord& sign,
+                         std::span<ForceRecord> sums) const {
+  Gather g{&values.data()->x, contact_.data(), node_.data(), &sums.data()->x, sign};
+  for (const Run& run : runs_) gather(g, run.nodes, run.as_i, run.as_j);
+}
+
+}  // namespace grainlaw

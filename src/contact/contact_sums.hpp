@@ -1,0 +1,37 @@
+// Sums of contact forces over the contacts of every node, gathered node by node: adding contact by
+// contact would wait for the last sum on the same particle.
+#pragma once
+
+#include "contact/records.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace grainlaw {
+
+class ContactSums {
+ public:
+  // Contacts i[c], j[c] of particles; node[p] is the node of particle p.
+  void arrange(std::span<const std::int32_t> i, std::span<const std::int32_t> j,
+               std::span<const int> node, std::size_t nodes);
+
+  // sums[q] = sum of values[c] over contacts whose j is on node q, plus that times `sign` over
+  // contacts whose i is.
+  void add_up(std::span<const ForceRecord> values, const ForceRecord& sign,
+              std::span<ForceRecord> sums) const;
+
+ private:
+  // Nodes with equal numbers of contacts follow each other, so that the loops over them are
+  // foreseeable.
+  struct Run {
+    std::uint32_t nodes, as_i, as_j;
+  };
+  std::vector<Run> runs_;
+  std::vector<std::uint32_t> node_;     // in this order
+  std::vector<std::uint32_t> contact_;  // of each node, first those it is i of
+  std::vector<std::uint32_t> as_i_, as_j_, begin_, kinds_;
+};
+
+}  // namespace grainlaw

@@ -1,0 +1,125 @@
+// Four doubles at a time by the compiler's vector types, and functions compiled once per instruction
+// set, the best chosen when the program starts.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+
+// Everything that passes vectors by value is inlined.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define GRAINLAW_DISPATCH 1
+#define GRAINLAW_CLONES \
+  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#define GRAINLAW_CLONES_OF_FOUR __attribute__((target_clones("arch=x86-64-v3", "default")))
+#define GRAINLAW_OF_EIGHT __attribute__((target("arch=x86-64-v4")))
+#else
+#define GRAINLAW_DISPATCH 0
+#define GRAINLAW_CLONES
+#define GRAINLAW_CLONES_OF_FOUR
+#define GRAINLAW_OF_EIGHT
+#endif
+#define GRAINLAW_INLINE inline __attribute__((always_inline))
+
+namespace grainlaw::simd {
+
+// Whether registers hold eight doubles.
+inline bool eight_lanes() {
+#if GRAINLAW_DISPATCH
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+         __builtin_cpu_supports("avx512cd");
+#else
+  return false;
+#endif
+}
+
+template <std::size_t width>
+struct Vector {
+  typedef double type __attribute__((vector_size(width * sizeof(double))));
+  typedef long long bits __attribute__((vector_size(width * sizeof(double))));
+};
+template <std::size_t width>
+using Lanes = typename Vector<width>::type;
+using Record = Lanes<4>;
+
+template <std::size_t width>
+GRAINLAW_INLINE Lanes<width> load(const double* from) {
+  Lanes<width> value;
+  std::memcpy(&value, from, sizeof value);
+  return value;
+}
+template <class Vector>
+GRAINLAW_INLINE void store(double* to, const Vector& value) {
+  std::memcpy(to, &value, sizeof value);
+}
+
+// Four records beside another four.
+GRAINLAW_INLINE Lanes<8> beside(const Record& a, const Record& b) {
+  return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+GRAINLAW_INLINE Record first(const Lanes<8>& a) {
+  return __builtin_shufflevector(a, a, 0, 1, 2, 3);
+}
+GRAINLAW_INLINE Record second(const Lanes<8>& a) {
+  return __builtin_shufflevector(a, a, 4, 5, 6, 7);
+}
+
+// Records, one a row (two with eight lanes), become columns, and back.
+GRAINLAW_INLINE void transpose(Lanes<4>& a, Lanes<4>& b, Lanes<4>& c, Lanes<4>& d) {
+  const Lanes<4> ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+  const Lanes<4> ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Lanes<4> cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+  const Lanes<4> cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  a = __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5);
+  b = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5);
+  c = __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7);
+  d = __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7);
+}
+GRAINLAW_INLINE void transpose(Lanes<8>& a, Lanes<8>& b, Lanes<8>& c, Lanes<8>& d) {
+  const Lanes<8> ab_even = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Lanes<8> ab_odd = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Lanes<8> cd_even = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Lanes<8> cd_odd = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+  a = __builtin_shufflevector(ab_even, cd_even, 0, 1, 8, 9, 4, 5, 12, 13);
+  b = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 8, 9, 4, 5, 12, 13);
+  c = __builtin_shufflevector(ab_even, cd_even, 2, 3, 10, 11, 6, 7, 14, 15);
+  d = __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+template <class Vector>
+GRAINLAW_INLINE Vector square_root(const Vector& a) {
+  Vector root;
+#pragma GCC unroll 8
+  for (std::size_t k = 0; k < sizeof a / sizeof(double); ++k) root[k] = __builtin_sqrt(a[k]);
+  return root;
+}
+template <class Vector>
+GRAINLAW_INLINE Vector largest(const Vector& a, const Vector& b) {
+  return a > b ? a : b;
+}
+template <class Vector>
+GRAINLAW_INLINE Vector smallest(const Vector& a, const Vector& b) {
+  return a < b ? a : b;
+}
+template <class Vector>
+GRAINLAW_INLINE Vector magnitude(const Vector& a) {
+  using Bits = typename simd::Vector<sizeof a / sizeof(double)>::bits;
+  return (Vector)((Bits)a & 0x7fffffffffffffffLL);
+}
+template <class Vector>
+GRAINLAW_INLINE double sum(const Vector& a) {
+  double total = 0;
+  for (std::size_t k = 0; k < sizeof a / sizeof(double); ++k) total += a[k];
+  return total;
+}
+template <class Vector>
+GRAINLAW_INLINE double most(const Vector& a) {
+  double value = a[0];
+  for (std::size_t k = 1; k < sizeof a / sizeof(double); ++k) value = a[k] > value ? a[k] : value;
+  return value;
+}
+
+}  // namespace grainlaw::simd
