@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <cstring>
+#include <new>
+#include <vector>
 
 // Everything that passes vectors by value is inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
@@ -121,5 +123,23 @@ GRAINLAW_INLINE double most(const Vector& a) {
   for (std::size_t k = 1; k < sizeof a / sizeof(double); ++k) value = a[k] > value ? a[k] : value;
   return value;
 }
+
+// Memory whose whole registers never lie across two cache lines.
+template <class Value>
+struct CacheLineAllocator {
+  using value_type = Value;
+  static constexpr std::align_val_t alignment{64};
+
+  CacheLineAllocator() = default;
+  template <class Other>
+  CacheLineAllocator(const CacheLineAllocator<Other>& /*other*/) {}
+  Value* allocate(std::size_t count) {
+    return static_cast<Value*>(::operator new(count * sizeof(Value), alignment));
+  }
+  void deallocate(Value* memory, std::size_t /*count*/) { ::operator delete(memory, alignment); }
+  friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
+};
+template <class Value>
+using Column = std::vector<Value, CacheLineAllocator<Value>>;
 
 }  // namespace grainlaw::simd

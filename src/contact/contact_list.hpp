@@ -5,11 +5,11 @@
 #include "contact/history.hpp"
 #include "contact/law.hpp"
 #include "packing/neighbours.hpp"
+#include "simd.hpp"
 
 #include <array>
 #include <cstddef>
 #include <span>
-#include <vector>
 
 namespace grainlaw {
 
@@ -20,20 +20,20 @@ struct ContactList {
   static constexpr std::size_t group = 8;
 
   std::size_t count = 0;
-  std::vector<std::int32_t> i, j;
-  std::vector<double> shift_x, shift_y;      // lattice counts [-]
-  std::vector<double> offset_x, offset_y;    // cell * shift [m]
-  std::vector<double> reach, inverse_reach;  // R_i + R_j [m], and 1 / it
-  std::vector<double> lever_i;               // lambda_i = R_i / (R_i + R_j) [-]
-  std::vector<double> normal_stiffness;      // kn [N/m]
-  std::vector<double> tangential_stiffness;  // kt [N/m]
-  std::vector<double> start_x, start_y;      // unit normal at the start of the increment [-]
-  std::vector<double> start_roll;            // R_i theta_i + R_j theta_j there [m]
-  std::vector<double> start_force;           // tangential force there [N]
-  std::vector<double> weight;                // empty when all are 1 [-]
+  simd::Column<std::int32_t> i, j;
+  simd::Column<double> shift_x, shift_y;      // lattice counts [-]
+  simd::Column<double> offset_x, offset_y;    // cell * shift [m]
+  simd::Column<double> reach, inverse_reach;  // R_i + R_j [m], and 1 / it
+  simd::Column<double> lever_i;               // lambda_i = R_i / (R_i + R_j) [-]
+  simd::Column<double> normal_stiffness;      // kn [N/m]
+  simd::Column<double> tangential_stiffness;  // kt [N/m]
+  simd::Column<double> start_x, start_y;      // unit normal at the start of the increment [-]
+  simd::Column<double> start_roll;            // R_i theta_i + R_j theta_j there [m]
+  simd::Column<double> start_force;           // tangential force there [N]
+  simd::Column<double> weight;                // empty when all are 1 [-]
   bool turns_far = false;  // a touching branch has turned beyond the short series since the start
 
-  std::vector<ForceRecord> forces;  // of the last evaluation, on j
+  simd::Column<ForceRecord> forces;  // of the last evaluation, on j
   ContactSums sums;                 // of them over the contacts of every node
 
   [[nodiscard]] std::size_t size() const { return count; }

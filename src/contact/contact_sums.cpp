@@ -45,7 +45,7 @@ void ContactSums::arrange(std::span<const std::int32_t> i, std::span<const std::
   };
   zeroes(as_i_, nodes);
   zeroes(as_j_, nodes);
-  std::uint32_t most = 0;
+  std::uint32_t most = 15;  // nearly always enough, so that the counts keep their size
   for (std::size_t c = 0; c < i.size(); ++c) {
     most = std::max(most, ++as_i_[node_of(i[c])]);
     most = std::max(most, ++as_j_[node_of(j[c])]);
@@ -57,6 +57,7 @@ void ContactSums::arrange(std::span<const std::int32_t> i, std::span<const std::
   zeroes(kinds_, std::size_t{stride} * stride + 1);
   for (std::size_t q = 0; q < nodes; ++q) ++kinds_[kind(q) + 1];
   runs_.clear();
+  runs_.reserve(nodes);
   for (std::uint32_t a = 0; a < stride; ++a) {
     for (std::uint32_t b = 0; b < stride; ++b) {
       const std::size_t k = std::size_t{a} * stride + b;
@@ -64,7 +65,6 @@ void ContactSums::arrange(std::span<const std::int32_t> i, std::span<const std::
       kinds_[k + 1] += kinds_[k];
     }
   }
-  keep_room(runs_);
   resize_with_room(node_, nodes);
   for (std::size_t q = 0; q < nodes; ++q) node_[kinds_[kind(q)]++] = static_cast<std::uint32_t>(q);
 

@@ -18,19 +18,21 @@ constexpr ForceRecord opposite = {-1, -1, 1, 1};
 static_assert(sizeof(ParticleRecord) == sizeof(Record) && sizeof(ForceRecord) == sizeof(Record));
 
 constexpr double tiny = std::numeric_limits<double>::min();
-// Up to this tangent the short series of an angle is exact to round-off: 7 degrees, which hardly a
-// touching contact turns by in an increment of a host's size.
-constexpr double short_series = 0.125;
+// Up to this tangent the series of an angle is exact to round-off: 11 degrees, more than touching
+// contacts usually turn by in an increment of a host's size.
+constexpr double short_series = 0.2;
 
-// The arc tangent of t by its series, without a trigonometric call; to round-off for |t| <= 0.125.
+// The arc tangent of t by its series, without a trigonometric call; to round-off for |t| <= 0.2.
 // Summed in pairs: one long chain of multiplications would set the pace of the whole loop.
 template <class Vector>
 GRAINLAW_INLINE Vector arc_tangent(const Vector& t) {
   const Vector u = t * t;
   const Vector u2 = u * u;
+  const Vector u4 = u2 * u2;
   const Vector a = (1.0 - u * (1.0 / 3)) + u2 * (1.0 / 5 - u * (1.0 / 7));
   const Vector b = (1.0 / 9 - u * (1.0 / 11)) + u2 * (1.0 / 13 - u * (1.0 / 15));
-  return t * (a + (u2 * u2) * (b + (u2 * u2) * (1.0 / 17)));
+  const Vector c = (1.0 / 17 - u * (1.0 / 19)) + u2 * (1.0 / 21);
+  return t * (a + u4 * (b + u4 * c));
 }
 
 struct Loop {
@@ -89,8 +91,13 @@ GRAINLAW_INLINE void find_branches(const double* particles, const ContactList& l
 
 // The columns (x, y, roll, unused) of some contacts as records.
 template <std::size_t width>
-GRAINLAW_INLINE void put_records(Lanes<width> x, Lanes<width> y, Lanes<width> roll,
-                                 Lanes<width> unused, double* to) {
+GRAINLAW_INLINE void put_records(const Lanes<width>& columns_x, const Lanes<width>& columns_y,
+                                 const Lanes<width>& columns_roll,
+                                 const Lanes<width>& columns_unused, double* to) {
+  Lanes<width> x = columns_x;
+  Lanes<width> y = columns_y;
+  Lanes<width> roll = columns_roll;
+  Lanes<width> unused = columns_unused;
   transpose(x, y, roll, unused);
   if constexpr (width == 4) {
     store(to, x);
@@ -150,7 +157,8 @@ GRAINLAW_INLINE Lanes<width> find_normals(const ContactList& list, std::size_t f
   return beyond;
 }
 
-// `far` takes turns of any size by halving the angle; `advance` moves the start of the history here
+// `far` takes any turn by halving the angle, to round-off below 90 degrees and to 1e-7 at 180;
+// `advance` moves the start of the history here
 // and returns what was dissipated.
 template <std::size_t width, Kinematics kinematics, bool far, bool advance>
 GRAINLAW_INLINE Lanes<width> find_forces(double friction, ContactList& list, std::size_t first,
@@ -178,9 +186,7 @@ GRAINLAW_INLINE Lanes<width> find_forces(double friction, ContactList& list, std
       const V cross = load<width>(start_x + c) * y - load<width>(start_y + c) * x;
       const V half = cross / largest(distance + dot, 1e-12 * distance);
       const V quarter = half / (1 + square_root(1 + half * half));
-      const V eighth = quarter / (1 + square_root(1 + quarter * quarter));
-      const V sixteenth = eighth / (1 + square_root(1 + eighth * eighth));
-      turn = 32 * arc_tangent(sixteenth / (1 + square_root(1 + sixteenth * sixteenth)));
+      turn = 8 * arc_tangent(quarter / (1 + square_root(1 + quarter * quarter)));
     } else {
       turn = arc_tangent(load<width>(at.tangent + c));
     }

@@ -52,12 +52,18 @@ void Increment::begin(const Problem& p, const Configuration& from,
   records.resize(n);
   for (std::size_t q = 0; q < n; ++q) records[q] = {0, 0, 0, p.packing->radius[q]};
   forces.resize(nodes());
-  stiffness_sums_.resize(nodes());
+  mass_records.resize(nodes());
+  least_masses_.resize(nodes());
   node_residual.resize(unknowns());
   mass.resize(unknowns());
   node_radius.resize(nodes());
   for (std::size_t q = 0; q < n; ++q) {
     node_radius[static_cast<std::size_t>(p.space->node[q])] = p.packing->radius[q];
+  }
+  for (std::size_t q = 0; q < nodes(); ++q) {
+    const double kn = p.law->stiffness(node_radius[q], node_radius[q]);
+    const double kt = p.law->rotating() ? 2 * p.law->ratio * kn : 1;
+    least_masses_[q] = {kn, kn, kt, 1 / node_radius[q]};
   }
   double mean_radius = 0;
   for (const double r : p.packing->radius) mean_radius += r / static_cast<double>(n);
@@ -192,26 +198,38 @@ bool Increment::carries(std::size_t c) const {
 }
 
 void Increment::refresh_masses() {
-  constexpr double factor = 0.8;
-  const auto m = nodes();
-  const auto& law = *problem->law;
-  const bool rotating = law.rotating();
   load_records();
-  const auto totals = sum_stiffnesses(records, contacts, stiffness_sums_);
-  touching = totals.touching;
-  mean_force = touching > 0 ? totals.force / totals.weights : 0;
-  double* translation = mass.data();
-  double* rotation = rotating ? translation + 2 * m : nullptr;
+  sum_masses();
+  const auto m = nodes();
+  const bool rotating = problem->law->rotating();
   for (std::size_t q = 0; q < m; ++q) {
     const double r = node_radius[q];
-    const double kn = law.stiffness(r, r);
-    const auto& sum = stiffness_sums_[q];
-    translation[q] = translation[m + q] = factor * std::max(sum.x, kn);
-    if (rotating) rotation[q] = factor * std::max(sum.roll * r, 2 * law.ratio * kn * r * r);
+    mass[q] = mass[m + q] = mass_records[q].x;
+    if (rotating) mass[2 * m + q] = mass_records[q].roll * r * r;
+  }
+}
+
+void Increment::sum_masses() {
+  const auto totals = sum_stiffnesses(records, contacts, mass_records);
+  touching = totals.touching;
+  mean_force = touching > 0 ? totals.force / totals.weights : 0;
+  for (std::size_t q = 0; q < nodes(); ++q) {
+    constexpr double factor = 0.8;
+    auto& mass_of = mass_records[q];
+    const auto& least = least_masses_[q];
+    mass_of.x = mass_of.y = factor * std::max(mass_of.x, least.x);
+    mass_of.roll = factor * std::max(mass_of.roll * least.unused, least.roll);
+    mass_of.unused = 1;
   }
 }
 
 double Increment::relative_scale() const { return std::max(mean_force, problem->force_floor); }
+
+double Increment::mean_stiffness() const {
+  double sum = 0;
+  for (std::size_t q = 0; q < nodes(); ++q) sum += least_masses_[q].x;
+  return sum / static_cast<double>(nodes());
+}
 
 double Increment::residual_norm() const {
   if (touching == 0) return std::numeric_limits<double>::infinity();

@@ -35,6 +35,9 @@ class Increment {
   // contacts, never below one contact's worth (mechanics of the relaxation: unit pseudo-time step).
   void refresh_masses();
 
+  // The same from the records and for the records alone: the mass of the roll R theta is I / R^2.
+  void sum_masses();
+
   // Largest residual force (moment / R) of update_forces over max(mean normal force, floor) [-]; infinite when no
   // contact is left or a number is not finite.
   [[nodiscard]] double residual_norm() const;
@@ -78,6 +81,8 @@ class Increment {
     return nodes() * static_cast<std::size_t>(problem->components());
   }
   [[nodiscard]] double relative_scale() const;
+  // kn between equal particles, mean over the nodes [N/m].
+  [[nodiscard]] double mean_stiffness() const;
 
   const Problem* problem = nullptr;
   std::array<double, 4> deformation{};        // F being solved, free of the increment's rotation
@@ -90,6 +95,7 @@ class Increment {
   std::vector<ForceRecord> forces;            // on nodes
   std::vector<double> node_residual;          // reduced, component-major [N, N m]
   std::vector<double> mass;                   // nodes, component-major
+  std::vector<ForceRecord> mass_records;      // the same as records
   std::vector<double> node_radius;            // [m]
   ContactList contacts;
   std::vector<NeighbourPair> pairs;
@@ -106,7 +112,7 @@ class Increment {
   void build_list();
   void project();
 
-  std::vector<ForceRecord> stiffness_sums_;
+  std::vector<ForceRecord> least_masses_;  // of one contact; and 1 / R in `unused`
   std::vector<double> listed_;  // positions when the neighbours were listed
   double gap_ = 0;
   double rounding_force_ = 0;  // [N]

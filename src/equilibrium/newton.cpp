@@ -30,65 +30,129 @@ double largest_move(const Increment& increment, std::span<const double> step) {
   return largest;
 }
 
+constexpr double first_shift = 1e-4;
+constexpr double least_shift = 1e-7;
+constexpr double largest_shift = 1e3;
+constexpr double acceptable = 0.9;  // of the residual after a step against before
+
+class FlowNewton {
+ public:
+  FlowNewton(Increment& increment, NewtonMemory& memory)
+      : increment_(increment), memory_(memory) {
+    memory.step.assign(increment.unknowns(), 0.0);
+    increment.refresh_masses();
+    keep_best();
+  }
+
+  bool run(double tolerance, int max_factorisations) {
+    for (int count = 0; count < max_factorisations && std::isfinite(norm_); ++count) {
+      if (increment_.residual_norm() < tolerance) return true;
+      const auto r = increment_.residual();
+      memory_.residual.assign(r.begin(), r.end());
+      memory_.stiffness.assemble(increment_, shift_);
+      memory_.stiffness.factorise(increment_);
+      if (!memory_.stiffness.solve(increment_, memory_.residual, memory_.step)) {
+        if (!raise_shift()) return false;
+      } else if (full_steps_) {
+        full_step();
+      } else if (!flow_step()) {
+        return false;
+      }
+    }
+    return increment_.residual_norm() < tolerance;
+  }
+
+ private:
+  [[nodiscard]] double defect() const { return defect_norm(increment_, memory_.step, 0); }
+
+  void keep_best() {
+    norm_ = best_ = defect();
+    memory_.best = increment_.coordinates;
+    without_gain_ = 0;
+  }
+
+  void go_to(const std::vector<double>& coordinates) {
+    increment_.coordinates = coordinates;
+    increment_.keep_neighbours();
+    increment_.update_forces();
+  }
+
+  bool raise_shift() {
+    shift_ = std::max(4 * shift_, first_shift);
+    return shift_ <= largest_shift;
+  }
+
+  // Moves of a few mean overlaps turn contacts over; what lies beyond is another packing.
+  void full_step() {
+    constexpr double move_limit = 3;  // mean overlaps
+    constexpr int patience = 4;
+    constexpr double largest_rise = 300;
+    constexpr double flow_shift = 1e-2;
+    const double limit = move_limit * increment_.relative_scale() / increment_.mean_stiffness();
+    increment_.move(memory_.step, std::min(1.0, limit / largest_move(increment_, memory_.step)));
+    increment_.keep_neighbours();
+    increment_.update_forces();
+    increment_.refresh_masses();
+    norm_ = defect();
+    if (norm_ < acceptable * best_) {
+      keep_best();
+      shift_ = shift_ / 16 < least_shift ? 0 : shift_ / 16;
+    } else if (++without_gain_ == patience || !(norm_ < largest_rise * best_)) {
+      go_to(memory_.best);
+      increment_.refresh_masses();
+      norm_ = best_;
+      full_steps_ = false;
+      shift_ = flow_shift;
+    }
+  }
+
+  bool flow_step() {
+    constexpr double good = 0.1;
+    constexpr double move_limit = 0.2;  // of the smallest radius
+    constexpr double enough_gain = 0.3;
+    const double smallest =
+        *std::min_element(increment_.node_radius.begin(), increment_.node_radius.end());
+    memory_.coordinates = increment_.coordinates;
+    const double cap = std::min(1.0, move_limit * smallest / largest_move(increment_, memory_.step));
+    double fraction = cap;
+    for (int shortening = 0; shortening < 3; ++shortening, fraction *= 0.3) {
+      increment_.coordinates = memory_.coordinates;
+      increment_.move(memory_.step, fraction);
+      increment_.keep_neighbours();
+      increment_.update_forces();
+      const double error = defect_norm(increment_, memory_.step, fraction * shift_);
+      // A shortened step promises only its share of the decrease.
+      if (error < (1 - fraction * (1 - acceptable)) * norm_) {
+        if (fraction == 1) shift_ /= error < good * norm_ ? 16 : 4;
+        if (fraction < cap) shift_ *= 4;
+        if (shift_ < least_shift) shift_ = 0;
+        increment_.refresh_masses();
+        norm_ = defect();
+        if (norm_ < enough_gain * best_) {
+          full_steps_ = true;
+          keep_best();
+        }
+        return true;
+      }
+    }
+    go_to(memory_.coordinates);
+    return raise_shift();
+  }
+
+  Increment& increment_;
+  NewtonMemory& memory_;
+  double shift_ = first_shift;
+  double norm_ = 0;  // of the residual at the present coordinates
+  double best_ = 0;  // the least so far, at memory.best
+  int without_gain_ = 0;
+  bool full_steps_ = true;
+};
+
 }  // namespace
 
 bool flow_newton(Increment& increment, double tolerance, int max_factorisations,
                  NewtonMemory& memory) {
-  constexpr double first_shift = 1e-4;
-  constexpr double least_shift = 1e-7;
-  constexpr double largest_shift = 1e3;
-  constexpr double acceptable = 0.9;
-  constexpr double good = 0.1;
-  constexpr double move_limit = 0.2;  // of the smallest radius
-  memory.step.assign(increment.unknowns(), 0.0);
-  const double smallest =
-      *std::min_element(increment.node_radius.begin(), increment.node_radius.end());
-
-  double shift = first_shift;
-  increment.refresh_masses();
-  double norm = defect_norm(increment, memory.step, 0);
-  for (int count = 0; count < max_factorisations; ++count) {
-    if (increment.residual_norm() < tolerance) return true;
-    memory.stiffness.assemble(increment, shift);
-    const auto r = increment.residual();
-    memory.residual.assign(r.begin(), r.end());
-    memory.stiffness.factorise(increment);
-    if (!memory.stiffness.solve(increment, memory.residual, memory.step)) {
-      shift = std::max(4 * shift, first_shift);
-      if (shift > largest_shift) return false;
-      continue;
-    }
-    memory.coordinates = increment.coordinates;
-    const double cap = std::min(1.0, move_limit * smallest / largest_move(increment, memory.step));
-    bool accepted = false;
-    double fraction = cap;
-    for (int shortening = 0; shortening < 3 && !accepted; ++shortening, fraction *= 0.3) {
-      increment.coordinates = memory.coordinates;
-      increment.move(memory.step, fraction);
-      increment.keep_neighbours();
-      increment.update_forces();
-      const double error = defect_norm(increment, memory.step, fraction * shift);
-      // A shortened step promises only its share of the decrease.
-      if (error < (1 - fraction * (1 - acceptable)) * norm) {
-        accepted = true;
-        if (fraction == 1) shift /= error < good * norm ? 16 : 4;
-        if (fraction < cap) shift *= 4;
-        if (shift < least_shift) shift = 0;
-      }
-    }
-    if (!accepted) {
-      increment.coordinates = memory.coordinates;
-      increment.keep_neighbours();
-      increment.update_forces();
-      shift = std::max(4 * shift, first_shift);
-      if (shift > largest_shift) return false;
-      continue;
-    }
-    increment.refresh_masses();
-    norm = defect_norm(increment, memory.step, 0);
-    if (!std::isfinite(norm)) return false;
-  }
-  return increment.residual_norm() < tolerance;
+  return FlowNewton(increment, memory).run(tolerance, max_factorisations);
 }
 
 }  // namespace grainlaw

@@ -1,4 +1,5 @@
-// Newton's method made safe: implicit Euler steps of the overdamped flow m dz/dt = r.
+// Newton's method made safe, in two gaits: full steps through the kinks of contacts that open, close,
+// stick and slide; and implicit Euler steps of the overdamped flow m dz/dt = r where those lead away.
 #pragma once
 
 #include "equilibrium/increment.hpp"
@@ -10,13 +11,15 @@ namespace grainlaw {
 
 struct NewtonMemory {
   Stiffness stiffness;
-  std::vector<double> step, residual, coordinates;
+  std::vector<double> step, residual, coordinates, best;
 };
 
-// Solve (K + s M) dz = r with the exact, non-symmetric K until residual_norm() < tolerance. s falls
-// while the linear model is good and rises when it is not; with s = 0 this is Newton's method, with
-// s > 0 it is stable exactly where the equilibrium is, flutter included. False after
-// max_factorisations or when the residual is no longer finite.
+// Solve (K + s M) dz = r with the exact, non-symmetric K until residual_norm() < tolerance.
+// Full steps may pass through states of larger residual, since K is known only on this side of a
+// kink; when a few in a row gain nothing, they are taken back and the flow leads on until it gains.
+// The flow's s falls while the linear model is good and rises when it is not; with s > 0 it is
+// stable exactly where the equilibrium is, flutter included. False after max_factorisations or when
+// the residual is no longer finite.
 bool flow_newton(Increment& increment, double tolerance, int max_factorisations,
                  NewtonMemory& memory);
 

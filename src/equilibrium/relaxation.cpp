@@ -22,8 +22,8 @@ constexpr long mass_interval = 10;
 struct Nodes {
   double* velocity;
   double* previous;  // residual of the last step
-  double* residual;
-  double* mass;
+  const double* residual;
+  const double* mass;
   double* gain;  // 1 / mass, and 0 where nothing moves
   std::size_t doubles;
 };
@@ -34,7 +34,7 @@ struct Measured {
   double inertia;    // sum v m v
 };
 
-GRAINLAW_CLONES Measured measure(const Nodes& nodes) {
+GRAINLAW_CLONES Measured measure_nodes(const Nodes& nodes) {
   Record largest_force{};
   Record stiffness{};
   Record inertia{};
@@ -59,130 +59,115 @@ GRAINLAW_CLONES void step_nodes(const Nodes& nodes, double keep, double gain, do
   }
 }
 
-// The increment's unknowns as records while it is being relaxed.
-class Relaxation {
- public:
-  Relaxation(Increment& increment, History history, RelaxationMemory& memory)
-      : increment_(increment), history_(history), memory_(memory) {
-    const std::size_t doubles = width * increment.nodes();
-    for (auto* column : {&memory.velocity, &memory.previous, &memory.mass, &memory.gain}) {
-      column->assign(doubles, 0.0);
-    }
-  }
-
-  // Every mass_interval steps: masses, mean force and neighbours of the present coordinates.
-  void refresh() {
-    if (history_ == History::advancing) increment_.advance_history();
-    increment_.keep_neighbours();
-    increment_.refresh_masses();
-    increment_.load_records();
-    const auto m = increment_.nodes();
-    const auto& space = *increment_.problem->space;
-    const double* mass = increment_.mass.data();
-    const bool rotating = increment_.problem->law->rotating();
-    for (std::size_t q = 0; q < m; ++q) {
-      const double radius = increment_.node_radius[q];
-      const bool fixed = !space.identity && space.fixed[q];
-      double* record = memory_.mass.data() + width * q;
-      double* gain = memory_.gain.data() + width * q;
-      record[0] = record[1] = mass[q];
-      gain[0] = gain[1] = fixed ? 0 : 1 / mass[q];
-      record[2] = rotating ? mass[2 * m + q] / (radius * radius) : 1;
-      gain[2] = 1 / record[2];
-      record[3] = 1;
-    }
-  }
-
-  void update() {
-    const auto& law = *increment_.problem->law;
-    if (history_ == History::advancing) {
-      increment_.dissipated +=
-          advance_contacts(increment_.records, law, increment_.contacts, increment_.forces);
-    } else {
-      evaluate_contacts(increment_.records, law, increment_.contacts, increment_.forces);
-    }
-    increment_.hold_fixed(increment_.forces);
-  }
-
-  Measured measured() { return measure(nodes()); }
-
-  void step(double damping) {
-    const bool identity = increment_.problem->space->identity;
-    double* z = &increment_.records[0].x;
-    step_nodes(nodes(), (2 - damping) / (2 + damping), 2 / (2 + damping), identity ? z : nullptr);
-    if (identity) return;
-    const auto& node = increment_.problem->space->node;
-    for (std::size_t p = 0; p < increment_.particles(); ++p) {
-      const double* v = memory_.velocity.data() + width * static_cast<std::size_t>(node[p]);
-      store(z + width * p, load<4>(z + width * p) + load<4>(v));
-    }
-  }
-
- private:
-  Nodes nodes() {
-    return {memory_.velocity.data(),
-            memory_.previous.data(),
-            &increment_.forces[0].x,
-            memory_.mass.data(),
-            memory_.gain.data(),
-            memory_.velocity.size()};
-  }
-
-  Increment& increment_;
-  History history_;
-  RelaxationMemory& memory_;
-};
+GRAINLAW_CLONES void find_gains(const double* mass, double* gain, std::size_t doubles) {
+  for (std::size_t k = 0; k < doubles; k += width) store(gain + k, 1 / load<4>(mass + k));
+}
 
 }  // namespace
 
-bool relax(Increment& increment, double tolerance, long max_steps, History history,
-           RelaxationMemory& memory) {
-  constexpr double largest_damping = 1.9;
+Relaxation::Relaxation(Increment& increment, History history, RelaxationMemory& memory)
+    : increment_(increment), history_(history), memory_(memory) {
+  for (auto* column : {&memory.velocity, &memory.previous, &memory.gain}) {
+    column->assign(width * increment.nodes(), 0.0);
+  }
+}
+
+// Masses, mean force and neighbours of the present coordinates.
+void Relaxation::refresh() {
+  if (history_ == History::advancing) increment_.advance_history();
+  increment_.keep_neighbours();
+  increment_.sum_masses();
+  find_gains(&increment_.mass_records[0].x, memory_.gain.data(), memory_.gain.size());
+  const auto& space = *increment_.problem->space;
+  if (space.identity) return;
+  for (std::size_t q = 0; q < increment_.nodes(); ++q) {
+    if (space.fixed[q]) memory_.gain[width * q] = memory_.gain[width * q + 1] = 0;
+  }
+}
+
+void Relaxation::update() {
+  const auto& law = *increment_.problem->law;
+  auto& forces = increment_.forces;
+  if (history_ == History::advancing) {
+    increment_.dissipated +=
+        advance_contacts(increment_.records, law, increment_.contacts, forces);
+  } else {
+    evaluate_contacts(increment_.records, law, increment_.contacts, forces);
+  }
+  increment_.hold_fixed(forces);
+}
+
+void Relaxation::measure() {
+  const Nodes nodes{memory_.velocity.data(), memory_.previous.data(), &increment_.forces[0].x,
+                    &increment_.mass_records[0].x, memory_.gain.data(), memory_.velocity.size()};
+  const auto now = measure_nodes(nodes);
+  residual_ = std::numeric_limits<double>::infinity();
+  if (increment_.touching > 0 && std::isfinite(now.stiffness + now.largest)) {
+    residual_ = now.largest / increment_.relative_scale();
+  }
+  const double inertia = std::max(now.inertia, std::numeric_limits<double>::min());
+  frequency_ = std::sqrt(std::max(now.stiffness / inertia, 0.0));
+}
+
+// A high floor keeps flutter down, a low one lets soft modes move.
+void Relaxation::review_floor() {
   constexpr double largest_floor = 0.5;
-  constexpr long window = 100;             // steps after which the floor is reviewed
   constexpr double enough_progress = 0.5;  // of the residual, over a window
   constexpr double oscillating = 2;        // largest / smallest residual of a window
-  Relaxation relaxation(increment, history, memory);
-
-  double floor = 0.1;
-  double window_start = std::numeric_limits<double>::infinity();
-  double window_max = 0;
-  double window_min = std::numeric_limits<double>::infinity();
-  relaxation.refresh();
-  relaxation.update();
-  for (long step = 0;; ++step) {
-    const auto now = relaxation.measured();
-    double norm = std::numeric_limits<double>::infinity();
-    if (increment.touching > 0 && std::isfinite(now.stiffness + now.largest)) {
-      norm = now.largest / increment.relative_scale();
-    }
-    const bool over = norm < tolerance || step == max_steps || !std::isfinite(norm);
-    if (over || (step % mass_interval == 0 && step > 0)) {
-      increment.store_records();
-      relaxation.refresh();
-      if (over) {
-        increment.update_forces();
-        if (increment.residual_norm() < tolerance) return true;
-        if (step == max_steps || !std::isfinite(norm)) return false;
-      }
-    }
-    window_max = std::max(window_max, norm);
-    window_min = std::min(window_min, norm);
-    if (step % window == 0) {
-      if (norm > enough_progress * window_start) {
-        const bool flutter = window_max > oscillating * window_min;
-        floor = flutter ? std::min(2 * floor, largest_floor) : 0.5 * floor;
-      }
-      window_start = norm;
-      window_max = window_min = norm;
-    }
-    const double inertia = std::max(now.inertia, std::numeric_limits<double>::min());
-    const double damping =
-        std::clamp(2 * std::sqrt(std::max(now.stiffness / inertia, 0.0)), floor, largest_damping);
-    relaxation.step(damping);
-    relaxation.update();
-    ++increment.relaxation_steps;
+  if (steps_ > 0 && residual_ > enough_progress * window_start_) {
+    const bool flutter = window_max_ > oscillating * window_min_;
+    floor_ = flutter ? std::min(2 * floor_, largest_floor) : 0.5 * floor_;
   }
+  window_start_ = window_max_ = window_min_ = residual_;
+}
+
+void Relaxation::step() {
+  constexpr double largest_damping = 1.9;
+  const double damping = std::clamp(2 * frequency_, floor_, largest_damping);
+  const Nodes nodes{memory_.velocity.data(), memory_.previous.data(), &increment_.forces[0].x,
+                    &increment_.mass_records[0].x, memory_.gain.data(), memory_.velocity.size()};
+  const auto& space = *increment_.problem->space;
+  double* z = &increment_.records[0].x;
+  step_nodes(nodes, (2 - damping) / (2 + damping), 2 / (2 + damping),
+             space.identity ? z : nullptr);
+  ++steps_;
+  ++increment_.relaxation_steps;
+  if (space.identity) return;
+  for (std::size_t p = 0; p < increment_.particles(); ++p) {
+    const double* v = memory_.velocity.data() + width * static_cast<std::size_t>(space.node[p]);
+    store(z + width * p, load<4>(z + width * p) + load<4>(v));
+  }
+}
+
+bool Relaxation::run(double tolerance, long steps) {
+  constexpr long window = 100;  // steps after which the floor is reviewed
+  increment_.load_records();
+  refresh();
+  update();
+  const long last = steps_ + steps;
+  for (;;) {
+    measure();
+    const bool over = residual_ < tolerance || steps_ == last || !std::isfinite(residual_);
+    if (over || steps_ % mass_interval == 0) {
+      increment_.store_records();
+      refresh();
+    }
+    if (over) {
+      increment_.update_forces();
+      if (increment_.residual_norm() < tolerance) return true;
+      if (steps_ == last || !std::isfinite(residual_)) return false;
+    }
+    window_max_ = std::max(window_max_, residual_);
+    window_min_ = std::min(window_min_, residual_);
+    if (steps_ % window == 0) review_floor();
+    step();
+    update();
+  }
+}
+
+bool relax(Increment& increment, double tolerance, long max_steps, History history,
+           RelaxationMemory& memory) {
+  return Relaxation(increment, history, memory).run(tolerance, max_steps);
 }
 
 }  // namespace grainlaw

@@ -13,13 +13,43 @@ enum class History { committed, advancing };
 
 // Memory of the relaxations, reused from call to call.
 struct RelaxationMemory {
-  std::vector<double> velocity, previous, mass, gain, correction;
+  std::vector<double> velocity, previous, gain, correction;
+};
+
+// Viscous relaxation: the damping follows the lowest active frequency, and its floor adapts to
+// flutter.
+class Relaxation {
+ public:
+  // At rest at the present coordinates.
+  Relaxation(Increment& increment, History history, RelaxationMemory& memory);
+
+  // Go on until residual_norm() < tolerance, at most `steps` further steps. Returns whether it got
+  // there. The coordinates may be changed between two calls.
+  bool run(double tolerance, long steps);
+
+  // Of the last step [-]; infinite when nothing touches or a number is not finite.
+  [[nodiscard]] double residual() const { return residual_; }
+
+ private:
+  void refresh();
+  void update();
+  void measure();
+  void review_floor();
+  void step();
+
+  Increment& increment_;
+  History history_;
+  RelaxationMemory& memory_;
+  double residual_ = 0;
+  double frequency_ = 0;  // sqrt of the Rayleigh quotient of the velocity [1 / step]
+  double floor_ = 0.1;    // of the damping
+  long steps_ = 0;
+  double window_start_ = 0, window_max_ = 0, window_min_ = 0;
 };
 
 struct PublishedOptions;
 
-// Viscous relaxation to residual_norm() < tolerance; the damping follows the lowest active
-// frequency and adapts its floor to flutter. Returns whether it got there within max_steps.
+// A Relaxation from rest, run once.
 bool relax(Increment& increment, double tolerance, long max_steps, History history,
            RelaxationMemory& memory);
 
