@@ -12,6 +12,9 @@
 namespace grainlaw::api {
 namespace {
 
+// What a factorisation costs in relaxation steps: some tens of them with hundreds of particles.
+constexpr long steps_per_factorisation = 50;
+
 double determinant(const double* F, int dimension) {
   if (dimension == 2) return F[0] * F[3] - F[1] * F[2];
   return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) +
@@ -58,7 +61,7 @@ grainlaw_status evaluate_point(grainlaw_state& handle, const double* F, unsigned
         check_deformation(F, handle.state.material().packing.dimension);
         const TangentKind kind = A == nullptr ? TangentKind::none : tangent_kind(want);
         const grainlaw_status found = handle.state.evaluate(F, kind, P, A, full);
-        handle.last_cost = full.relaxation_steps;
+        handle.last_cost = full.relaxation_steps + steps_per_factorisation * full.factorisations;
         return found;
       },
       message);

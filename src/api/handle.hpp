@@ -43,7 +43,7 @@ struct grainlaw_state {
 
   grainlaw::api::Magic<0x6574'6174'735f'6c67ULL> magic;
   grainlaw::State state;
-  long last_cost;  // relaxation steps of the last evaluation; a batch begins with the dearest
+  long last_cost;  // of the last evaluation in relaxation steps; a batch begins with the dearest
 };
 
 namespace grainlaw::api {

@@ -1,149 +1,308 @@
 #include "equilibrium/block_matrix.hpp"
 
 #include "room.hpp"
+#include "simd.hpp"
 
 #include <amd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define GRAINLAW_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
-#else
-#define GRAINLAW_CLONES
-#endif
-#define GRAINLAW_INLINE inline __attribute__((always_inline))
+#include <type_traits>
 
 namespace grainlaw {
 
+using simd::store;
+using Lanes = simd::Lanes<4>;  // of a quad
+constexpr std::size_t width = 4;
+GRAINLAW_INLINE Lanes load(const double* from) { return simd::load<4>(from); }
+static_assert(sizeof(Quad) == sizeof(Lanes));
+
+struct BlockLU::Factor {
+  std::size_t nodes;
+  const std::size_t* begin;
+  const std::size_t* diagonal;
+  const char* paired;
+  const std::int32_t* rows;
+  const std::int32_t* node;
+  const std::size_t* source_begin;
+  const Source* sources;
+  std::int32_t* where;
+  const double* added;  // may be null
+  const double* matrix;
+  double* values;
+};
+
 namespace {
 
-// C -= A X, padded columns as the compiler's vector type: loops over three rows are not vectorised.
-template <int b, int s>
-GRAINLAW_INLINE void subtract_product(double* c, const double* a, const double* x) {
-  typedef double Column __attribute__((vector_size(s * sizeof(double))));
-  Column a_column[b];
-  Column sum[b];
+using Factor = BlockLU::Factor;
+
+template <int b>
+struct Block {
+  Lanes column[b];
+};
+
+template <int b>
+GRAINLAW_INLINE Block<b> load_block(const double* from) {
+  Block<b> block;
 #pragma GCC unroll 3
-  for (int k = 0; k < b; ++k) std::memcpy(&a_column[k], a + k * s, sizeof(Column));
-#pragma GCC unroll 3
-  for (int k = 0; k < b; ++k) std::memcpy(&sum[k], c + k * s, sizeof(Column));
-#pragma GCC unroll 3
-  for (int k = 0; k < b; ++k) {
-#pragma GCC unroll 3
-    for (int column = 0; column < b; ++column) sum[column] -= a_column[k] * x[column * s + k];
-  }
-#pragma GCC unroll 3
-  for (int k = 0; k < b; ++k) std::memcpy(c + k * s, &sum[k], sizeof(Column));
+  for (std::size_t c = 0; c < b; ++c) block.column[c] = load(from + c * width);
+  return block;
 }
 
-template <int b, int s>
-GRAINLAW_INLINE void multiply_right(double* a, const double* x) {
-  double result[b * s] = {};
-  for (int column = 0; column < b; ++column) {
-    for (int k = 0; k < b; ++k) {
-      for (int row = 0; row < s; ++row) {
-        result[column * s + row] += a[k * s + row] * x[column * s + k];
-      }
+template <int b>
+GRAINLAW_INLINE void store_block(double* to, const Block<b>& block) {
+#pragma GCC unroll 3
+  for (std::size_t c = 0; c < b; ++c) store(to + c * width, block.column[c]);
+}
+
+// The entries of a block, each in all lanes.
+template <int b>
+struct Spread {
+  Lanes entry[b][b];  // [column][row]
+};
+
+template <int b>
+GRAINLAW_INLINE Spread<b> spread(const double* block) {
+  Spread<b> result;
+#pragma GCC unroll 3
+  for (std::size_t c = 0; c < b; ++c) {
+#pragma GCC unroll 3
+    for (std::size_t r = 0; r < b; ++r) result.entry[c][r] = Lanes{} + block[c * width + r];
+  }
+  return result;
+}
+
+// c -= a x
+template <int b>
+GRAINLAW_INLINE void subtract_product(Block<b>& c, const Block<b>& a, const Spread<b>& x) {
+#pragma GCC unroll 3
+  for (std::size_t k = 0; k < b; ++k) {
+#pragma GCC unroll 3
+    for (std::size_t column = 0; column < b; ++column) {
+      c.column[column] -= a.column[k] * x.entry[column][k];
     }
   }
-  std::copy_n(result, b * s, a);
 }
 
 // In place, by Gauss-Jordan with row pivoting. False when singular.
-template <int b, int s>
-GRAINLAW_INLINE bool invert(double* a) {
+template <int b>
+bool invert_with_pivoting(double* a) {
+  constexpr std::size_t s = width;
   double work[b][2 * b];
-  for (int r = 0; r < b; ++r) {
-    for (int c = 0; c < b; ++c) {
+  for (std::size_t r = 0; r < b; ++r) {
+    for (std::size_t c = 0; c < b; ++c) {
       work[r][c] = a[c * s + r];
       work[r][b + c] = r == c ? 1 : 0;
     }
   }
-  for (int k = 0; k < b; ++k) {
-    int pivot = k;
-    for (int r = k + 1; r < b; ++r) {
+  for (std::size_t k = 0; k < b; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t r = k + 1; r < b; ++r) {
       if (std::abs(work[r][k]) > std::abs(work[pivot][k])) pivot = r;
     }
     const double value = work[pivot][k];
     if (!(std::abs(value) > 0) || !std::isfinite(value)) return false;
-    for (int c = 0; c < 2 * b; ++c) std::swap(work[k][c], work[pivot][c]);
-    for (int c = 0; c < 2 * b; ++c) work[k][c] /= value;
-    for (int r = 0; r < b; ++r) {
+    for (std::size_t c = 0; c < 2 * b; ++c) std::swap(work[k][c], work[pivot][c]);
+    for (std::size_t c = 0; c < 2 * b; ++c) work[k][c] /= value;
+    for (std::size_t r = 0; r < b; ++r) {
       if (r == k) continue;
       const double factor = work[r][k];
-      for (int c = 0; c < 2 * b; ++c) work[r][c] -= factor * work[k][c];
+      for (std::size_t c = 0; c < 2 * b; ++c) work[r][c] -= factor * work[k][c];
     }
   }
-  for (int r = 0; r < b; ++r) {
-    for (int c = 0; c < b; ++c) a[c * s + r] = work[r][b + c];
+  for (std::size_t r = 0; r < b; ++r) {
+    for (std::size_t c = 0; c < b; ++c) a[c * s + r] = work[r][b + c];
   }
   return true;
 }
 
-struct Factor {
-  std::size_t nodes;
-  const std::size_t* begin;
-  const std::size_t* diagonal;
-  const std::int32_t* rows;
-  std::int32_t* where;
-  double* values;
-};
+// By cofactors where the determinant is not much smaller than the products it is made of.
+constexpr double safe_determinant = 1e-5;
 
-template <int b, int s>
+GRAINLAW_INLINE bool invert(double* a, std::integral_constant<int, 3>) {
+  constexpr std::size_t s = width;
+  const double a00 = a[0], a10 = a[1], a20 = a[2];
+  const double a01 = a[s], a11 = a[s + 1], a21 = a[s + 2];
+  const double a02 = a[2 * s], a12 = a[2 * s + 1], a22 = a[2 * s + 2];
+  const double c00 = a11 * a22 - a12 * a21;
+  const double c10 = a12 * a20 - a10 * a22;
+  const double c20 = a10 * a21 - a11 * a20;
+  const double determinant = a00 * c00 + a01 * c10 + a02 * c20;
+  const double size = std::abs(a00) * (std::abs(a11 * a22) + std::abs(a12 * a21)) +
+                      std::abs(a01) * (std::abs(a12 * a20) + std::abs(a10 * a22)) +
+                      std::abs(a02) * (std::abs(a10 * a21) + std::abs(a11 * a20));
+  if (!(std::abs(determinant) > safe_determinant * size)) return invert_with_pivoting<3>(a);
+  const double f = 1 / determinant;
+  store(a, Lanes{c00, c10, c20, 0} * f);
+  store(a + s, Lanes{a02 * a21 - a01 * a22, a00 * a22 - a02 * a20, a01 * a20 - a00 * a21, 0} * f);
+  store(a + 2 * s,
+        Lanes{a01 * a12 - a02 * a11, a02 * a10 - a00 * a12, a00 * a11 - a01 * a10, 0} * f);
+  return true;
+}
+
+GRAINLAW_INLINE bool invert(double* a, std::integral_constant<int, 2>) {
+  constexpr std::size_t s = width;
+  const double a00 = a[0], a10 = a[1], a01 = a[s], a11 = a[s + 1];
+  const double determinant = a00 * a11 - a01 * a10;
+  const double size = std::abs(a00 * a11) + std::abs(a01 * a10);
+  if (!(std::abs(determinant) > safe_determinant * size)) return invert_with_pivoting<2>(a);
+  const double f = 1 / determinant;
+  store(a, Lanes{a11, -a10, 0, 0} * f);
+  store(a + s, Lanes{-a01, a00, 0, 0} * f);
+  return true;
+}
+
+template <int b>
 GRAINLAW_INLINE bool factorise_columns(const Factor& f) {
-  constexpr std::size_t size = b * s;
-  for (std::size_t j = 0; j < f.nodes; ++j) {
-    for (std::size_t slot = f.begin[j]; slot < f.begin[j + 1]; ++slot) {
-      f.where[f.rows[slot]] = static_cast<std::int32_t>(slot - f.begin[j]);
+  constexpr std::size_t size = b * width;
+  const std::size_t nodes = f.nodes;
+  const std::size_t* const begin = f.begin;
+  const std::size_t* const diagonal = f.diagonal;
+  const std::int32_t* const rows = f.rows;
+  std::int32_t* const where = f.where;
+  double* const values = f.values;
+  for (std::size_t j = 0; j < nodes; ++j) {
+    double* const column = values + begin[j] * size;
+    for (std::size_t slot = begin[j]; slot < begin[j + 1]; ++slot) {
+      where[rows[slot]] = static_cast<std::int32_t>((slot - begin[j]) * size);
+      store_block<b>(values + slot * size, Block<b>{});
     }
-    double* column = f.values + f.begin[j] * size;
-    for (std::size_t slot = f.begin[j]; slot < f.diagonal[j]; ++slot) {
-      const auto k = static_cast<std::size_t>(f.rows[slot]);
-      double x[size];
-      std::copy_n(f.values + slot * size, size, x);
-      for (std::size_t below = f.diagonal[k] + 1; below < f.begin[k + 1]; ++below) {
-        subtract_product<b, s>(column + static_cast<std::size_t>(f.where[f.rows[below]]) * size,
-                               f.values + below * size, x);
+    const auto node = static_cast<std::size_t>(f.node[j]);
+    double* const pivot = values + diagonal[j] * size;
+    store_block<b>(pivot, load_block<b>(f.matrix + node * size));
+    if (f.added != nullptr) {
+      for (std::size_t k = 0; k < b; ++k) pivot[k * width + k] += f.added[node * width + k];
+    }
+    for (std::size_t k = f.source_begin[j]; k < f.source_begin[j + 1]; ++k) {
+      const auto [slot, block] = f.sources[k];
+      store_block<b>(values + static_cast<std::size_t>(slot) * size,
+                     load_block<b>(f.matrix + static_cast<std::size_t>(block) * size));
+    }
+
+    for (std::size_t slot = begin[j]; slot < diagonal[j]; ++slot) {
+      const auto k = static_cast<std::size_t>(rows[slot]);
+      const Spread<b> x = spread<b>(values + slot * size);
+      const double* a = values + (diagonal[k] + 1) * size;
+      const std::int32_t* row = rows + diagonal[k] + 1;
+      const std::int32_t* const end = rows + begin[k + 1];
+      if (f.paired[k] == 0 || k + 1 == j) {
+        for (; row != end; ++row, a += size) {
+          double* const to = column + where[*row];
+          Block<b> c = load_block<b>(to);
+          subtract_product<b>(c, load_block<b>(a), x);
+          store_block<b>(to, c);
+        }
+        continue;
       }
+      // The next column has the same rows: both at once.
+      Block<b> next = load_block<b>(values + (slot + 1) * size);
+      subtract_product<b>(next, load_block<b>(a), x);
+      store_block<b>(values + (slot + 1) * size, next);
+      const Spread<b> y = spread<b>(values + (slot + 1) * size);
+      const double* d = values + (diagonal[k + 1] + 1) * size;
+      for (++row, a += size; row != end; ++row, a += size, d += size) {
+        double* const to = column + where[*row];
+        Block<b> c = load_block<b>(to);
+        subtract_product<b>(c, load_block<b>(a), x);
+        subtract_product<b>(c, load_block<b>(d), y);
+        store_block<b>(to, c);
+      }
+      ++slot;
     }
-    double* pivot = f.values + f.diagonal[j] * size;
-    if (!invert<b, s>(pivot)) return false;
-    for (std::size_t slot = f.diagonal[j] + 1; slot < f.begin[j + 1]; ++slot) {
-      multiply_right<b, s>(f.values + slot * size, pivot);
+
+    if (!invert(pivot, std::integral_constant<int, b>{})) return false;
+    const Spread<b> inverse = spread<b>(pivot);
+    for (std::size_t slot = diagonal[j] + 1; slot < begin[j + 1]; ++slot) {
+      const Block<b> a = load_block<b>(values + slot * size);
+      Block<b> product;
+#pragma GCC unroll 3
+      for (std::size_t c = 0; c < b; ++c) {
+        product.column[c] = a.column[0] * inverse.entry[c][0];
+#pragma GCC unroll 3
+        for (std::size_t k = 1; k < b; ++k) product.column[c] += a.column[k] * inverse.entry[c][k];
+      }
+      store_block<b>(values + slot * size, product);
     }
   }
   return true;
 }
 
-GRAINLAW_CLONES bool factorise_3(const Factor& f) { return factorise_columns<3, 4>(f); }
-GRAINLAW_CLONES bool factorise_2(const Factor& f) { return factorise_columns<2, 2>(f); }
+GRAINLAW_CLONES bool factorise_3(const Factor& f) { return factorise_columns<3>(f); }
+GRAINLAW_CLONES bool factorise_2(const Factor& f) { return factorise_columns<2>(f); }
 
-template <int b, int s>
-void substitute(const Factor& f, double* y) {
-  constexpr std::size_t size = b * s;
-  const auto subtract = [&](std::size_t slot, const double* x) {
-    double* target = y + static_cast<std::size_t>(f.rows[slot]) * b;
-    const double* block = f.values + slot * size;
-    for (int c = 0; c < b; ++c) {
-      for (int r = 0; r < b; ++r) target[r] -= block[c * s + r] * x[c];
+// In the elimination's order.
+template <int b>
+GRAINLAW_INLINE void substitute(const Factor& f, double* y) {
+  constexpr std::size_t size = b * width;
+  const double* const values = f.values;
+  const auto subtract = [&](std::size_t first, std::size_t last, const Lanes& x) {
+    Lanes each[b];
+#pragma GCC unroll 3
+    for (std::size_t c = 0; c < b; ++c) each[c] = Lanes{} + x[c];
+    for (std::size_t slot = first; slot < last; ++slot) {
+      double* const to = y + static_cast<std::size_t>(f.rows[slot]) * width;
+      const Block<b> block = load_block<b>(values + slot * size);
+      Lanes sum = load(to);
+#pragma GCC unroll 3
+      for (std::size_t c = 0; c < b; ++c) sum -= block.column[c] * each[c];
+      store(to, sum);
     }
   };
   for (std::size_t j = 0; j < f.nodes; ++j) {
-    for (std::size_t k = f.diagonal[j] + 1; k < f.begin[j + 1]; ++k) subtract(k, y + j * b);
+    subtract(f.diagonal[j] + 1, f.begin[j + 1], load(y + j * width));
   }
   for (std::size_t j = f.nodes; j-- > 0;) {
-    const double* inverse = f.values + f.diagonal[j] * size;
-    double x[b] = {};
-    for (int c = 0; c < b; ++c) {
-      for (int r = 0; r < b; ++r) x[r] += inverse[c * s + r] * y[j * b + c];
-    }
-    std::copy_n(x, b, y + j * b);
-    for (std::size_t k = f.begin[j]; k < f.diagonal[j]; ++k) subtract(k, x);
+    const Block<b> inverse = load_block<b>(values + f.diagonal[j] * size);
+    const double* const from = y + j * width;
+    Lanes x = inverse.column[0] * from[0];
+#pragma GCC unroll 3
+    for (std::size_t c = 1; c < b; ++c) x += inverse.column[c] * from[c];
+    store(y + j * width, x);
+    subtract(f.begin[j], f.diagonal[j], x);
   }
 }
+
+GRAINLAW_CLONES void substitute_3(const Factor& f, double* y) { substitute<3>(f, y); }
+GRAINLAW_CLONES void substitute_2(const Factor& f, double* y) { substitute<2>(f, y); }
+
+// A vector in every lane.
+template <int b>
+GRAINLAW_INLINE void substitute_four(const Factor& f, double* y) {
+  constexpr std::size_t size = b * width;
+  const double* const values = f.values;
+  const auto subtract = [&](std::size_t first, std::size_t last, const Block<b>& x) {
+    for (std::size_t slot = first; slot < last; ++slot) {
+      double* const to = y + static_cast<std::size_t>(f.rows[slot]) * size;
+      const double* const block = values + slot * size;
+      Block<b> sum = load_block<b>(to);
+#pragma GCC unroll 3
+      for (std::size_t c = 0; c < b; ++c) {
+#pragma GCC unroll 3
+        for (std::size_t r = 0; r < b; ++r) sum.column[r] -= block[c * width + r] * x.column[c];
+      }
+      store_block<b>(to, sum);
+    }
+  };
+  for (std::size_t j = 0; j < f.nodes; ++j) {
+    subtract(f.diagonal[j] + 1, f.begin[j + 1], load_block<b>(y + j * size));
+  }
+  for (std::size_t j = f.nodes; j-- > 0;) {
+    const double* const inverse = values + f.diagonal[j] * size;
+    const Block<b> from = load_block<b>(y + j * size);
+    Block<b> x;
+#pragma GCC unroll 3
+    for (std::size_t r = 0; r < b; ++r) {
+      x.column[r] = inverse[r] * from.column[0];
+#pragma GCC unroll 3
+      for (std::size_t c = 1; c < b; ++c) x.column[r] += inverse[c * width + r] * from.column[c];
+    }
+    store_block<b>(y + j * size, x);
+    subtract(f.begin[j], f.diagonal[j], x);
+  }
+}
+
+GRAINLAW_CLONES void substitute_four_3(const Factor& f, double* y) { substitute_four<3>(f, y); }
+GRAINLAW_CLONES void substitute_four_2(const Factor& f, double* y) { substitute_four<2>(f, y); }
 
 }  // namespace
 
@@ -183,6 +342,10 @@ void BlockLU::order(std::size_t nodes, std::span<const Edge> edges) {
         static_cast<std::int32_t>(slack), free, size, next, last, head, elements, degree, flags,
         control, info);
   position_.assign(next, next + nodes);
+  resize_with_room(node_, nodes);
+  for (std::size_t q = 0; q < nodes; ++q) {
+    node_[static_cast<std::size_t>(position_[q])] = static_cast<std::int32_t>(q);
+  }
 }
 
 // For every row of the factor the columns left of the diagonal that it reaches (Davis 2006, chapter
@@ -240,6 +403,62 @@ void BlockLU::find_reach() {
   keep_room(reach_);
 }
 
+// Column j: its reach above the diagonal, and below it the rows whose reach holds j.
+void BlockLU::find_columns() {
+  resize_with_room(begin_, nodes_ + 1);
+  resize_with_room(diagonal_, nodes_);
+  resize_with_room(paired_, nodes_);
+  resize_with_room(rows_, nodes_ + 2 * reach_.size());
+  std::size_t slot = 0;
+  for (std::size_t j = 0; j < nodes_; ++j) {
+    paired_[j] = j + 1 < nodes_ && parent_[j] == static_cast<std::int32_t>(j + 1) &&
+                 below_[j] == below_[j + 1] + 1;
+    begin_[j] = slot;
+    for (std::size_t k = reach_begin_[j]; k < reach_begin_[j + 1]; ++k) rows_[slot++] = reach_[k];
+    diagonal_[j] = slot;
+    rows_[slot++] = static_cast<std::int32_t>(j);
+    slot += below_[j];
+  }
+  begin_[nodes_] = slot;
+  for (std::size_t j = 0; j < nodes_; ++j) below_[j] = diagonal_[j] + 1;  // where the next row goes
+  for (std::size_t row = 0; row < nodes_; ++row) {
+    for (std::size_t k = reach_begin_[row]; k < reach_begin_[row + 1]; ++k) {
+      rows_[below_[static_cast<std::size_t>(reach_[k])]++] = static_cast<std::int32_t>(row);
+    }
+  }
+}
+
+// Where the blocks of the matrix go, column by column.
+void BlockLU::find_sources() {
+  const auto slot_of = [&](std::int32_t row, std::int32_t column) {
+    const auto j = static_cast<std::size_t>(column);
+    const auto first = rows_.begin() + static_cast<std::ptrdiff_t>(begin_[j]);
+    const auto last = rows_.begin() + static_cast<std::ptrdiff_t>(begin_[j + 1]);
+    return static_cast<std::int32_t>(std::lower_bound(first, last, row) - rows_.begin());
+  };
+  const auto places = [&](const Edge& edge) {
+    return std::pair{position_[static_cast<std::size_t>(edge.first)],
+                     position_[static_cast<std::size_t>(edge.second)]};
+  };
+  resize_with_room(source_begin_, nodes_ + 1);
+  resize_with_room(sources_, 2 * edges_.size());
+  std::fill(source_begin_.begin(), source_begin_.end(), 0);
+  for (const auto& edge : edges_) {
+    const auto [p, q] = places(edge);
+    ++source_begin_[static_cast<std::size_t>(p) + 1];
+    ++source_begin_[static_cast<std::size_t>(q) + 1];
+  }
+  for (std::size_t j = 0; j < nodes_; ++j) source_begin_[j + 1] += source_begin_[j];
+  std::copy_n(source_begin_.begin(), nodes_, below_.begin());
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const auto [p, q] = places(edges_[e]);
+    const auto upper = static_cast<std::int32_t>(nodes_ + e);
+    const auto lower = static_cast<std::int32_t>(nodes_ + edges_.size() + e);
+    sources_[below_[static_cast<std::size_t>(q)]++] = {slot_of(p, q), upper};
+    sources_[below_[static_cast<std::size_t>(p)]++] = {slot_of(q, p), lower};
+  }
+}
+
 void BlockLU::analyse(const BlockMatrix& matrix) {
   if (nodes_ == matrix.nodes && components_ == matrix.components && edges_ == matrix.edges &&
       !begin_.empty()) {
@@ -250,77 +469,51 @@ void BlockLU::analyse(const BlockMatrix& matrix) {
   resize_with_room(edges_, matrix.edges.size());
   std::copy(matrix.edges.begin(), matrix.edges.end(), edges_.begin());
   order(nodes_, edges_);
-
   find_reach();
-  // Column j: its reach above the diagonal, and below it the rows whose reach holds j.
-  resize_with_room(begin_, nodes_ + 1);
-  resize_with_room(diagonal_, nodes_);
-  resize_with_room(rows_, nodes_ + 2 * reach_.size());
-  std::size_t slot = 0;
-  for (std::size_t j = 0; j < nodes_; ++j) {
-    begin_[j] = slot;
-    for (std::size_t k = reach_begin_[j]; k < reach_begin_[j + 1]; ++k) rows_[slot++] = reach_[k];
-    diagonal_[j] = slot;
-    rows_[slot++] = static_cast<std::int32_t>(j);
-    slot += below_[j];
-    below_[j] = diagonal_[j] + 1;  // from here on where the next row goes
-  }
-  begin_[nodes_] = slot;
-  for (std::size_t row = 0; row < nodes_; ++row) {
-    for (std::size_t k = reach_begin_[row]; k < reach_begin_[row + 1]; ++k) {
-      rows_[below_[static_cast<std::size_t>(reach_[k])]++] = static_cast<std::int32_t>(row);
-    }
-  }
-
-  const auto slot_of = [&](std::int32_t row, std::int32_t column) {
-    const auto first =
-        rows_.begin() + static_cast<std::ptrdiff_t>(begin_[static_cast<std::size_t>(column)]);
-    const auto last =
-        rows_.begin() + static_cast<std::ptrdiff_t>(begin_[static_cast<std::size_t>(column) + 1]);
-    return static_cast<std::size_t>(std::lower_bound(first, last, row) - rows_.begin());
-  };
-  resize_with_room(upper_slot_, edges_.size());
-  resize_with_room(lower_slot_, edges_.size());
-  for (std::size_t e = 0; e < edges_.size(); ++e) {
-    const auto p = position_[static_cast<std::size_t>(edges_[e].first)];
-    const auto q = position_[static_cast<std::size_t>(edges_[e].second)];
-    upper_slot_[e] = slot_of(p, q);
-    lower_slot_[e] = slot_of(q, p);
-  }
-  resize_with_room(work_, nodes_ * static_cast<std::size_t>(components_));
+  find_columns();
+  find_sources();
 }
 
-bool BlockLU::factorise(const BlockMatrix& matrix) {
-  const std::size_t size = matrix.block_size();
-  resize_with_room(values_, rows_.size() * size);
-  std::fill(values_.begin(), values_.end(), 0.0);
-  for (std::size_t q = 0; q < nodes_; ++q) {
-    const auto slot = diagonal_[static_cast<std::size_t>(position_[q])];
-    std::copy_n(matrix.diagonal.data() + q * size, size, values_.data() + slot * size);
-  }
-  for (std::size_t e = 0; e < edges_.size(); ++e) {
-    std::copy_n(matrix.upper.data() + e * size, size, values_.data() + upper_slot_[e] * size);
-    std::copy_n(matrix.lower.data() + e * size, size, values_.data() + lower_slot_[e] * size);
-  }
-  const Factor f{nodes_,       begin_.data(), diagonal_.data(),
-                 rows_.data(), where_.data(), values_.data()};
+BlockLU::Factor BlockLU::factor(std::span<const Quad> added, const BlockMatrix* matrix) {
+  return {nodes_,
+          begin_.data(),
+          diagonal_.data(),
+          paired_.data(),
+          rows_.data(),
+          node_.data(),
+          source_begin_.data(),
+          sources_.data(),
+          where_.data(),
+          added.empty() ? nullptr : added.data()->lane,
+          matrix == nullptr ? nullptr : matrix->blocks.data()->lane,
+          values_.data()->lane};
+}
+
+bool BlockLU::factorise(const BlockMatrix& matrix, std::span<const Quad> added) {
+  resize_with_room(values_, rows_.size() * static_cast<std::size_t>(components_));
+  const Factor f = factor(added, &matrix);
   return components_ == 3 ? factorise_3(f) : factorise_2(f);
 }
 
-void BlockLU::solve(std::span<const double> b, std::span<double> x) {
-  const auto components = static_cast<std::size_t>(components_);
-  for (std::size_t k = 0; k < components; ++k) {
-    for (std::size_t q = 0; q < nodes_; ++q) {
-      work_[static_cast<std::size_t>(position_[q]) * components + k] = b[k * nodes_ + q];
-    }
+void BlockLU::solve(std::span<Quad> x) {
+  resize_with_room(work_, x.size());
+  for (std::size_t j = 0; j < nodes_; ++j) work_[j] = x[static_cast<std::size_t>(node_[j])];
+  const Factor f = factor();
+  components_ == 3 ? substitute_3(f, work_.data()->lane) : substitute_2(f, work_.data()->lane);
+  for (std::size_t j = 0; j < nodes_; ++j) x[static_cast<std::size_t>(node_[j])] = work_[j];
+}
+
+void BlockLU::solve_four(std::span<Quad> x) {
+  const auto b = static_cast<std::size_t>(components_);
+  resize_with_room(work_, x.size());
+  for (std::size_t j = 0; j < nodes_; ++j) {
+    std::copy_n(&x[static_cast<std::size_t>(node_[j]) * b], b, &work_[j * b]);
   }
-  const Factor f{nodes_,       begin_.data(), diagonal_.data(),
-                 rows_.data(), where_.data(), values_.data()};
-  components_ == 3 ? substitute<3, 4>(f, work_.data()) : substitute<2, 2>(f, work_.data());
-  for (std::size_t k = 0; k < components; ++k) {
-    for (std::size_t q = 0; q < nodes_; ++q) {
-      x[k * nodes_ + q] = work_[static_cast<std::size_t>(position_[q]) * components + k];
-    }
+  const Factor f = factor();
+  double* y = work_.data()->lane;
+  components_ == 3 ? substitute_four_3(f, y) : substitute_four_2(f, y);
+  for (std::size_t j = 0; j < nodes_; ++j) {
+    std::copy_n(&work_[j * b], b, &x[static_cast<std::size_t>(node_[j]) * b]);
   }
 }
 

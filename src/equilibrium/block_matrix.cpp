@@ -1,6 +1,7 @@
 #include "equilibrium/block_matrix.hpp"
 
 #include "room.hpp"
+#include "simd.hpp"
 
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
@@ -9,42 +10,89 @@
 
 namespace grainlaw {
 
+using simd::store;
+using Lanes = simd::Lanes<4>;  // of a quad
+constexpr std::size_t width = 4;
+GRAINLAW_INLINE Lanes load(const double* from) { return simd::load<4>(from); }
+
+namespace {
+
+// r = b - A x by blocks; `add` is told the block and its row and column.
+template <class Add>
+GRAINLAW_INLINE void for_each_block(const BlockMatrix& a, const Add& add) {
+  const auto size = static_cast<std::size_t>(a.components) * width;
+  const double* block = a.blocks.data()->lane;
+  for (std::size_t q = 0; q < a.nodes; ++q, block += size) add(block, q, q);
+  for (const auto& [p, q] : a.edges) {
+    add(block, static_cast<std::size_t>(p), static_cast<std::size_t>(q));
+    block += size;
+  }
+  for (const auto& [p, q] : a.edges) {
+    add(block, static_cast<std::size_t>(q), static_cast<std::size_t>(p));
+    block += size;
+  }
+}
+
+template <std::size_t b>
+GRAINLAW_INLINE void subtract(const BlockMatrix& a, const double* x, double* r) {
+  for_each_block(a, [=](const double* block, std::size_t row, std::size_t column) {
+    Lanes sum = load(r + row * width);
+#pragma GCC unroll 3
+    for (std::size_t c = 0; c < b; ++c) sum -= load(block + c * width) * x[column * width + c];
+    store(r + row * width, sum);
+  });
+}
+
+template <std::size_t b>
+GRAINLAW_INLINE void subtract_of_four(const BlockMatrix& a, const double* x, double* r) {
+  for_each_block(a, [=](const double* block, std::size_t row, std::size_t column) {
+    const double* from = x + column * b * width;
+    double* to = r + row * b * width;
+    Lanes sum[b];
+#pragma GCC unroll 3
+    for (std::size_t k = 0; k < b; ++k) sum[k] = load(to + k * width);
+#pragma GCC unroll 3
+    for (std::size_t c = 0; c < b; ++c) {
+      const Lanes value = load(from + c * width);
+#pragma GCC unroll 3
+      for (std::size_t k = 0; k < b; ++k) sum[k] -= block[c * width + k] * value;
+    }
+#pragma GCC unroll 3
+    for (std::size_t k = 0; k < b; ++k) store(to + k * width, sum[k]);
+  });
+}
+
+GRAINLAW_CLONES void subtract_product(const BlockMatrix& a, const double* x, double* r) {
+  a.components == 3 ? subtract<3>(a, x, r) : subtract<2>(a, x, r);
+}
+
+GRAINLAW_CLONES void subtract_product_of_four(const BlockMatrix& a, const double* x, double* r) {
+  a.components == 3 ? subtract_of_four<3>(a, x, r) : subtract_of_four<2>(a, x, r);
+}
+
+}  // namespace
+
 void BlockMatrix::reset(std::size_t node_count, int component_count, std::span<const Edge> graph) {
   nodes = node_count;
   components = component_count;
-  stride = component_count == 3 ? 4 : component_count;
   resize_with_room(edges, graph.size());
   std::copy(graph.begin(), graph.end(), edges.begin());
-  resize_with_room(diagonal, nodes * block_size());
-  resize_with_room(upper, edges.size() * block_size());
-  resize_with_room(lower, edges.size() * block_size());
+  resize_with_room(blocks, (nodes + 2 * edges.size()) * static_cast<std::size_t>(components));
   set_zero();
 }
 
-void BlockMatrix::set_zero() {
-  std::fill(diagonal.begin(), diagonal.end(), 0.0);
-  std::fill(upper.begin(), upper.end(), 0.0);
-  std::fill(lower.begin(), lower.end(), 0.0);
+void BlockMatrix::set_zero() { std::fill(blocks.begin(), blocks.end(), Quad{}); }
+
+void BlockMatrix::residual(std::span<const Quad> b, std::span<const Quad> x,
+                           std::span<Quad> r) const {
+  std::copy(b.begin(), b.end(), r.begin());
+  subtract_product(*this, x.data()->lane, r.data()->lane);
 }
 
-void BlockMatrix::multiply(std::span<const double> x, std::span<double> y) const {
-  const auto b = static_cast<std::size_t>(components);
-  const auto s = static_cast<std::size_t>(stride);
-  std::fill(y.begin(), y.end(), 0.0);
-  const auto add = [&](const double* block, std::size_t row, std::size_t column) {
-    for (std::size_t c = 0; c < b; ++c) {
-      for (std::size_t r = 0; r < b; ++r) {
-        y[r * nodes + row] += block[c * s + r] * x[c * nodes + column];
-      }
-    }
-  };
-  for (std::size_t q = 0; q < nodes; ++q) add(diagonal.data() + q * block_size(), q, q);
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const auto p = static_cast<std::size_t>(edges[e].first);
-    const auto q = static_cast<std::size_t>(edges[e].second);
-    add(upper.data() + e * block_size(), p, q);
-    add(lower.data() + e * block_size(), q, p);
-  }
+void BlockMatrix::residual_of_four(std::span<const Quad> b, std::span<const Quad> x,
+                                   std::span<Quad> r) const {
+  std::copy(b.begin(), b.end(), r.begin());
+  subtract_product_of_four(*this, x.data()->lane, r.data()->lane);
 }
 
 bool solve_with_pivoting(const BlockMatrix& matrix, std::span<const double> b,
@@ -52,21 +100,20 @@ bool solve_with_pivoting(const BlockMatrix& matrix, std::span<const double> b,
   const auto n = static_cast<Eigen::Index>(b.size());
   const auto nodes = static_cast<Eigen::Index>(matrix.nodes);
   std::vector<Eigen::Triplet<double>> triplets;
-  const auto add = [&](const double* block, Eigen::Index row, Eigen::Index column) {
+  const auto add = [&](std::size_t index, Eigen::Index row, Eigen::Index column) {
     for (int c = 0; c < matrix.components; ++c) {
       for (int r = 0; r < matrix.components; ++r) {
-        triplets.emplace_back(r * nodes + row, c * nodes + column, block[c * matrix.stride + r]);
+        triplets.emplace_back(r * nodes + row, c * nodes + column, matrix.block(index)[c].lane[r]);
       }
     }
   };
   for (std::size_t q = 0; q < matrix.nodes; ++q) {
-    add(matrix.diagonal.data() + q * matrix.block_size(), static_cast<Eigen::Index>(q),
-        static_cast<Eigen::Index>(q));
+    add(q, static_cast<Eigen::Index>(q), static_cast<Eigen::Index>(q));
   }
   for (std::size_t e = 0; e < matrix.edges.size(); ++e) {
     const auto [p, q] = matrix.edges[e];
-    add(matrix.upper.data() + e * matrix.block_size(), p, q);
-    add(matrix.lower.data() + e * matrix.block_size(), q, p);
+    add(matrix.upper(e), p, q);
+    add(matrix.lower(e), q, p);
   }
   Eigen::SparseMatrix<double> sparse(n, n);
   sparse.setFromTriplets(triplets.begin(), triplets.end());

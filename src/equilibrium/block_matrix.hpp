@@ -12,58 +12,86 @@ namespace grainlaw {
 
 using Edge = std::pair<std::int32_t, std::int32_t>;  // first < second
 
-// Blocks of components x components, column-major, each column padded to `stride` doubles.
+// What one vector register holds. A vector over the nodes is one quad per node, its components in
+// the lanes (the last is zero); four such vectors together are a quad per node and component, a
+// vector in every lane.
+struct alignas(32) Quad {
+  double lane[4] = {};
+};
+
+// Blocks of components x components, column-major, each column one quad, the rows beyond the
+// components zero.
 struct BlockMatrix {
   int components = 3;
-  int stride = 4;
   std::size_t nodes = 0;
-  std::vector<Edge> edges;           // unique, ordered
-  std::vector<double> diagonal;      // [nodes] blocks
-  std::vector<double> upper, lower;  // [edges] blocks (first, second) and (second, first)
+  std::vector<Edge> edges;   // unique, ordered
+  std::vector<Quad> blocks;  // [nodes] on the diagonal, [edges] (first, second), [edges] the others
 
-  [[nodiscard]] std::size_t block_size() const {
-    return static_cast<std::size_t>(components * stride);
+  // Blocks in the order of `blocks`; each starts with its first column.
+  [[nodiscard]] std::size_t upper(std::size_t edge) const { return nodes + edge; }
+  [[nodiscard]] std::size_t lower(std::size_t edge) const { return nodes + edges.size() + edge; }
+  [[nodiscard]] Quad* block(std::size_t index) {
+    return blocks.data() + index * static_cast<std::size_t>(components);
+  }
+  [[nodiscard]] const Quad* block(std::size_t index) const {
+    return blocks.data() + index * static_cast<std::size_t>(components);
   }
   // Set the graph and zero all values.
   void reset(std::size_t node_count, int component_count, std::span<const Edge> graph);
   void set_zero();
-  // y = A x; vectors are component-major over nodes.
-  void multiply(std::span<const double> x, std::span<double> y) const;
+  // r = b - A x, of one vector, and of four together.
+  void residual(std::span<const Quad> b, std::span<const Quad> x, std::span<Quad> r) const;
+  void residual_of_four(std::span<const Quad> b, std::span<const Quad> x, std::span<Quad> r) const;
 };
 
 // Left-looking LU on a symmetric pattern; order by approximate minimum degree (SuiteSparse AMD).
 class BlockLU {
  public:
+  struct Factor;  // how the loops see it
+
   // Symbolic analysis; kept when the graph is the one analysed last.
   void analyse(const BlockMatrix& matrix);
-  // Numeric factorisation. False when a pivot block is singular.
-  bool factorise(const BlockMatrix& matrix);
-  // x = A^-1 b, component-major over nodes; x and b may be the same.
-  void solve(std::span<const double> b, std::span<double> x);
+  // Numeric factorisation of the matrix plus diag(added), one quad per node or none. False when a
+  // pivot block is singular.
+  bool factorise(const BlockMatrix& matrix, std::span<const Quad> added = {});
+  // x = A^-1 x, of one vector, and of four together.
+  void solve(std::span<Quad> x);
+  void solve_four(std::span<Quad> x);
 
   [[nodiscard]] std::size_t factor_blocks() const { return rows_.size(); }
 
  private:
+  struct Source {
+    std::int32_t slot, block;  // of the factor, of the matrix
+  };
+
   int components_ = 0;
   std::size_t nodes_ = 0;
   std::vector<Edge> edges_;
-  std::vector<std::int32_t> position_;                // node -> place in the elimination
-  std::vector<std::size_t> begin_, diagonal_;         // per column: first slot, slot of the pivot
-  std::vector<std::int32_t> rows_;                    // per slot, ascending within a column
-  std::vector<std::size_t> upper_slot_, lower_slot_;  // per edge
-  std::vector<double> values_;                        // pivots inverted in place
-  std::vector<double> work_;
+  std::vector<std::int32_t> position_;     // node -> place in the elimination
+  std::vector<std::int32_t> node_;         // and back
+  std::vector<std::size_t> begin_;         // per column: its first slot
+  std::vector<std::size_t> diagonal_;      // the slot of its pivot
+  std::vector<char> paired_;               // below the next pivot it has the rows of the next
+  std::vector<std::int32_t> rows_;         // per slot, ascending within a column
+  std::vector<std::size_t> source_begin_;  // per column
+  std::vector<Source> sources_;            // off the diagonal
+  std::vector<Quad> values_;               // pivots inverted in place
+  std::vector<Quad> work_;
   std::vector<std::int32_t> where_;
   // Memory of the analysis.
   std::vector<std::int32_t> amd_, adjacency_, parent_, ancestor_, reach_;
   std::vector<std::size_t> adjacency_begin_, reach_begin_, below_;
 
+  Factor factor(std::span<const Quad> added = {}, const BlockMatrix* matrix = nullptr);
   void order(std::size_t nodes, std::span<const Edge> edges);
   void find_reach();
+  void find_columns();
+  void find_sources();
 };
 
-// x = A^-1 b by a pivoting sparse LU (Eigen), for the rare matrix that BlockLU cannot solve. Slow
-// and allocating. False when singular.
+// x = A^-1 b, component-major over nodes, by a pivoting sparse LU (Eigen), for the rare matrix that
+// BlockLU cannot solve. Slow and allocating. False when singular.
 bool solve_with_pivoting(const BlockMatrix& matrix, std::span<const double> b, std::span<double> x);
 
 }  // namespace grainlaw

@@ -11,11 +11,11 @@ constexpr int most_subincrements = 64;
 
 // Relaxation hands over to Newton at this residual: Newton's reach shrinks with the packing's size.
 double switch_tolerance(std::size_t nodes) {
-  return 1e-4 * std::pow(std::min(1.0, 400.0 / static_cast<double>(nodes)), 1.66);
+  return 3e-4 * std::pow(std::min(1.0, 400.0 / static_cast<double>(nodes)), 1.66);
 }
 
 long relaxation_limit(std::size_t nodes) {
-  return static_cast<long>(4000 * std::sqrt(std::max(1.0, static_cast<double>(nodes) / 400)));
+  return static_cast<long>(1500 * std::sqrt(std::max(1.0, static_cast<double>(nodes) / 400)));
 }
 
 std::array<double, 4> between(const std::array<double, 9>& a, const std::array<double, 4>& b,
@@ -54,16 +54,18 @@ void start_iteration(const Request& request, double share, Increment& increment)
 }
 
 // One sub-increment: relaxation, then Newton; when Newton does not get there, both again from where
-// they are, the relaxation ten times tighter.
+// they are, the relaxation tighter. A round costs about as much in relaxation steps as in
+// factorisations.
 bool solve_part(const Request& request, Workspace& w) {
-  constexpr int rounds = 3;
-  constexpr int most_factorisations = 50;  // cost about as much as a round's relaxation
+  constexpr int rounds = 5;
+  constexpr int most_factorisations = 50;
+  constexpr double tighter = 0.3;
   auto& increment = w.increment;
   const long limit = relaxation_limit(increment.nodes());
   increment.refresh_masses();
   const double target = std::max(request.tolerance, increment.rounding_residual());
   double hand_over = switch_tolerance(increment.nodes());
-  for (int round = 0; round < rounds; ++round, hand_over *= 0.1) {
+  for (int round = 0; round < rounds; ++round, hand_over *= tighter) {
     const double tolerance = std::max(hand_over, target);
     const bool relaxed = relax(increment, tolerance, limit, History::committed, w.relaxation);
     if (increment.touching == 0) return false;
@@ -112,7 +114,7 @@ bool solve_advancing(const Request& request, Method method, Workspace& w, Outcom
     done =
         relax_published(increment, request.tolerance, request.options->published, {}, w.relaxation);
   } else {
-    done = relax(increment, request.tolerance, 20 * relaxation_limit(increment.nodes()),
+    done = relax(increment, request.tolerance, 50 * relaxation_limit(increment.nodes()),
                  History::advancing, w.relaxation);
   }
   outcome.sensitivities =

@@ -30,9 +30,10 @@ double largest_move(const Increment& increment, std::span<const double> step) {
   return largest;
 }
 
-constexpr double first_shift = 1e-4;
+constexpr double first_shift = 1e-5;
 constexpr double least_shift = 1e-7;
 constexpr double largest_shift = 1e3;
+constexpr double solve_tolerance = 1e-8;
 constexpr double acceptable = 0.9;  // of the residual after a step against before
 
 class FlowNewton {
@@ -51,7 +52,7 @@ class FlowNewton {
       memory_.residual.assign(r.begin(), r.end());
       memory_.stiffness.assemble(increment_, shift_);
       memory_.stiffness.factorise(increment_);
-      if (!memory_.stiffness.solve(increment_, memory_.residual, memory_.step)) {
+      if (!memory_.stiffness.solve(increment_, memory_.residual, memory_.step, solve_tolerance)) {
         if (!raise_shift()) return false;
       } else if (full_steps_) {
         full_step();
@@ -109,7 +110,7 @@ class FlowNewton {
   bool flow_step() {
     constexpr double good = 0.1;
     constexpr double move_limit = 0.2;  // of the smallest radius
-    constexpr double enough_gain = 0.3;
+    constexpr double enough_gain = 0.5;
     const double smallest =
         *std::min_element(increment_.node_radius.begin(), increment_.node_radius.end());
     memory_.coordinates = increment_.coordinates;

@@ -34,7 +34,9 @@ struct Measured {
   double inertia;    // sum v m v
 };
 
-GRAINLAW_CLONES Measured measure_nodes(const Nodes& nodes) {
+// v <- keep v + gain r / m, and z <- z + v for the record of every node; what is measured is of the
+// state before.
+GRAINLAW_CLONES Measured step_nodes(const Nodes& nodes, double keep, double gain, double* z) {
   Record largest_force{};
   Record stiffness{};
   Record inertia{};
@@ -44,19 +46,12 @@ GRAINLAW_CLONES Measured measure_nodes(const Nodes& nodes) {
     largest_force = largest(largest_force, magnitude(r));
     stiffness += v * (load<4>(nodes.previous + k) - r);
     inertia += v * load<4>(nodes.mass + k) * v;
+    const Record next = keep * v + gain * r * load<4>(nodes.gain + k);
+    store(nodes.velocity + k, next);
+    store(nodes.previous + k, r);
+    if (z != nullptr) store(z + k, load<4>(z + k) + next);
   }
   return {most(largest_force), sum(stiffness), sum(inertia)};
-}
-
-// v <- keep v + gain r / m, z <- z + v for the record of every node.
-GRAINLAW_CLONES void step_nodes(const Nodes& nodes, double keep, double gain, double* z) {
-  for (std::size_t k = 0; k < nodes.doubles; k += width) {
-    const Record r = load<4>(nodes.residual + k);
-    const Record v = keep * load<4>(nodes.velocity + k) + gain * r * load<4>(nodes.gain + k);
-    store(nodes.velocity + k, v);
-    store(nodes.previous + k, r);
-    if (z != nullptr) store(z + k, load<4>(z + k) + v);
-  }
 }
 
 GRAINLAW_CLONES void find_gains(const double* mass, double* gain, std::size_t doubles) {
@@ -97,39 +92,35 @@ void Relaxation::update() {
   increment_.hold_fixed(forces);
 }
 
-void Relaxation::measure() {
-  const Nodes nodes{memory_.velocity.data(), memory_.previous.data(), &increment_.forces[0].x,
-                    &increment_.mass_records[0].x, memory_.gain.data(), memory_.velocity.size()};
-  const auto now = measure_nodes(nodes);
-  residual_ = std::numeric_limits<double>::infinity();
-  if (increment_.touching > 0 && std::isfinite(now.stiffness + now.largest)) {
-    residual_ = now.largest / increment_.relative_scale();
-  }
-  const double inertia = std::max(now.inertia, std::numeric_limits<double>::min());
-  frequency_ = std::sqrt(std::max(now.stiffness / inertia, 0.0));
-}
-
 // A high floor keeps flutter down, a low one lets soft modes move.
 void Relaxation::review_floor() {
   constexpr double largest_floor = 0.5;
   constexpr double enough_progress = 0.5;  // of the residual, over a window
   constexpr double oscillating = 2;        // largest / smallest residual of a window
-  if (steps_ > 0 && residual_ > enough_progress * window_start_) {
+  if (residual_ > enough_progress * window_start_) {
     const bool flutter = window_max_ > oscillating * window_min_;
     floor_ = flutter ? std::min(2 * floor_, largest_floor) : 0.5 * floor_;
   }
   window_start_ = window_max_ = window_min_ = residual_;
 }
 
+// With the damping that the last step measured.
 void Relaxation::step() {
   constexpr double largest_damping = 1.9;
   const double damping = std::clamp(2 * frequency_, floor_, largest_damping);
-  const Nodes nodes{memory_.velocity.data(), memory_.previous.data(), &increment_.forces[0].x,
-                    &increment_.mass_records[0].x, memory_.gain.data(), memory_.velocity.size()};
+  const Nodes nodes{memory_.velocity.data(),        memory_.previous.data(),
+                    &increment_.forces[0].x,        &increment_.mass_records[0].x,
+                    memory_.gain.data(),            memory_.velocity.size()};
   const auto& space = *increment_.problem->space;
   double* z = &increment_.records[0].x;
-  step_nodes(nodes, (2 - damping) / (2 + damping), 2 / (2 + damping),
-             space.identity ? z : nullptr);
+  const auto before = step_nodes(nodes, (2 - damping) / (2 + damping), 2 / (2 + damping),
+                                 space.identity ? z : nullptr);
+  residual_ = std::numeric_limits<double>::infinity();
+  if (increment_.touching > 0 && std::isfinite(before.stiffness + before.largest)) {
+    residual_ = before.largest / increment_.relative_scale();
+  }
+  const double inertia = std::max(before.inertia, std::numeric_limits<double>::min());
+  frequency_ = std::sqrt(std::max(before.stiffness / inertia, 0.0));
   ++steps_;
   ++increment_.relaxation_steps;
   if (space.identity) return;
@@ -144,9 +135,9 @@ bool Relaxation::run(double tolerance, long steps) {
   increment_.load_records();
   refresh();
   update();
-  const long last = steps_ + steps;
-  for (;;) {
-    measure();
+  for (const long last = steps_ + steps;;) {
+    step();
+    update();
     const bool over = residual_ < tolerance || steps_ == last || !std::isfinite(residual_);
     if (over || steps_ % mass_interval == 0) {
       increment_.store_records();
@@ -160,8 +151,6 @@ bool Relaxation::run(double tolerance, long steps) {
     window_max_ = std::max(window_max_, residual_);
     window_min_ = std::min(window_min_, residual_);
     if (steps_ % window == 0) review_floor();
-    step();
-    update();
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "equilibrium/increment.hpp"
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -27,13 +28,12 @@ class Relaxation {
   // there. The coordinates may be changed between two calls.
   bool run(double tolerance, long steps);
 
-  // Of the last step [-]; infinite when nothing touches or a number is not finite.
+  // Before the last step [-]; infinite when nothing touches or a number is not finite.
   [[nodiscard]] double residual() const { return residual_; }
 
  private:
   void refresh();
   void update();
-  void measure();
   void review_floor();
   void step();
 
@@ -44,7 +44,8 @@ class Relaxation {
   double frequency_ = 0;  // sqrt of the Rayleigh quotient of the velocity [1 / step]
   double floor_ = 0.1;    // of the damping
   long steps_ = 0;
-  double window_start_ = 0, window_max_ = 0, window_min_ = 0;
+  double window_start_ = std::numeric_limits<double>::infinity();
+  double window_max_ = 0, window_min_ = std::numeric_limits<double>::infinity();
 };
 
 struct PublishedOptions;

@@ -1,6 +1,7 @@
 #include "equilibrium/sensitivity.hpp"
 
 #include "room.hpp"
+#include "simd.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,16 +9,122 @@
 
 namespace grainlaw {
 
+using simd::store;
+using Lanes = simd::Lanes<4>;  // of a quad
+constexpr std::size_t width = 4;
+GRAINLAW_INLINE Lanes load(const double* from) { return simd::load<4>(from); }
+
 namespace {
 
-std::array<double, 2> pull_back(const std::array<double, 4>& f, double x, double y) {
-  const double det = f[0] * f[3] - f[1] * f[2];
-  return {(f[3] * x - f[1] * y) / det, (f[0] * y - f[2] * x) / det};
+struct PullBack {
+  double a, b, c, d;
+  explicit PullBack(const std::array<double, 4>& f) {
+    const double det = f[0] * f[3] - f[1] * f[2];
+    a = f[3] / det;
+    b = -f[1] / det;
+    c = -f[2] / det;
+    d = f[0] / det;
+  }
+  [[nodiscard]] GRAINLAW_INLINE std::array<double, 2> operator()(double x, double y) const {
+    return {a * x + b * y, c * x + d * y};
+  }
+};
+
+// What all contacts share, and the arrays they write to.
+struct ContactLoop {
+  std::span<const TouchingContact> touching;
+  PullBack pull_back;
+  double share;
+  const Quad* start_turn;  // per listed contact, null before the first history
+  const Quad* start_force;
+  const double* tangential_stiffness;
+};
+
+// The change of one contact; `motion` null: under the affine motion and the history alone. Returns
+// that of the couple d ft.
+template <bool rotating>
+GRAINLAW_INLINE Lanes change_of(const ContactLoop& loop, const TouchingContact& contact,
+                                const double* motion, Lanes& force_x, Lanes& force_y,
+                                Lanes& branch_x, Lanes& branch_y, Lanes& tangential_force) {
+  constexpr std::size_t b = rotating ? 3 : 2;
+  const auto& point = contact.point;
+  const auto reference = loop.pull_back(point.branch_x, point.branch_y);
+  const double rx = loop.share * reference[0];
+  const double ry = loop.share * reference[1];
+  branch_x = Lanes{rx, ry, 0, 0};
+  branch_y = Lanes{0, 0, rx, ry};
+  Lanes rotation{};
+  if (motion != nullptr) {
+    const double* zi = motion + contact.node_i * b * width;
+    const double* zj = motion + contact.node_j * b * width;
+    branch_x += load(zj) - load(zi);
+    branch_y += load(zj + width) - load(zi + width);
+    if constexpr (rotating) {
+      rotation =
+          contact.lever_i * load(zi + 2 * width) + (1 - contact.lever_i) * load(zj + 2 * width);
+    }
+  }
+  const double nx = point.normal_x;
+  const double ny = point.normal_y;
+  const auto& s = contact.stiffness;
+  const Lanes normal = nx * branch_x + ny * branch_y;
+  const Lanes tangential = nx * branch_y - ny * branch_x;
+  const Lanes along_n = s[0] * normal + s[1] * tangential + s[2] * rotation;
+  Lanes along_t = s[3] * normal + s[4] * tangential + s[5] * rotation;
+  Lanes couple = s[6] * normal + s[7] * tangential + s[8] * rotation;
+  if (loop.start_turn != nullptr && point.status == ContactStatus::sticking) {
+    const Lanes by_history = load(loop.start_force[contact.index].lane) -
+                             loop.tangential_stiffness[contact.index] * point.distance *
+                                 load(loop.start_turn[contact.index].lane);
+    along_t += by_history;
+    couple += point.distance * by_history;
+  }
+  force_x = nx * along_n - ny * along_t;
+  force_y = ny * along_n + nx * along_t;
+  tangential_force = (couple - point.tangential_force * normal) / point.distance;
+  return couple;
 }
 
-std::array<double, 3> apply(const std::array<double, 9>& a, double x, double y, double z) {
-  return {a[0] * x + a[1] * y + a[2] * z, a[3] * x + a[4] * y + a[5] * z,
-          a[6] * x + a[7] * y + a[8] * z};
+template <bool rotating>
+GRAINLAW_INLINE void sum_right_sides(const ContactLoop& loop, double* right) {
+  constexpr std::size_t b = rotating ? 3 : 2;
+  Lanes fx{}, fy{}, bx{}, by{}, ft{};
+  for (const auto& contact : loop.touching) {
+    const Lanes couple = change_of<rotating>(loop, contact, nullptr, fx, fy, bx, by, ft);
+    double* ri = right + contact.node_i * b * width;
+    double* rj = right + contact.node_j * b * width;
+    store(ri, load(ri) - fx);
+    store(ri + width, load(ri + width) - fy);
+    store(rj, load(rj) + fx);
+    store(rj + width, load(rj + width) + fy);
+    if constexpr (rotating) {
+      store(ri + 2 * width, load(ri + 2 * width) - contact.lever_i * couple);
+      store(rj + 2 * width, load(rj + 2 * width) - (1 - contact.lever_i) * couple);
+    }
+  }
+}
+
+template <bool rotating>
+GRAINLAW_INLINE void find_changes(const ContactLoop& loop, const double* motion,
+                                  Sensitivity::Changes* changes) {
+  for (const auto& contact : loop.touching) {
+    Lanes fx{}, fy{}, bx{}, by{}, ft{};
+    change_of<rotating>(loop, contact, motion, fx, fy, bx, by, ft);
+    store(changes->force_x.lane, fx);
+    store(changes->force_y.lane, fy);
+    store(changes->branch_x.lane, bx);
+    store(changes->branch_y.lane, by);
+    store(changes->tangential_force.lane, ft);
+    ++changes;
+  }
+}
+
+GRAINLAW_CLONES void right_sides(const ContactLoop& loop, bool rotating, double* right) {
+  rotating ? sum_right_sides<true>(loop, right) : sum_right_sides<false>(loop, right);
+}
+GRAINLAW_CLONES void all_changes(const ContactLoop& loop, bool rotating, const double* motion,
+                                 Sensitivity::Changes* changes) {
+  rotating ? find_changes<true>(loop, motion, changes) : find_changes<false>(loop, motion, changes);
 }
 
 }  // namespace
@@ -25,152 +132,96 @@ std::array<double, 3> apply(const std::array<double, 9>& a, double x, double y, 
 void Sensitivity::start_of_history(const Increment& increment, double start_share) {
   const auto& list = increment.contacts;
   const auto& node = increment.problem->space->node;
-  const auto nodes = increment.nodes();
   const auto n = increment.particles();
   const bool rotating = increment.problem->law->rotating();
+  const std::size_t b = rotating ? 3 : 2;
   const bool frame = increment.problem->packing->frame.has_value();
   const double* h0 = increment.problem->packing->cell.data();
   const auto& f = increment.start_deformation;
+  const PullBack pull_back(f);
   const double* x = increment.start.data();
   resize_with_room(start_turn_, list.size());
   resize_with_room(start_force_, list.size());
-  std::fill(start_force_.begin(), start_force_.end(), std::array<double, 4>{});
   std::size_t h = 0;
   for (std::size_t c = 0; c < list.size(); ++c) {
     const auto i = static_cast<std::size_t>(list.i[c]);
     const auto j = static_cast<std::size_t>(list.j[c]);
-    double ax = frame ? 0 : h0[0] * list.shift_x[c] + h0[1] * list.shift_y[c];
-    double ay = frame ? 0 : h0[2] * list.shift_x[c] + h0[3] * list.shift_y[c];
+    const double ax = frame ? 0 : h0[0] * list.shift_x[c] + h0[1] * list.shift_y[c];
+    const double ay = frame ? 0 : h0[2] * list.shift_x[c] + h0[3] * list.shift_y[c];
     const double lx = x[j] - x[i] + f[0] * ax + f[1] * ay;
     const double ly = x[n + j] - x[n + i] + f[2] * ax + f[3] * ay;
     const double d2 = lx * lx + ly * ly;
-    const auto reference = pull_back(f, lx, ly);
-    const auto a = static_cast<std::size_t>(node[i]);
-    const auto b = static_cast<std::size_t>(node[j]);
-    for (std::size_t k = 0; k < 4; ++k) {
-      const auto& z = carried_motion_[k];
-      double dx = z[b] - z[a];
-      double dy = z[nodes + b] - z[nodes + a];
+    const auto reference = pull_back(lx, ly);
+    const Quad* zi = &carried_motion_[static_cast<std::size_t>(node[i]) * b];
+    const Quad* zj = &carried_motion_[static_cast<std::size_t>(node[j]) * b];
+    for (std::size_t k = 0; k < width; ++k) {
+      double dx = zj[0].lane[k] - zi[0].lane[k];
+      double dy = zj[1].lane[k] - zi[1].lane[k];
       (k < 2 ? dx : dy) += start_share * reference[k % 2];
-      start_turn_[c][k] = -(lx * dy - ly * dx) / d2;
+      start_turn_[c].lane[k] = -(lx * dy - ly * dx) / d2;
       if (rotating) {
-        start_turn_[c][k] +=
-            list.lever_i[c] * z[2 * nodes + a] + (1 - list.lever_i[c]) * z[2 * nodes + b];
+        start_turn_[c].lane[k] +=
+            list.lever_i[c] * zi[2].lane[k] + (1 - list.lever_i[c]) * zj[2].lane[k];
       }
     }
+    start_force_[c] = {};
     const auto key = std::tie(list.i[c], list.j[c], increment.pairs[c].shift);
     const auto& history = increment.history;
     const auto key_of = [](const ContactHistory& s) { return std::tie(s.i, s.j, s.shift); };
     while (h < history.size() && key_of(history[h]) < key) ++h;
     if (h == history.size() || key_of(history[h]) != key) continue;
-    for (std::size_t k = 0; k < 4; ++k) {
-      start_force_[c][k] = list.weight_of(c) * carried_force_[h][k];
+    for (std::size_t k = 0; k < width; ++k) {
+      start_force_[c].lane[k] = list.weight_of(c) * carried_force_[h].lane[k];
     }
   }
 }
 
 bool Sensitivity::solve(Increment& increment, double share, double start_share,
                         Stiffness& stiffness) {
-  share_ = share;
   if (carried_) start_of_history(increment, start_share);
-  const auto& list = increment.contacts;
   const auto& space = *increment.problem->space;
-  const auto& law = *increment.problem->law;
-  const auto nodes = increment.nodes();
-  const bool rotating = law.rotating();
-  for (std::size_t k = 0; k < 4; ++k) {
-    motion_[k].assign(increment.unknowns(), 0.0);
-    right_[k].assign(increment.unknowns(), 0.0);
-  }
-
-  for (std::size_t c = 0; c < list.size(); ++c) {
-    const auto point =
-        contact_point(list, c, increment.coordinates, increment.particles(), increment.cell, law);
-    if (point.status == ContactStatus::open) continue;
-    const auto a = static_cast<std::size_t>(space.node[static_cast<std::size_t>(list.i[c])]);
-    const auto b = static_cast<std::size_t>(space.node[static_cast<std::size_t>(list.j[c])]);
-    for (std::size_t k = 0; k < 4; ++k) {
-      // With zero motion: the change under the affine motion and the history alone.
-      const auto q = change(increment, c, point, k);
-      auto& r = right_[k];
-      r[a] -= q.force_x;
-      r[nodes + a] -= q.force_y;
-      r[b] += q.force_x;
-      r[nodes + b] += q.force_y;
-      if (!rotating) continue;
-      const double stretch = point.normal_x * q.branch_x + point.normal_y * q.branch_y;
-      const double couple = point.tangential_force * stretch + point.distance * q.tangential_force;
-      r[2 * nodes + a] -= list.lever_i[c] * couple;
-      r[2 * nodes + b] -= (1 - list.lever_i[c]) * couple;
-    }
-  }
+  const auto& list = increment.contacts;
+  const bool rotating = increment.problem->law->rotating();
   stiffness.assemble(increment, 0);
-  stiffness.factorise(increment);
-  for (std::size_t k = 0; k < 4; ++k) {
-    if (!space.identity) {
-      for (std::size_t q = 0; q < nodes; ++q) {
-        if (space.fixed[q]) right_[k][q] = right_[k][nodes + q] = 0;
-      }
+  const auto touching = stiffness.touching();
+  const ContactLoop loop{touching,
+                         PullBack(increment.deformation),
+                         share,
+                         carried_ ? start_turn_.data() : nullptr,
+                         carried_ ? start_force_.data() : nullptr,
+                         list.tangential_stiffness.data()};
+
+  const std::size_t b = rotating ? 3 : 2;
+  resize_with_room(motion_, increment.unknowns());
+  right_.assign(increment.unknowns(), Quad{});
+  right_sides(loop, rotating, right_.data()->lane);
+  if (!space.identity) {
+    for (std::size_t q = 0; q < increment.nodes(); ++q) {
+      if (space.fixed[q]) right_[q * b] = right_[q * b + 1] = {};
     }
-    if (!stiffness.solve(increment, right_[k], motion_[k])) return false;
+  }
+  if (!stiffness.solve_four(increment, right_, motion_)) return false;
+
+  resize_with_room(changes_, touching.size());
+  all_changes(loop, rotating, motion_.data()->lane, changes_.data());
+  resize_with_room(place_, list.size());
+  std::fill(place_.begin(), place_.end(), -1);
+  for (std::size_t k = 0; k < touching.size(); ++k) {
+    place_[touching[k].index] = static_cast<std::int32_t>(k);
   }
   return true;
 }
 
-Sensitivity::Change Sensitivity::change(const Increment& increment, std::size_t c,
-                                        const ContactPoint& point, std::size_t k) const {
-  const auto& list = increment.contacts;
-  const auto& node = increment.problem->space->node;
-  const auto nodes = increment.nodes();
-  const auto a = static_cast<std::size_t>(node[static_cast<std::size_t>(list.i[c])]);
-  const auto b = static_cast<std::size_t>(node[static_cast<std::size_t>(list.j[c])]);
-  const auto& z = motion_[k];
-  const auto reference = pull_back(increment.deformation, point.branch_x, point.branch_y);
-  Change result{};
-  result.branch_x = z[b] - z[a];
-  result.branch_y = z[nodes + b] - z[nodes + a];
-  (k < 2 ? result.branch_x : result.branch_y) += share_ * reference[k % 2];
-  if (point.status == ContactStatus::open) return result;
-
-  const double nx = point.normal_x;
-  const double ny = point.normal_y;
-  const double normal = nx * result.branch_x + ny * result.branch_y;
-  const double tangential = -ny * result.branch_x + nx * result.branch_y;
-  double rotation = 0;
-  if (increment.problem->law->rotating()) {
-    rotation = list.lever_i[c] * z[2 * nodes + a] + (1 - list.lever_i[c]) * z[2 * nodes + b];
-  }
-  const auto stiffness =
-      contact_stiffness(point, list.normal_stiffness[c], list.tangential_stiffness[c],
-                        increment.problem->law->friction);
-  const auto q = apply(stiffness, normal, tangential, rotation);
-  double by_history = 0;
-  if (carried_ && point.status == ContactStatus::sticking) {
-    by_history =
-        start_force_[c][k] - list.tangential_stiffness[c] * point.distance * start_turn_[c][k];
-  }
-  const double along_t = q[1] + by_history;
-  result.force_x = q[0] * nx - along_t * ny;
-  result.force_y = q[0] * ny + along_t * nx;
-  result.tangential_force = (q[2] - point.tangential_force * normal) / point.distance + by_history;
-  return result;
-}
-
 void Sensitivity::carry(const Increment& increment) {
   const auto& list = increment.contacts;
-  std::vector<std::array<double, 4>>& force = carried_force_;
-  force.clear();
+  carried_force_.clear();
   for (std::size_t c = 0; c < list.size(); ++c) {
-    const auto point = contact_point(list, c, increment.coordinates, increment.particles(),
-                                     increment.cell, *increment.problem->law);
     if (!increment.carries(c)) continue;
-    std::array<double, 4> value{};
-    for (std::size_t k = 0; k < 4; ++k) {
-      value[k] = change(increment, c, point, k).tangential_force / list.weight_of(c);
-    }
-    force.push_back(value);
+    Quad force = changes(c).tangential_force;
+    for (double& value : force.lane) value /= list.weight_of(c);
+    carried_force_.push_back(force);
   }
-  keep_room(force);
+  keep_room(carried_force_);
   carried_motion_ = motion_;
   carried_ = true;
 }

@@ -5,13 +5,12 @@
 #include "equilibrium/increment.hpp"
 #include "equilibrium/stiffness.hpp"
 
-#include <array>
 #include <span>
 #include <vector>
 
 namespace grainlaw {
 
-// Column k of everything is the derivative by the k-th component (row-major) of the F to be reached
+// Lane k of every quad is the derivative by the k-th component (row-major) of the F to be reached
 // at the end of the increment; a sub-increment ends at a share of the way, linear in F.
 class Sensitivity {
  public:
@@ -25,25 +24,34 @@ class Sensitivity {
   // Increment::advance_history().
   void carry(const Increment& increment);
 
-  // Change of the force on j (x, y) and of the branch (x, y) of contact c, for column k.
+  // Change of the force on j (x, y) and of the branch (x, y) of a contact that touches.
+  struct Changes {
+    Quad force_x, force_y, branch_x, branch_y, tangential_force;
+  };
+  [[nodiscard]] const Changes& changes(std::size_t c) const {
+    return changes_[static_cast<std::size_t>(place_[c])];
+  }
+  // The same of column k.
   struct Change {
     double force_x, force_y, branch_x, branch_y, tangential_force;
   };
-  [[nodiscard]] Change change(const Increment& increment, std::size_t c, const ContactPoint& point,
-                              std::size_t k) const;
+  [[nodiscard]] Change change(const Increment&, std::size_t c, const ContactPoint&,
+                              std::size_t k) const {
+    const Changes& all = changes(c);
+    return {all.force_x.lane[k], all.force_y.lane[k], all.branch_x.lane[k], all.branch_y.lane[k],
+            all.tangential_force.lane[k]};
+  }
 
  private:
   void start_of_history(const Increment& increment, double start_share);
 
-  using Columns = std::array<std::vector<double>, 4>;
-  double share_ = 1;
-  Columns motion_;  // nodes, component-major
+  std::vector<Quad> motion_, right_;  // per node and component
+  std::vector<Changes> changes_;      // per touching contact
+  std::vector<std::int32_t> place_;   // of a listed contact among them, -1 when open
   bool carried_ = false;
-  Columns carried_motion_;                            // at the start of the history
-  std::vector<std::array<double, 4>> carried_force_;  // per contact of increment.history
-  std::vector<std::array<double, 4>> start_turn_;     // per listed contact
-  std::vector<std::array<double, 4>> start_force_;
-  Columns right_;
+  std::vector<Quad> carried_motion_;            // at the start of the history
+  std::vector<Quad> carried_force_;             // per contact of increment.history
+  std::vector<Quad> start_turn_, start_force_;  // per listed contact
 };
 
 }  // namespace grainlaw

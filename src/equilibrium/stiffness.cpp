@@ -1,13 +1,18 @@
 #include "equilibrium/stiffness.hpp"
 
-#include "contact/frictional.hpp"
 #include "room.hpp"
+#include "simd.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace grainlaw {
+
+using simd::store;
+using Lanes = simd::Lanes<4>;  // of a quad
+constexpr std::size_t width = 4;
+GRAINLAW_INLINE Lanes load(const double* from) { return simd::load<4>(from); }
 
 namespace {
 
@@ -17,15 +22,108 @@ constexpr double graph_gap = 1e-3;
 // Holds rattlers and the translation of the cell in the factors, relative to the masses; refinement
 // takes it out of the solution again.
 constexpr double grounding = 1e-9;
+// Of a residual relative to the largest entry of the right-hand side.
+constexpr double good = 1e-12;
+constexpr double usable = 1e-6;
+// Refinement goes on while it falls to less than this share. With old factors it has to be quick,
+// or a factorisation is cheaper; below `settled` what stays is rounding, by whatever factors.
+constexpr double slow = 0.5;
+constexpr double quick = 0.05;
+constexpr double settled = 1e-9;
 
-std::array<double, 9> product(const std::array<double, 9>& a, const std::array<double, 9>& b) {
-  std::array<double, 9> c{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t j = 0; j < 3; ++j) c[3 * i + j] += a[3 * i + k] * b[3 * k + j];
-    }
+constexpr std::int32_t not_in_graph = -2;
+constexpr std::int32_t on_the_diagonal = -1;
+
+GRAINLAW_INLINE void add(double* block, const Lanes& value) { store(block, load(block) + value); }
+
+// The blocks of (i, i), (i, j), (j, i), (j, j), which may be one.
+template <std::size_t b>
+GRAINLAW_INLINE void add_contact(const TouchingContact& contact, double* ii, double* ij, double* ji,
+                                 double* jj) {
+  const double nx = contact.point.normal_x;
+  const double ny = contact.point.normal_y;
+  const double li = contact.lever_i;
+  const double lj = 1 - li;
+  const auto& s = contact.stiffness;
+  // Force and d ft on j by the motion of the branch along n and t, by that along x and y, and by
+  // the weighted rotation.
+  const Lanes by_normal{s[0] * nx - s[3] * ny, s[0] * ny + s[3] * nx, s[6], 0};
+  const Lanes by_tangential{s[1] * nx - s[4] * ny, s[1] * ny + s[4] * nx, s[7], 0};
+  const Lanes by_rotation{s[2] * nx - s[5] * ny, s[2] * ny + s[5] * nx, s[8], 0};
+  const Lanes by_x = nx * by_normal - ny * by_tangential;
+  const Lanes by_y = ny * by_normal + nx * by_tangential;
+  // -dr: minus the force on i is the one on j; both take their share of minus the moment.
+  const Lanes row_i{1, 1, b == 3 ? li : 0, 0};
+  const Lanes row_j{-1, -1, b == 3 ? lj : 0, 0};
+  add(ii, -by_x * row_i);
+  add(ii + width, -by_y * row_i);
+  add(ij, by_x * row_i);
+  add(ij + width, by_y * row_i);
+  add(ji, -by_x * row_j);
+  add(ji + width, -by_y * row_j);
+  add(jj, by_x * row_j);
+  add(jj + width, by_y * row_j);
+  if constexpr (b == 3) {
+    const Lanes at_i = by_rotation * row_i;
+    const Lanes at_j = by_rotation * row_j;
+    add(ii + 2 * width, li * at_i);
+    add(ij + 2 * width, lj * at_i);
+    add(ji + 2 * width, li * at_j);
+    add(jj + 2 * width, lj * at_j);
   }
-  return c;
+}
+
+template <std::size_t b>
+GRAINLAW_INLINE void add_all(std::span<const TouchingContact> contacts,
+                             const std::int32_t* edge_of_contact, BlockMatrix& matrix) {
+  double* const blocks = matrix.blocks.data()->lane;
+  const std::size_t edges = matrix.edges.size();
+  const auto block = [=](std::size_t index) { return blocks + index * b * width; };
+  for (const auto& contact : contacts) {
+    const std::size_t i = contact.node_i;
+    const std::size_t j = contact.node_j;
+    const std::int32_t edge = edge_of_contact[contact.index];
+    const auto e = edge < 0 ? i : matrix.nodes + static_cast<std::size_t>(edge);
+    const auto upper = e;
+    const auto lower = edge < 0 ? i : e + edges;
+    add_contact<b>(contact, block(i), block(i < j ? upper : lower), block(i < j ? lower : upper),
+                   block(j));
+  }
+}
+
+GRAINLAW_CLONES void add_contacts_3(std::span<const TouchingContact> contacts,
+                                    const std::int32_t* edge_of_contact, BlockMatrix& matrix) {
+  add_all<3>(contacts, edge_of_contact, matrix);
+}
+GRAINLAW_CLONES void add_contacts_2(std::span<const TouchingContact> contacts,
+                                    const std::int32_t* edge_of_contact, BlockMatrix& matrix) {
+  add_all<2>(contacts, edge_of_contact, matrix);
+}
+
+// Largest magnitude by lane; infinite where a number is not finite.
+GRAINLAW_CLONES void largest_by_lane(std::span<const Quad> values, Quad& result) {
+  Lanes most{};
+  Lanes poison{};
+  for (const auto& value : values) {
+    const Lanes v = load(value.lane);
+    most = simd::largest(most, simd::magnitude(v));
+    poison += v * 0.0;
+  }
+  for (std::size_t k = 0; k < width; ++k) {
+    result.lane[k] = poison[k] == 0 ? most[k] : std::numeric_limits<double>::infinity();
+  }
+}
+
+double largest_of(std::span<const Quad> values) {
+  Quad result;
+  largest_by_lane(values, result);
+  return *std::max_element(std::begin(result.lane), std::end(result.lane));
+}
+
+GRAINLAW_CLONES void add_to(std::span<Quad> to, std::span<const Quad> values) {
+  for (std::size_t k = 0; k < to.size(); ++k) {
+    store(to[k].lane, load(to[k].lane) + load(values[k].lane));
+  }
 }
 
 }  // namespace
@@ -37,108 +135,115 @@ ContactMap contact_map(double nx, double ny, double lever) {
           {nx, ny, 0, -ny, nx, 0, 0, 0, 1 - lever}};
 }
 
+void Stiffness::find_touching(const Increment& increment) {
+  const auto& list = increment.contacts;
+  const auto& node = increment.problem->space->node;
+  const auto& law = *increment.problem->law;
+  touching_.clear();
+  for (std::size_t c = 0; c < list.size(); ++c) {
+    const auto point =
+        contact_point(list, c, increment.coordinates, increment.particles(), increment.cell, law);
+    if (point.status == ContactStatus::open) continue;
+    touching_.push_back({c, static_cast<std::size_t>(node[static_cast<std::size_t>(list.i[c])]),
+                         static_cast<std::size_t>(node[static_cast<std::size_t>(list.j[c])]),
+                         list.lever_i[c], point,
+                         contact_stiffness(point, list.normal_stiffness[c],
+                                           list.tangential_stiffness[c], law.friction)});
+  }
+  keep_room(touching_);
+}
+
+// Whether the graph was made in this increment, from these contacts, and holds all that touch.
+bool Stiffness::graph_serves(const Increment& increment) const {
+  const auto& list = increment.contacts;
+  if (increment.factorisations == 0 || listed_i_.size() != list.size() ||
+      !std::equal(listed_i_.begin(), listed_i_.end(), list.i.begin()) ||
+      !std::equal(listed_j_.begin(), listed_j_.end(), list.j.begin())) {
+    return false;
+  }
+  return std::all_of(touching_.begin(), touching_.end(), [this](const TouchingContact& contact) {
+    return edge_of_contact_[contact.index] != not_in_graph;
+  });
+}
+
 void Stiffness::find_graph(const Increment& increment) {
   const auto& list = increment.contacts;
   const auto& node = increment.problem->space->node;
+  resize_with_room(listed_i_, list.size());
+  resize_with_room(listed_j_, list.size());
+  std::copy_n(list.i.begin(), list.size(), listed_i_.begin());
+  std::copy_n(list.j.begin(), list.size(), listed_j_.begin());
   pairs_.clear();
   resize_with_room(edge_of_contact_, list.size());
-  std::fill(edge_of_contact_.begin(), edge_of_contact_.end(), -2);
+  std::fill(edge_of_contact_.begin(), edge_of_contact_.end(), not_in_graph);
   for (std::size_t c = 0; c < list.size(); ++c) {
     if (increment.overlap(c) < -0.5 * graph_gap * list.reach[c]) continue;
     const auto [a, b] = std::minmax(node[static_cast<std::size_t>(list.i[c])],
                                     node[static_cast<std::size_t>(list.j[c])]);
-    edge_of_contact_[c] = -1;  // a node with itself
+    edge_of_contact_[c] = on_the_diagonal;
     if (a != b) pairs_.push_back({{a, b}, static_cast<std::int32_t>(c)});
   }
   keep_room(pairs_);
-  std::sort(pairs_.begin(), pairs_.end());
+  if (!std::is_sorted(pairs_.begin(), pairs_.end())) std::sort(pairs_.begin(), pairs_.end());
   graph_.clear();
   for (const auto& [edge, c] : pairs_) {
     if (graph_.empty() || graph_.back() != edge) graph_.push_back(edge);
     edge_of_contact_[static_cast<std::size_t>(c)] = static_cast<std::int32_t>(graph_.size()) - 1;
   }
   keep_room(graph_);
-  matrix_.reset(increment.nodes(), increment.problem->components(), graph_);
 }
 
 void Stiffness::assemble(const Increment& increment, double shift) {
-  factorised_ = false;
-  find_graph(increment);
-  const auto& list = increment.contacts;
-  const auto& space = *increment.problem->space;
-  const auto& law = *increment.problem->law;
-  const auto b = static_cast<std::size_t>(matrix_.components);
-  const auto s = static_cast<std::size_t>(matrix_.stride);
-  const auto size = matrix_.block_size();
-  const auto nodes = increment.nodes();
-
-  const auto subtract = [&](double* block, const std::array<double, 9>& value) {
-    for (std::size_t column = 0; column < b; ++column) {
-      for (std::size_t row = 0; row < b; ++row) block[column * s + row] -= value[3 * row + column];
-    }
-  };
-  for (std::size_t c = 0; c < list.size(); ++c) {
-    if (edge_of_contact_[c] == -2) continue;
-    const auto point =
-        contact_point(list, c, increment.coordinates, increment.particles(), increment.cell, law);
-    if (point.status == ContactStatus::open) continue;
-    const auto stiffness = contact_stiffness(point, list.normal_stiffness[c],
-                                             list.tangential_stiffness[c], law.friction);
-    const auto map = contact_map(point.normal_x, point.normal_y, list.lever_i[c]);
-    const auto by_i = product(stiffness, map.motion_i);
-    const auto by_j = product(stiffness, map.motion_j);
-    const auto i = static_cast<std::size_t>(space.node[static_cast<std::size_t>(list.i[c])]);
-    const auto j = static_cast<std::size_t>(space.node[static_cast<std::size_t>(list.j[c])]);
-    double* ii = matrix_.diagonal.data() + i * size;
-    double* jj = matrix_.diagonal.data() + j * size;
-    subtract(ii, product(map.force_i, by_i));
-    subtract(jj, product(map.force_j, by_j));
-    if (i == j) {
-      subtract(ii, product(map.force_i, by_j));
-      subtract(ii, product(map.force_j, by_i));
-      continue;
-    }
-    const auto e = static_cast<std::size_t>(edge_of_contact_[c]);
-    double* ij = (i < j ? matrix_.upper : matrix_.lower).data() + e * size;
-    double* ji = (i < j ? matrix_.lower : matrix_.upper).data() + e * size;
-    subtract(ij, product(map.force_i, by_j));
-    subtract(ji, product(map.force_j, by_i));
+  find_touching(increment);
+  if (graph_serves(increment)) {
+    matrix_.set_zero();
+    if (factors_ == Factors::of_matrix) factors_ = Factors::of_earlier_matrix;
+  } else {
+    find_graph(increment);
+    matrix_.reset(increment.nodes(), increment.problem->components(), graph_);
+    factors_ = Factors::none;
   }
-
+  if (matrix_.components == 3) {
+    add_contacts_3(touching_, edge_of_contact_.data(), matrix_);
+  } else {
+    add_contacts_2(touching_, edge_of_contact_.data(), matrix_);
+  }
   add_masses(increment, shift);
-  if (space.identity) return;
-  const auto clear = [&](double* block, bool rows) {
+  if (!increment.problem->space->identity) hold_fixed_nodes(increment);
+}
+
+void Stiffness::hold_fixed_nodes(const Increment& increment) {
+  const auto& fixed = increment.problem->space->fixed;
+  const auto b = static_cast<std::size_t>(matrix_.components);
+  const auto clear = [&](std::size_t index, bool rows) {
+    Quad* block = matrix_.block(index);
     for (std::size_t k = 0; k < 2; ++k) {
-      for (std::size_t l = 0; l < b; ++l) block[rows ? l * s + k : k * s + l] = 0;
+      for (std::size_t l = 0; l < b; ++l) (rows ? block[l].lane[k] : block[k].lane[l]) = 0;
     }
   };
-  for (std::size_t q = 0; q < nodes; ++q) {
-    if (!space.fixed[q]) continue;
-    double* block = matrix_.diagonal.data() + q * size;
-    clear(block, true);
-    clear(block, false);
-    block[0] = block[s + 1] = 1;
+  for (std::size_t q = 0; q < matrix_.nodes; ++q) {
+    if (!fixed[q]) continue;
+    clear(q, true);
+    clear(q, false);
+    matrix_.block(q)[0].lane[0] = matrix_.block(q)[1].lane[1] = 1;
   }
   for (std::size_t e = 0; e < graph_.size(); ++e) {
-    const bool first = space.fixed[static_cast<std::size_t>(graph_[e].first)] != 0;
-    const bool second = space.fixed[static_cast<std::size_t>(graph_[e].second)] != 0;
-    double* upper = matrix_.upper.data() + e * size;
-    double* lower = matrix_.lower.data() + e * size;
-    if (first) clear(upper, true);
-    if (first) clear(lower, false);
-    if (second) clear(upper, false);
-    if (second) clear(lower, true);
+    const bool first = fixed[static_cast<std::size_t>(graph_[e].first)] != 0;
+    const bool second = fixed[static_cast<std::size_t>(graph_[e].second)] != 0;
+    if (first) clear(matrix_.upper(e), true);
+    if (first) clear(matrix_.lower(e), false);
+    if (second) clear(matrix_.upper(e), false);
+    if (second) clear(matrix_.lower(e), true);
   }
 }
 
 void Stiffness::add_masses(const Increment& increment, double factor) {
-  const auto nodes = increment.nodes();
+  if (factor == 0) return;
   const auto b = static_cast<std::size_t>(matrix_.components);
-  const auto s = static_cast<std::size_t>(matrix_.stride);
-  for (std::size_t q = 0; q < nodes; ++q) {
-    double* block = matrix_.diagonal.data() + q * matrix_.block_size();
+  for (std::size_t q = 0; q < matrix_.nodes; ++q) {
+    Quad* block = matrix_.block(q);
     for (std::size_t k = 0; k < b; ++k) {
-      block[k * s + k] += factor * increment.mass[k * nodes + q];
+      block[k].lane[k] += factor * increment.mass[k * matrix_.nodes + q];
     }
   }
 }
@@ -146,44 +251,127 @@ void Stiffness::add_masses(const Increment& increment, double factor) {
 void Stiffness::factorise(Increment& increment) {
   ++increment.factorisations;
   lu_.analyse(matrix_);
-  add_masses(increment, grounding);
-  factorised_ = lu_.factorise(matrix_);
-  add_masses(increment, -grounding);
-  check_.resize(increment.unknowns());
-  correction_.resize(increment.unknowns());
+  const auto b = static_cast<std::size_t>(matrix_.components);
+  resize_with_room(ground_, matrix_.nodes);
+  for (std::size_t q = 0; q < matrix_.nodes; ++q) {
+    for (std::size_t k = 0; k < b; ++k) {
+      ground_[q].lane[k] = grounding * increment.mass[k * matrix_.nodes + q];
+    }
+  }
+  factors_ = lu_.factorise(matrix_, ground_) ? Factors::of_matrix : Factors::none;
 }
 
-bool Stiffness::solve(const Increment& increment, std::span<const double> b, std::span<double> x) {
-  constexpr double good = 1e-12;
-  constexpr double usable = 1e-6;
-  double scale = std::numeric_limits<double>::min();
-  for (const double value : b) scale = std::max(scale, std::abs(value));
+bool Stiffness::solve(const Increment& increment, std::span<const double> b, std::span<double> x,
+                      double tolerance) {
+  const auto nodes = matrix_.nodes;
+  const auto components = static_cast<std::size_t>(matrix_.components);
+  resize_with_room(right_, nodes);
+  resize_with_room(solution_, nodes);
+  resize_with_room(check_, nodes);
+  for (std::size_t q = 0; q < nodes; ++q) {
+    right_[q] = {};
+    for (std::size_t k = 0; k < components; ++k) right_[q].lane[k] = b[k * nodes + q];
+  }
+  const double scale = std::max(largest_of(right_), std::numeric_limits<double>::min());
   const auto defect = [&] {
-    matrix_.multiply(x, check_);
-    double largest = 0;
-    for (std::size_t k = 0; k < x.size(); ++k) {
-      check_[k] = b[k] - check_[k];
-      largest =
-          std::max(largest, std::isfinite(check_[k]) ? std::abs(check_[k])
-                                                     : std::numeric_limits<double>::infinity());
-    }
-    return largest / scale;
+    matrix_.residual(right_, solution_, check_);
+    return largest_of(check_) / scale;
   };
-  if (factorised_) {
-    lu_.solve(b, x);
+  if (factors_ == Factors::of_matrix) {
+    std::copy(right_.begin(), right_.end(), solution_.begin());
+    lu_.solve(solution_);
     double error = defect();
-    for (double last = 4 * error; error > good && error < 0.5 * last;) {
-      lu_.solve(check_, correction_);
-      for (std::size_t k = 0; k < x.size(); ++k) x[k] += correction_[k];
+    for (double last = 4 * error; error > tolerance && error < slow * last;) {
+      lu_.solve(check_);
+      add_to(solution_, check_);
       last = error;
       error = defect();
     }
-    if (error <= usable) return true;
+    if (error <= usable) {
+      for (std::size_t q = 0; q < nodes; ++q) {
+        for (std::size_t k = 0; k < components; ++k) x[k * nodes + q] = solution_[q].lane[k];
+      }
+      return true;
+    }
   }
+  return solve_one_by_pivoting(increment, b, x);
+}
+
+bool Stiffness::solve_one_by_pivoting(const Increment& increment, std::span<const double> b,
+                                      std::span<double> x) {
+  const auto nodes = matrix_.nodes;
+  const auto components = static_cast<std::size_t>(matrix_.components);
   add_masses(increment, grounding);
   const bool solved = solve_with_pivoting(matrix_, b, x);
   add_masses(increment, -grounding);
-  return solved && defect() <= usable;
+  if (!solved) return false;
+  resize_with_room(right_, nodes);
+  resize_with_room(solution_, nodes);
+  resize_with_room(check_, nodes);
+  for (std::size_t q = 0; q < nodes; ++q) {
+    right_[q] = solution_[q] = {};
+    for (std::size_t k = 0; k < components; ++k) {
+      right_[q].lane[k] = b[k * nodes + q];
+      solution_[q].lane[k] = x[k * nodes + q];
+    }
+  }
+  matrix_.residual(right_, solution_, check_);
+  return largest_of(check_) <=
+         usable * std::max(largest_of(right_), std::numeric_limits<double>::min());
+}
+
+// The worst of the four residuals counts.
+bool Stiffness::solve_four_by_factors(std::span<const Quad> b, std::span<Quad> x) {
+  const bool earlier = factors_ == Factors::of_earlier_matrix;
+  Quad scale;
+  largest_by_lane(b, scale);
+  const auto defect = [&] {
+    matrix_.residual_of_four(b, x, check_);
+    Quad most;
+    largest_by_lane(check_, most);
+    double error = 0;
+    for (std::size_t k = 0; k < width; ++k) {
+      error = std::max(error,
+                       most.lane[k] / std::max(scale.lane[k], std::numeric_limits<double>::min()));
+    }
+    return error;
+  };
+  const auto needed = [=](double error) { return earlier && error > settled ? quick : slow; };
+  std::copy(b.begin(), b.end(), x.begin());
+  lu_.solve_four(x);
+  double error = defect();
+  for (double last = 1; error > good && error < needed(error) * last;) {
+    lu_.solve_four(check_);
+    add_to(x, check_);
+    last = error;
+    error = defect();
+  }
+  return error <= (earlier ? settled : usable);
+}
+
+bool Stiffness::solve_four(Increment& increment, std::span<const Quad> b, std::span<Quad> x) {
+  resize_with_room(check_, b.size());
+  if (factors_ == Factors::of_earlier_matrix && solve_four_by_factors(b, x)) return true;
+  if (factors_ != Factors::of_matrix) factorise(increment);
+  if (factors_ == Factors::of_matrix && solve_four_by_factors(b, x)) return true;
+  const auto nodes = matrix_.nodes;
+  const auto components = static_cast<std::size_t>(matrix_.components);
+  right_column_.resize(components * nodes);
+  column_.resize(components * nodes);
+  for (std::size_t l = 0; l < width; ++l) {
+    for (std::size_t q = 0; q < nodes; ++q) {
+      for (std::size_t k = 0; k < components; ++k) {
+        right_column_[k * nodes + q] = b[q * components + k].lane[l];
+      }
+    }
+    if (!solve_one_by_pivoting(increment, right_column_, column_)) return false;
+    for (std::size_t q = 0; q < nodes; ++q) {
+      for (std::size_t k = 0; k < components; ++k) {
+        x[q * components + k].lane[l] = column_[k * nodes + q];
+      }
+    }
+  }
+  return true;
 }
 
 }  // namespace grainlaw

@@ -1,6 +1,7 @@
 // The exact stiffness -dr/dz of the reduced residual, and linear solves with it.
 #pragma once
 
+#include "contact/frictional.hpp"
 #include "equilibrium/block_matrix.hpp"
 #include "equilibrium/increment.hpp"
 
@@ -10,30 +11,64 @@
 
 namespace grainlaw {
 
+// A contact that touches, at the coordinates of the last assemble().
+struct TouchingContact {
+  std::size_t index;  // in the increment's list
+  std::size_t node_i, node_j;
+  double lever_i;
+  ContactPoint point;
+  std::array<double, 9> stiffness;  // contact_stiffness() of it
+};
+
+// What one increment of deformation left here serves the rest of it: the graph while all contacts
+// that touch are in it, the factors for solve_four(). Nothing is carried from one increment to the
+// next that could change a bit there: Increment::factorisations is zero when one begins.
 class Stiffness {
  public:
   // K of the present coordinates plus shift x mass on the diagonal; rows of prescribed translations
-  // are the identity. Forgotten by the next call.
+  // are the identity. The factors are no longer those of K.
   void assemble(const Increment& increment, double shift);
 
   // Factorise what was assembled.
   void factorise(Increment& increment);
 
-  // x = K^-1 b, refined while that helps; by pivoting LU when it does not. False when the matrix is
-  // singular to working precision.
-  bool solve(const Increment& increment, std::span<const double> b, std::span<double> x);
+  // x = K^-1 b, refined until the residual is below the tolerance (largest entry, relative to b) or
+  // while that helps; by pivoting LU when it does not. False when the matrix is singular to working
+  // precision.
+  bool solve(const Increment& increment, std::span<const double> b, std::span<double> x,
+             double tolerance = 1e-12);
+
+  // The same of four vectors together. Of K just assembled, without factorise() before: old factors
+  // do when refinement with them converges quickly, else K is factorised here.
+  bool solve_four(Increment& increment, std::span<const Quad> b, std::span<Quad> x);
+
+  // Of the last assemble(), ordered by index.
+  [[nodiscard]] std::span<const TouchingContact> touching() const { return touching_; }
 
  private:
+  void find_touching(const Increment& increment);
+  [[nodiscard]] bool graph_serves(const Increment& increment) const;
   void find_graph(const Increment& increment);
+  void add_contacts();
+  void hold_fixed_nodes(const Increment& increment);
   void add_masses(const Increment& increment, double factor);
+  bool solve_four_by_factors(std::span<const Quad> b, std::span<Quad> x);
+  bool solve_one_by_pivoting(const Increment& increment, std::span<const double> b,
+                             std::span<double> x);
+
+  enum class Factors { none, of_earlier_matrix, of_matrix };
 
   BlockMatrix matrix_;
   BlockLU lu_;
-  bool factorised_ = false;
+  Factors factors_ = Factors::none;
+  std::vector<TouchingContact> touching_;
   std::vector<Edge> graph_;
   std::vector<std::int32_t> edge_of_contact_;
+  std::vector<std::int32_t> listed_i_, listed_j_;  // the contacts that the graph was made from
   std::vector<std::pair<Edge, std::int32_t>> pairs_;
-  std::vector<double> check_, correction_;
+  std::vector<Quad> ground_;
+  std::vector<Quad> right_, solution_, check_;
+  std::vector<double> right_column_, column_;
 };
 
 // How the generalised force of a contact acts: C_p of the particles i and j, so that the force and
