@@ -63,7 +63,10 @@ bool solve_part(const Request& request, Workspace& w) {
   auto& increment = w.increment;
   const long limit = relaxation_limit(increment.nodes());
   increment.refresh_masses();
-  const double target = std::max(request.tolerance, increment.rounding_residual());
+  // Where rounding is all that is left, there is no equilibrium to speak of.
+  constexpr double loosest = 1e-3;
+  const double target =
+      std::max(request.tolerance, std::min(increment.rounding_residual(), loosest));
   double hand_over = switch_tolerance(increment.nodes());
   for (int round = 0; round < rounds; ++round, hand_over *= tighter) {
     const double tolerance = std::max(hand_over, target);

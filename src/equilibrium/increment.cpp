@@ -192,9 +192,19 @@ double Increment::overlap(std::size_t c) const {
   return contacts.reach[c] - std::sqrt(lx * lx + ly * ly);
 }
 
+double Increment::chance_force() const {
+  return std::max(problem->tolerance * relative_scale(), rounding_force_);
+}
+
 bool Increment::carries(std::size_t c) const {
-  const double chance = std::max(problem->tolerance * relative_scale(), rounding_force_);
-  return overlap(c) * contacts.normal_stiffness[c] > 10 * chance;
+  return overlap(c) * contacts.normal_stiffness[c] > 10 * chance_force();
+}
+
+bool Increment::bears() const {
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (carries(c)) return true;
+  }
+  return false;
 }
 
 void Increment::refresh_masses() {
@@ -285,7 +295,7 @@ void Increment::advance_history() {
     const double force = tangential ? contacts.start_force[c] : 0.0;
     const double bound = problem->law->friction * normal_force;
     history.push_back({contacts.i[c], contacts.j[c], pairs[c].shift,
-                       tangential && std::abs(force) >= bound - rounding_force_,
+                       tangential && std::abs(force) >= bound - chance_force(),
                        force / contacts.weight_of(c)});
   }
   start = coordinates;

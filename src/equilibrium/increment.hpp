@@ -38,12 +38,13 @@ class Increment {
   // The same from the records and for the records alone: the mass of the roll R theta is I / R^2.
   void sum_masses();
 
-  // Largest residual force (moment / R) of update_forces over max(mean normal force, floor) [-]; infinite when no
-  // contact is left or a number is not finite.
+  // Largest residual force (moment / R) of update_forces over max(mean normal force, floor) [-];
+  // infinite when no contact is left or a number is not finite.
   [[nodiscard]] double residual_norm() const;
 
-  // The residual that the rounding of coordinates leaves at worst: no tolerance below it can be met
-  // [-].
+  // What the rounding of coordinates leaves of a residual at worst [N], and relative [-]: no
+  // tolerance below it can be met.
+  [[nodiscard]] double rounding_force() const { return rounding_force_; }
   [[nodiscard]] double rounding_residual() const {
     return touching > 0 ? rounding_force_ / relative_scale() : 0;
   }
@@ -57,9 +58,15 @@ class Increment {
   // Overlap of a listed contact, negative across a gap [m].
   [[nodiscard]] double overlap(std::size_t c) const;
 
+  // Forces differ by this much by chance: tolerance and rounding [N].
+  [[nodiscard]] double chance_force() const;
+
   // Whether a contact counts. Rattlers touch their cage with forces of about the residual, or not,
   // by chance; ten times as much is no chance.
   [[nodiscard]] bool carries(std::size_t c) const;
+
+  // Whether any contact counts.
+  [[nodiscard]] bool bears() const;
 
   // Put contacts, coordinates and dissipation into `to`, rotations added to those of `from`.
   void export_to(const Configuration& from, Configuration& to) const;

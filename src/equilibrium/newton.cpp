@@ -33,7 +33,6 @@ double largest_move(const Increment& increment, std::span<const double> step) {
 constexpr double first_shift = 1e-5;
 constexpr double least_shift = 1e-7;
 constexpr double largest_shift = 1e3;
-constexpr double solve_tolerance = 1e-8;
 constexpr double acceptable = 0.9;  // of the residual after a step against before
 
 class FlowNewton {
@@ -52,7 +51,7 @@ class FlowNewton {
       memory_.residual.assign(r.begin(), r.end());
       memory_.stiffness.assemble(increment_, shift_);
       memory_.stiffness.factorise(increment_);
-      if (!memory_.stiffness.solve(increment_, memory_.residual, memory_.step, solve_tolerance)) {
+      if (!memory_.stiffness.solve(increment_, memory_.residual, memory_.step)) {
         if (!raise_shift()) return false;
       } else if (full_steps_) {
         full_step();

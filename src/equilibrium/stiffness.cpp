@@ -273,6 +273,8 @@ bool Stiffness::solve(const Increment& increment, std::span<const double> b, std
     for (std::size_t k = 0; k < components; ++k) right_[q].lane[k] = b[k * nodes + q];
   }
   const double scale = std::max(largest_of(right_), std::numeric_limits<double>::min());
+  // Of a right-hand side that is rounding alone nothing can be solved for.
+  const double enough = std::max(usable, increment.rounding_force() / scale);
   const auto defect = [&] {
     matrix_.residual(right_, solution_, check_);
     return largest_of(check_) / scale;
@@ -287,7 +289,7 @@ bool Stiffness::solve(const Increment& increment, std::span<const double> b, std
       last = error;
       error = defect();
     }
-    if (error <= usable) {
+    if (error <= enough) {
       for (std::size_t q = 0; q < nodes; ++q) {
         for (std::size_t k = 0; k < components; ++k) x[k * nodes + q] = solution_[q].lane[k];
       }
@@ -317,12 +319,14 @@ bool Stiffness::solve_one_by_pivoting(const Increment& increment, std::span<cons
   }
   matrix_.residual(right_, solution_, check_);
   return largest_of(check_) <=
-         usable * std::max(largest_of(right_), std::numeric_limits<double>::min());
+         std::max(usable * largest_of(right_), increment.rounding_force());
 }
 
 // The worst of the four residuals counts.
-bool Stiffness::solve_four_by_factors(std::span<const Quad> b, std::span<Quad> x) {
+bool Stiffness::solve_four_by_factors(const Increment& increment, std::span<const Quad> b,
+                                      std::span<Quad> x) {
   const bool earlier = factors_ == Factors::of_earlier_matrix;
+  const double floor = increment.rounding_force() / usable;
   Quad scale;
   largest_by_lane(b, scale);
   const auto defect = [&] {
@@ -331,8 +335,7 @@ bool Stiffness::solve_four_by_factors(std::span<const Quad> b, std::span<Quad> x
     largest_by_lane(check_, most);
     double error = 0;
     for (std::size_t k = 0; k < width; ++k) {
-      error = std::max(error,
-                       most.lane[k] / std::max(scale.lane[k], std::numeric_limits<double>::min()));
+      error = std::max(error, most.lane[k] / std::max(scale.lane[k], floor));
     }
     return error;
   };
@@ -351,9 +354,9 @@ bool Stiffness::solve_four_by_factors(std::span<const Quad> b, std::span<Quad> x
 
 bool Stiffness::solve_four(Increment& increment, std::span<const Quad> b, std::span<Quad> x) {
   resize_with_room(check_, b.size());
-  if (factors_ == Factors::of_earlier_matrix && solve_four_by_factors(b, x)) return true;
+  if (factors_ == Factors::of_earlier_matrix && solve_four_by_factors(increment, b, x)) return true;
   if (factors_ != Factors::of_matrix) factorise(increment);
-  if (factors_ == Factors::of_matrix && solve_four_by_factors(b, x)) return true;
+  if (factors_ == Factors::of_matrix && solve_four_by_factors(increment, b, x)) return true;
   const auto nodes = matrix_.nodes;
   const auto components = static_cast<std::size_t>(matrix_.components);
   right_column_.resize(components * nodes);

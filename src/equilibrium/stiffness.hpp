@@ -52,7 +52,8 @@ class Stiffness {
   void add_contacts();
   void hold_fixed_nodes(const Increment& increment);
   void add_masses(const Increment& increment, double factor);
-  bool solve_four_by_factors(std::span<const Quad> b, std::span<Quad> x);
+  bool solve_four_by_factors(const Increment& increment, std::span<const Quad> b,
+                             std::span<Quad> x);
   bool solve_one_by_pivoting(const Increment& increment, std::span<const double> b,
                              std::span<double> x);
 

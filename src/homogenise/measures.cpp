@@ -172,7 +172,7 @@ void measure(const Problem& problem, const Configuration& at, grainlaw_measure w
     case GRAINLAW_ANISOTROPY: {
       // The eigenvalues are 1/2 +- d: the fabric's trace is 1.
       const double d = half_difference(fabric(contacts));
-      *value = (0.5 + d) / (0.5 - d) - 1;
+      *value = (0.5 + d) / std::max(0.5 - d, 0.0) - 1;
       return;
     }
     case GRAINLAW_FABRIC_INTENSITY:

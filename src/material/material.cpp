@@ -140,7 +140,8 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
   request.tolerance = tolerance;
   Workspace workspace;
   const auto outcome = solve(request, workspace);
-  if (outcome.status == GRAINLAW_CONTACTS_LOST) {
+  if (outcome.status == GRAINLAW_CONTACTS_LOST ||
+      (outcome.status == GRAINLAW_OK && !workspace.increment.bears())) {
     throw Error(GRAINLAW_CONTACTS_LOST,
                 "the packing has no contacts at F = I; expected one that carries stress");
   }

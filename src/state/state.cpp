@@ -171,6 +171,11 @@ grainlaw_status State::evaluate(const double* F, TangentKind kind, double* P, do
     return outcome.status;
   }
 
+  if (!w.increment.bears()) {
+    report.step_ratio = 0.5;
+    describe(report, grainlaw_status_text(GRAINLAW_CONTACTS_LOST));
+    return GRAINLAW_CONTACTS_LOST;
+  }
   const auto stress = piola_stress(w.increment);
   std::array<double, 16> tangent{};
   if (kind == TangentKind::exact && outcome.sensitivities) {

@@ -65,7 +65,10 @@ TEST(objectivity, holds_for_the_history_after_a_rotated_increment) {
 }
 
 TEST(objectivity, pure_rotation_turns_the_initial_stress) {
-  for (const auto& description : descriptions()) {
+  // Every increment may leave a tolerance's worth of residual; here it is solved to rounding.
+  constexpr double to_rounding = 1e-13;
+  for (auto description : descriptions()) {
+    description.solver.tolerance = to_rounding;
     const auto material = make_material(description);
     const auto& s = material->initial.stress;
     const Tensor initial{s[0], s[1], s[2], s[3]};
@@ -100,7 +103,7 @@ TEST(objectivity, cauchy_stress_is_symmetric_at_equilibrium) {
 }
 
 TEST(objectivity, locked_particles_hold_moments) {
-  State state(make_material(describe(small_packing(), locked_law())));
+  State state(make_material(describe(reference_packing(), locked_law())));
   const Evaluation at = evaluate(state, increments[1]);
   ASSERT_EQ(at.status, GRAINLAW_OK);
   EXPECT_GT(asymmetry(at.stress, increments[1]), 1e-3);

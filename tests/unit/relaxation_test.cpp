@@ -5,6 +5,7 @@
 #include "support.hpp"
 
 #include <functional>
+#include <limits>
 
 namespace grainlaw::test {
 namespace {
@@ -75,11 +76,44 @@ TEST(relaxation, every_way_reaches_the_same_frictionless_equilibrium) {
   }
 }
 
+// Every disc is held: by three contacts or more, none of them marginal. A disc that rattles has no
+// equilibrium of its own and ends where the way leads it.
+bool nothing_rattles(const Packing& packing) {
+  constexpr double marginal = 1e-3;  // of the mean normal force
+  const State state(make_material(describe(packing, smooth_law())));
+  const auto views = contact_views(state.material().problem(), state.committed());
+  std::vector<int> held(packing.size(), 0);
+  double mean = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& view : views) {
+    ++held[static_cast<std::size_t>(view.i)];
+    ++held[static_cast<std::size_t>(view.j)];
+    mean += view.normal_force / static_cast<double>(views.size());
+    least = std::min(least, view.normal_force);
+  }
+  return least > marginal * mean && *std::min_element(held.begin(), held.end()) >= 3;
+}
+
+// Compressed until the discs overlap by some percent, which leaves no room to rattle in nearly every
+// packing; the first of them.
+Packing firm_packing() {
+  GeneratorOptions options;
+  options.count = 80;
+  options.pressure = 2e6;
+  for (options.seed = 1; options.seed < 20; ++options.seed) {
+    Packing packing = consolidate(options, smooth_law());
+    if (nothing_rattles(packing)) return packing;
+  }
+  ADD_FAILURE() << "no packing without rattlers";
+  return small_packing();
+}
+
 TEST(relaxation, every_way_reaches_the_same_equilibrium_without_slip) {
   ContactLaw law = rough_law();
   law.friction = 1e6;
+  const Packing packing = firm_packing();
   for (const auto boundary : {BoundaryType::periodic_cell, BoundaryType::frame_p}) {
-    const auto material = make_material(describe(small_packing(), law, boundary));
+    const auto material = make_material(describe(packing, law, boundary));
     State state(material);
     const Evaluation chain = evaluate(state, elastic_increment);
     EXPECT_EQ(chain.report.sliding, 0);
@@ -91,7 +125,7 @@ TEST(relaxation, every_way_reaches_the_same_equilibrium_without_slip) {
     // increment.
     for (const Named& named : ways_of_advancing_history()) {
       const Tensor stress = stress_by(named, *material, elastic_increment);
-      EXPECT_LE(relative_difference(stress, chain.stress), 1e-5) << named.name;
+      EXPECT_LE(relative_difference(stress, chain.stress), 1e-6) << named.name;
     }
   }
 }
@@ -188,15 +222,23 @@ double energy_error(std::uint64_t seed, int increments) {
   return (work - (measure(state, GRAINLAW_ELASTIC_ENERGY) - stored) - dissipated) / dissipated;
 }
 
-TEST(relaxation, energy_balances_over_a_cycle_to_first_order_of_the_increment) {
-  for (const std::uint64_t seed : {1, 2}) {
-    const double coarse = std::abs(energy_error(seed, 20));
-    const double medium = std::abs(energy_error(seed, 40));
-    const double fine = std::abs(energy_error(seed, 80));
-    EXPECT_LT(coarse, 0.02);
-    EXPECT_LT(medium, 0.6 * coarse);
-    EXPECT_LT(fine, 0.6 * medium);
+// The sum over some packings: in a single one the error may change sign as increments shrink.
+double energy_error(int increments) {
+  double sum = 0;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const double error = std::abs(energy_error(seed, increments));
+    EXPECT_LT(error, 0.02);
+    sum += error;
   }
+  return sum;
+}
+
+TEST(relaxation, energy_balances_over_a_cycle_to_first_order_of_the_increment) {
+  const double coarse = energy_error(40);
+  const double medium = energy_error(80);
+  const double fine = energy_error(160);
+  EXPECT_LT(medium, 0.6 * coarse);
+  EXPECT_LT(fine, 0.6 * medium);
 }
 
 TEST(relaxation, sliding_contacts_are_those_at_the_friction_limit) {

@@ -4,59 +4,72 @@
 namespace grainlaw::test {
 namespace {
 
+constexpr double strain = 1e-3;
+
+Tensor sheared(double share) { return {1, strain * share, 0, 1 - 0.3 * strain * share}; }
+
 MaterialDescription servo(double inheritance) {
   MaterialDescription description =
-      describe(small_packing(60), rough_law(), BoundaryType::frame_p, 1e-5);
+      describe(reference_packing(), rough_law(), BoundaryType::frame_p, 1e-4);
   description.solver.method = Method::published;
   description.boundary.method = BoundaryMethod::servo;
   description.boundary.servo.inheritance = inheritance;
-  description.boundary.servo.tolerance = 1e-7;
+  description.boundary.servo.tolerance = 1e-6;
   return description;
 }
 
 // Friction history advanced at every step, as by the servo.
-MaterialDescription direct() {
+MaterialDescription direct(Method method) {
   MaterialDescription description =
-      describe(small_packing(60), rough_law(), BoundaryType::frame_p, 1e-6);
-  description.solver.method = Method::advancing;
+      describe(reference_packing(), rough_law(), BoundaryType::frame_p, 1e-4);
+  description.solver.method = method;
   return description;
 }
 
-constexpr double strain = 4e-3;
-
-Tensor sheared(double share) { return {1, strain * share, 0, 1 - 0.3 * strain * share}; }
-
-// Relative difference of P at the end of the path in this many increments.
-double difference(double inheritance, int increments) {
-  State by_servo(make_material(servo(inheritance)));
-  State by_relaxation(make_material(direct()));
-  double last = 1;
+// P at the end of the path in this many increments.
+Tensor stress_after(int increments, const MaterialDescription& description) {
+  State state(make_material(description));
+  const bool by_servo = description.boundary.method == BoundaryMethod::servo;
+  Tensor stress{};
   for (int k = 1; k <= increments; ++k) {
-    const Tensor F = sheared(static_cast<double>(k) / increments);
-    const Evaluation a = advance(by_servo, F);
-    const Evaluation b = advance(by_relaxation, F);
-    EXPECT_GT(a.report.servo_corrections, 0);
-    EXPECT_EQ(b.report.servo_corrections, 0);
-    EXPECT_EQ(a.report.history_advanced, 1);
-    EXPECT_LT(a.report.residual, 1e-3);
-    last = relative_difference(a.stress, b.stress);
+    const Evaluation at = advance(state, sheared(static_cast<double>(k) / increments));
+    EXPECT_EQ(at.report.servo_corrections > 0, by_servo);
+    EXPECT_EQ(at.report.history_advanced, 1);
+    EXPECT_LT(at.report.residual, 2e-3);
+    stress = at.stress;
   }
-  return last;
+  return stress;
 }
 
-TEST(servo, meets_the_direct_relaxation) { EXPECT_LE(difference(1, 4), 1e-3); }
+// Relative difference of the servo's P from that of the direct relaxation.
+double difference(double inheritance, int increments, Method method = Method::advancing) {
+  return relative_difference(stress_after(increments, servo(inheritance)),
+                             stress_after(increments, direct(method)));
+}
 
-TEST(servo, meets_it_more_closely_with_smaller_increments) { EXPECT_LE(difference(1, 16), 3e-4); }
+TEST(servo, meets_the_direct_relaxation_in_proportion_to_the_increment) {
+  // They slide contacts in another order; how far that matters falls with the increment.
+  double last = difference(1, 1);
+  for (const int increments : {2, 4}) {
+    const double next = difference(1, increments);
+    EXPECT_LE(next, 0.55 * last);
+    last = next;
+  }
+  EXPECT_LE(last, 2e-4);
+}
+
+TEST(servo, meets_the_direct_relaxation_that_steps_as_it_does) {
+  EXPECT_LE(difference(1, 4, Method::published), 1e-4);
+}
 
 TEST(servo, without_inheritance_stays_off_by_the_friction_of_starting_over) {
   // Every increment puts the boundary back to F X and slides it to its fluctuation again; the
-  // history keeps what slid on the way, whatever the increment.
-  const double coarse = difference(0, 4);
-  EXPECT_LE(coarse, 1e-2);
-  EXPECT_GT(coarse, 5e-3);
-  const double fine = difference(0, 12);
-  EXPECT_LE(fine, 1e-2);
-  EXPECT_GT(fine, 5e-3);
+  // history keeps what slid on the way, and smaller increments start over more often.
+  const double coarse = difference(0, 2);
+  const double fine = difference(0, 8);
+  EXPECT_GT(fine, 1.1 * coarse);
+  EXPECT_LE(fine, 2 * coarse);
+  EXPECT_GT(fine, 5 * difference(1, 8));
 }
 
 TEST(servo, with_and_without_inheritance_agrees_in_the_first_increment) {

@@ -41,18 +41,57 @@ std::string stroke(const Curve& curve) {
                      curve.stroke == Stroke::dashed ? "(8,5)" : "solid");
 }
 
+std::string style(const Curve& curve) {
+  const bool line = curve.stroke != Stroke::none;
+  if (curve.marker == 0) return "lines " + stroke(curve);
+  return fmt::format("{} {} pt {} ps 1", line ? "linespoints" : "points",
+                     line ? stroke(curve) : fmt::format("lc rgb '{}' lw 1.8", curve.colour),
+                     curve.marker);
+}
+
 std::string plot_command(const Panel& panel, std::size_t number) {
   std::vector<std::string> items;
   for (std::size_t c = 0; c < panel.curves.size(); ++c) {
     const Curve& curve = panel.curves[c];
-    items.push_back(fmt::format("$p{}c{} with lines {} {}", number, c, stroke(curve),
+    items.push_back(fmt::format("$p{}c{} with {} {}", number, c, style(curve),
                                 curve.title.empty() ? "notitle" : "title " + quoted(curve.title)));
   }
   return fmt::format("plot {}\n", fmt::join(items, ", "));
 }
 
+// Powers of ten where plain numbers would be too long to read.
+std::string log_format(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return values.empty() || (*low >= 1e-2 && *high <= 1e5) ? "%g" : "10^{%T}";
+}
+
+std::string log_commands(const Figure& figure, const Panel& panel) {
+  std::vector<double> ys;
+  for (const Curve& curve : panel.curves) ys.insert(ys.end(), curve.y.begin(), curve.y.end());
+  return std::string(figure.logarithmic ? "set logscale x\n" : "unset logscale x\n") +
+         (panel.logarithmic ? "set logscale y\nset format y '" + log_format(ys) + "'\n"
+                            : std::string("unset logscale y\nset format y '% h'\n"));
+}
+
+// Logarithmic abscissae of all panels, with room for the markers at the ends.
+std::string common_range(const Figure& figure) {
+  constexpr double room = 1.25;
+  double low = std::numeric_limits<double>::infinity();
+  double high = 0;
+  for (const Panel& panel : figure.panels)
+    for (const Curve& curve : panel.curves)
+      for (const double x : curve.x) {
+        low = std::min(low, x);
+        high = std::max(high, x);
+      }
+  if (high <= 0) return "";
+  return fmt::format("set xrange [{}:{}]\n", low / room, high * room);
+}
+
 // Gnuplot's own range, or one around a constant, of which it would complain.
 std::string range_command(const Panel& panel) {
+  if (panel.logarithmic && panel.lowest > 0)
+    return fmt::format("set yrange [{}:*]\n", panel.lowest);
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   for (const Curve& curve : panel.curves)
@@ -99,13 +138,15 @@ bool run_gnuplot(const std::string& body, const std::filesystem::path& stem, int
 }
 
 bool draw(const Figure& figure, const std::filesystem::path& stem) {
-  constexpr double bottom = 0.085;
   constexpr double gap = 0.022;
   const double top = figure.title.empty() ? 0.975 : 0.935;
+  const double left = figure.logarithmic ? 0.135 : 0.115;  // powers of ten are wide
   const auto count = static_cast<double>(figure.panels.size());
   const double relative =
       std::accumulate(figure.panels.begin(), figure.panels.end(), 0.0,
                       [](double sum, const Panel& panel) { return sum + panel.height; });
+  const double height = 150 + 270 * relative;
+  const double bottom = std::max(0.085, 76 / height);  // room for the abscissa below a low picture
   const double unit = (top - bottom - gap * (count - 1)) / relative;
 
   std::string body = data_blocks(figure);
@@ -113,10 +154,12 @@ bool draw(const Figure& figure, const std::filesystem::path& stem) {
       "set multiplot\n"
       "set border 3 lc rgb '#555555'\nset tics out nomirror scale 0.6 tc rgb '#333333'\n"
       "set grid lc rgb '#e4e4e4' lw 1 dt solid\n"
-      "set lmargin at screen 0.115\nset rmargin at screen 0.97\nset autoscale xfix\n";
+      "set rmargin at screen 0.97\nset autoscale xfix\n";
+  body += fmt::format("set lmargin at screen {}\n", left);
+  if (figure.logarithmic) body += common_range(figure);
   if (!figure.title.empty())
-    body +=
-        fmt::format("set label 1 {} at screen 0.115,0.968 left noenhanced\n", quoted(figure.title));
+    body += fmt::format("set label 1 {} at screen {},0.968 left noenhanced\n", quoted(figure.title),
+                        left);
   double upper = top;
   for (std::size_t p = 0; p < figure.panels.size(); ++p) {
     const Panel& panel = figure.panels[p];
@@ -128,6 +171,7 @@ bool draw(const Figure& figure, const std::filesystem::path& stem) {
     body += titled(panel)
                 ? fmt::format("set key inside {} samplen 2.5 spacing 1.15\n", panel.legend)
                 : std::string("unset key\n");
+    body += log_commands(figure, panel);
     body += range_command(panel);
     const bool last = p + 1 == figure.panels.size();
     body += last ? fmt::format("set format x '%g'\nset xlabel {}\n", quoted(figure.abscissa))
@@ -136,7 +180,7 @@ bool draw(const Figure& figure, const std::filesystem::path& stem) {
     upper = lower - gap;
   }
   body += "unset multiplot\n";
-  return run_gnuplot(body, stem, 900, static_cast<int>(150 + 270 * relative));
+  return run_gnuplot(body, stem, 900, static_cast<int>(height));
 }
 
 }  // namespace verification

@@ -7,7 +7,7 @@
 
 namespace verification {
 
-enum class Stroke { solid, dashed, thin };
+enum class Stroke { solid, dashed, thin, none };
 
 struct Curve {
   std::string title;  // "" : not in the legend
@@ -15,6 +15,7 @@ struct Curve {
   std::vector<double> y;
   std::string colour = "#0072b2";
   Stroke stroke = Stroke::solid;
+  int marker = 0;  // gnuplot's point type at every point; 0: none
 };
 
 struct Panel {
@@ -22,12 +23,15 @@ struct Panel {
   std::vector<Curve> curves;
   double height = 1;                 // relative to the other panels
   std::string legend = "top right";  // in gnuplot's words
+  bool logarithmic = false;          // ordinate
+  double lowest = 0;                 // lower end of a logarithmic ordinate; 0: of the data
 };
 
 struct Figure {
   std::string title;
   std::string abscissa;  // with its unit
   std::vector<Panel> panels;
+  bool logarithmic = false;  // abscissa
 };
 
 // Colours that stay apart for colour-blind readers (Okabe and Ito).
@@ -38,6 +42,8 @@ inline constexpr const char* blue = "#0072b2";
 inline constexpr const char* orange = "#d55e00";
 inline constexpr const char* green = "#009e73";
 inline constexpr const char* purple = "#cc79a7";
+inline constexpr const char* sky = "#56b4e9";
+inline constexpr const char* amber = "#e69f00";
 }  // namespace colour
 
 // Writes stem.svg and stem.png. Without gnuplot says so on stderr and returns false; the tables are

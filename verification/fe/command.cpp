@@ -8,11 +8,51 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
+#include <ctime>
 #include <memory>
 #include <string>
 
 namespace verification {
 namespace {
+
+// What load steps cost: processor time of all threads, waiting ones included, and elapsed time.
+class CostMeter {
+ public:
+  // Step 0 is where the clock starts.
+  void add(const LoadStep& step, const PointField& points) {
+    const double cpu = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    const auto now = Clock::now();
+    if (step.record.step == 0) {
+      cpu_start_ = cpu;
+      start_ = now;
+      return;
+    }
+    ++steps_;
+    points_ = points.size();
+    evaluations_ += step.record.effort.evaluations;
+    cpu_ = cpu - cpu_start_;
+    elapsed_ = std::chrono::duration<double>(now - start_).count();
+  }
+
+  [[nodiscard]] std::string summary() const {
+    const double steps = std::max(steps_, 1);
+    return fmt::format(
+        "{} points: {:.2f} evaluations and {:.2f} core-milliseconds per point and load step; "
+        "{:.2f} s elapsed",
+        points_, evaluations_ / steps, 1e3 * cpu_ / (steps * static_cast<double>(points_)),
+        elapsed_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  int steps_ = 0;
+  std::size_t points_ = 1;
+  double evaluations_ = 0;                        // per point
+  double cpu_start_ = 0, cpu_ = 0, elapsed_ = 0;  // [s]
+  Clock::time_point start_;
+};
 
 void run_solve(const std::string& path, const std::string& directory) {
   const SceneFile file(path);
@@ -23,8 +63,10 @@ void run_solve(const std::string& path, const std::string& directory) {
   CsvWriter newton(stem.string() + "_newton.csv",
                    {"step[-]", "iteration[-]", "relative_residual[-]"});
   Progress progress(scene.name);
+  CostMeter cost;
   const auto observe = [&](const LoadStep& step, const PointField& points) {
     const int number = step.record.step;
+    cost.add(step, points);
     history.add(step.record);
     for (std::size_t k = 0; k < step.residuals.size(); ++k)
       newton.row({static_cast<double>(number), static_cast<double>(k), step.residuals[k]});
@@ -41,8 +83,8 @@ void run_solve(const std::string& path, const std::string& directory) {
     throw ComputationError(fmt::format("{}: {}", path, error.what()));
   }
   history.draw_figure(scene.abscissa, scene.name);
-  fmt::print("{}: {}\nwrote {}.csv, _newton.csv, .svg, .png\n", scene.name, history.summary(),
-             stem.string());
+  fmt::print("{}: {}\n{}\nwrote {}.csv, _newton.csv, .svg, .png\n", scene.name, history.summary(),
+             cost.summary(), stem.string());
 }
 
 }  // namespace

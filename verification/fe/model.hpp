@@ -36,6 +36,7 @@ class PointField {
   void commit();
   void revert();
 
+  [[nodiscard]] std::size_t size() const { return points_.size(); }
   // Mean over the points of the last evaluation; the effort since the last call of this function.
   Record record();
   [[nodiscard]] const grainlaw_state* state(std::size_t point) const {

@@ -104,6 +104,12 @@ void add_study_command(CLI::App& app) {
   add_servo_study(*study, options);
   add_ensemble_study(*study, options);
   add_timing_study(*study, options);
+  add_reach_study(*study, options);
+  add_start_study(*study, options);
+  add_error_study(*study, options);
+  add_features_study(*study, options);
+  add_batch_study(*study, options);
+  add_stability_study(*study, options);
 }
 
 }  // namespace verification

@@ -78,5 +78,11 @@ void add_servo_study(CLI::App& study, const std::shared_ptr<StudyOptions>& optio
 void add_ensemble_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_timing_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_drained_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
+void add_reach_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
+void add_start_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
+void add_error_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
+void add_features_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
+void add_batch_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
+void add_stability_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 
 }  // namespace verification

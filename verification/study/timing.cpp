@@ -1,22 +1,15 @@
 // `grainlaw study timing`: CPU time of one evaluation along the drained path.
 
-#include "study/study.hpp"
+#include "study/clock.hpp"
 #include "study/statistics.hpp"
+#include "study/study.hpp"
 
 #include "app/progress.hpp"
 
 #include <fmt/format.h>
 
-#include <ctime>
-
 namespace verification {
 namespace {
-
-double cpu_milliseconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
 
 struct Cost {
   double strain;
@@ -24,21 +17,6 @@ struct Cost {
   double with_exact;  // with the exact tangent [ms]
   grainlaw_report report;
 };
-
-// The increment once more, from the same committed state; the best of a few, since the machine may
-// be doing other things.
-double time_evaluation(const PointStep& step, unsigned want, grainlaw_report& report) {
-  constexpr int repetitions = 3;
-  double best = 0;
-  for (int k = 0; k < repetitions; ++k) {
-    const State copy = clone(step.state);
-    const double start = cpu_milliseconds();
-    report = evaluate(copy.get(), step.record.deformation, want).report;
-    const double spent = cpu_milliseconds() - start;
-    best = k == 0 ? spent : std::min(best, spent);
-  }
-  return best;
-}
 
 void summarise(Table& table, const std::vector<Cost>& costs, double limit) {
   std::vector<double> plain, exact, steps, factorisations;
@@ -65,10 +43,11 @@ void run_study(const StudyOptions& options, double tolerance, double axial) {
   const int steps = static_cast<int>(axial / increment + 0.5);
   driver.run(drained_segment(-axial, drained_pressure, steps), [&](const PointStep& step) {
     progress.update(step.fraction, "");
-    Cost cost{step.record.axial_strain(), 0, 0, {}};
-    cost.with_exact = time_evaluation(step, GRAINLAW_WANT_TANGENT_EXACT, cost.report);
-    cost.plain = time_evaluation(step, 0, cost.report);
-    costs.push_back(cost);
+    const Tensor& deformation = step.record.deformation;
+    const auto [plain, cpu] = time_evaluation(step.state, deformation, 0);
+    const double cpu_exact =
+        time_evaluation(step.state, deformation, GRAINLAW_WANT_TANGENT_EXACT).cpu;
+    costs.push_back({step.record.axial_strain(), cpu, cpu_exact, plain.report});
   });
   Table each("", {"axial_strain[-]", "cpu[ms]", "cpu_with_tangent[ms]", "relaxation_steps[-]",
                   "factorisations[-]"});

@@ -1,0 +1,39 @@
+// CPU time of the calling thread, and of one evaluation.
+#pragma once
+
+#include "app/library.hpp"
+
+#include <algorithm>
+#include <ctime>
+
+namespace verification {
+
+inline double cpu_milliseconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+struct TimedEvaluation {
+  Evaluation evaluation;
+  double cpu = 0;  // [ms]
+};
+
+// The increment from the committed state to `deformation`; the best of a few, since the machine may
+// be doing other things. One that takes longer than `long_enough` [ms] is not done again.
+inline TimedEvaluation time_evaluation(const grainlaw_state* state, const Tensor& deformation,
+                                       unsigned want, double long_enough = 100) {
+  constexpr int repetitions = 3;
+  TimedEvaluation result;
+  for (int k = 0; k < repetitions; ++k) {
+    const State copy = clone(state);
+    const double start = cpu_milliseconds();
+    result.evaluation = evaluate(copy.get(), deformation, want);
+    const double spent = cpu_milliseconds() - start;
+    result.cpu = k == 0 ? spent : std::min(result.cpu, spent);
+    if (result.cpu > long_enough) break;
+  }
+  return result;
+}
+
+}  // namespace verification

@@ -1,0 +1,38 @@
+// What a material costs along a path: processor time per evaluation and bytes of memory.
+#pragma once
+
+#include "app/library.hpp"
+#include "app/material.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace verification {
+
+// One increment: the F that are tried one after the other; the last one is committed.
+using Increment = std::vector<Tensor>;
+
+struct Usage {
+  unsigned want = 0;  // tangent
+  // What else is done with the trial of every increment.
+  std::function<void(grainlaw_state*)> also;
+};
+
+struct Cost {
+  double cpu = 0;               // per evaluation, with everything else that was asked for [ms]
+  double relaxation_steps = 0;  // per evaluation [-]
+  double factorisations = 0;    // per evaluation [-]
+  // Bytes that malloc has handed out, its own bookkeeping included; NaN where it does not say.
+  double state = 0;      // one state at the end of the path [bytes]
+  double workspace = 0;  // one thread that evaluates [bytes]
+  double material = 0;   // shared by all states: packing, equilibrium at F = I [bytes]
+  double saved = 0;      // grainlaw_state_save at the end of the path [bytes]
+  double particles = 0;  // [-]
+};
+
+// A new state is led along the path; the best of a few times. Throws ComputationError when an
+// increment fails.
+Cost measure_cost(const MaterialSource& source, const std::vector<Increment>& path,
+                  const Usage& usage);
+
+}  // namespace verification

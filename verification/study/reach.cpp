@@ -1,0 +1,158 @@
+// `grainlaw study reach`: how every increment of many paths reaches its equilibrium.
+
+#include "study/reach_packings.hpp"
+#include "study/reach_paths.hpp"
+#include "study/reach_tables.hpp"
+#include "study/study.hpp"
+
+#include "app/progress.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+namespace verification {
+namespace {
+
+using namespace reach;
+
+struct Arguments {
+  double tolerance = 1e-8;
+  double axial = 0.1;
+  double shear = 0.5;
+  std::string only = "all";
+  int count = 400;
+  long seed = 1;
+  int threads = 1;
+  SmallIncrements small;
+};
+
+// A path that is to be led, and how many increments it will have.
+struct Job {
+  Path path;
+  int steps = 0;
+  std::function<void(Path&, const Observer&)> lead;
+};
+
+constexpr double large_increment = 0.001;
+
+// The packing of the scenes.
+void add_reference_paths(std::vector<Job>& jobs, const StudyOptions& options,
+                         const Arguments& arguments) {
+  constexpr double stiffness = 300;  // of discs of 5 mm at 100 kPa
+  constexpr double friction = 0.5463024898437905;
+  const auto material =
+      std::make_shared<Material>(make_material(options.material(arguments.tolerance)));
+  const auto steps = [](double strain) { return static_cast<int>(strain / large_increment + 0.5); };
+  if (arguments.only != "shear")
+    jobs.push_back({{"yade400", "drained", stiffness, friction, {}, "", 1},
+                    steps(arguments.axial),
+                    [=, n = steps(arguments.axial)](Path& path, const Observer& observe) {
+                      lead_drained(path, *material, arguments.axial, n, observe);
+                    }});
+  if (arguments.only != "drained")
+    jobs.push_back({{"yade400", "shear", stiffness, friction, {}, "", 1},
+                    steps(arguments.shear),
+                    [=, n = steps(arguments.shear)](Path& path, const Observer& observe) {
+                      lead_shear(path, *material, arguments.shear, n, observe);
+                    }});
+}
+
+// Packings of five stiffnesses, each with five frictions.
+void add_grid_paths(std::vector<Job>& jobs, const StudyOptions& options,
+                    const Arguments& arguments) {
+  const PackingRecipe recipe{options.scene("pack400.toml"), options.output + "/reach_packings",
+                             arguments.count, arguments.seed, arguments.tolerance};
+  const SmallIncrements limits = arguments.small;
+  for (const double stiffness : {1e2, 1e3, 1e4, 1e5, 1e6}) {
+    fmt::print(stderr, "packing of {} discs at kn/p = {:.0e}\n", arguments.count, stiffness);
+    const std::string name = make_packing(recipe, stiffness);
+    for (const double friction : {0.0, 0.2, 0.4, 0.6, 0.8}) {
+      const auto material =
+          std::make_shared<Material>(read_packing(recipe, name, stiffness, friction));
+      for (const char* kind : {"drained", "shear"}) {
+        const bool drained = std::string_view(kind) == "drained";
+        jobs.push_back({{name, kind, stiffness, friction, {}, "", 1},
+                        limits.steps(stiffness),
+                        [=](Path& path, const Observer& observe) {
+                          if (drained)
+                            lead_small_drained(path, *material, limits, observe);
+                          else
+                            lead_small_shear(path, *material, limits, observe);
+                        }});
+      }
+    }
+  }
+}
+
+void lead_all(std::vector<Job>& jobs, int threads) {
+  double planned = 0;
+  for (const Job& job : jobs) planned += job.steps;
+  Progress progress("reach");
+  std::mutex showing;
+  double done = 0;
+  int not_direct = 0;
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t k = next++; k < jobs.size(); k = next++) {
+      Job& job = jobs[k];
+      job.lead(job.path, [&](const Increment& increment) {
+        const std::lock_guard lock(showing);
+        not_direct += increment.ending == Ending::direct ? 0 : 1;
+        progress.update(++done / planned,
+                        fmt::format("{} of {:.0f} increments not direct, {} {}", not_direct, done,
+                                    job.path.packing, job.path.kind));
+      });
+      const std::lock_guard lock(
+          showing);  // increments that a path did not come to are not awaited
+      planned -= job.steps - static_cast<double>(job.path.increments.size());
+    }
+  };
+  std::vector<std::jthread> pool;
+  for (int t = 1; t < threads; ++t) pool.emplace_back(work);
+  work();
+}
+
+void run_study(const StudyOptions& options, const Arguments& arguments) {
+  std::vector<Job> jobs;
+  if (arguments.only != "grid") add_reference_paths(jobs, options, arguments);
+  if (arguments.only == "grid" || arguments.only == "all") add_grid_paths(jobs, options, arguments);
+  lead_all(jobs, arguments.threads);
+  std::vector<Path> paths;
+  for (Job& job : jobs) paths.push_back(std::move(job.path));
+  tabulate(paths, arguments.tolerance, options.output);
+}
+
+}  // namespace
+
+void add_reach_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      study.add_subcommand("reach", "how every increment of many paths reaches equilibrium");
+  command->add_option("--tolerance", arguments->tolerance, "of the equilibria [-]")
+      ->capture_default_str();
+  command
+      ->add_option("--axial", arguments->axial, "axial strain of the drained path of yade400 [-]")
+      ->capture_default_str();
+  command->add_option("--shear", arguments->shear, "F12 of the shear path of yade400 [-]")
+      ->capture_default_str();
+  command->add_option("--only", arguments->only, "some of the paths; grid: packings of our own")
+      ->check(CLI::IsMember({"all", "drained", "shear", "grid"}))
+      ->capture_default_str();
+  command->add_option("--count", arguments->count, "discs of a packing of the grid [-]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--seed", arguments->seed, "of the packings of the grid [-]")
+      ->capture_default_str();
+  command->add_option("--increments", arguments->small.most, "of a path of the grid, at most [-]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--threads", arguments->threads, "paths led at once [-]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->callback([arguments, options] { run_study(*options, *arguments); });
+}
+
+}  // namespace verification

@@ -1,0 +1,228 @@
+#include "study/stability_packings.hpp"
+
+#include "app/csv.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+namespace verification::stability {
+namespace {
+
+constexpr double mean_radius = 5e-3;  // [m]
+constexpr double pressure = 100e3;    // [Pa]
+constexpr double thickness = 0.1;     // [m]
+// Beyond it the generator finds no packing at rest for some seeds, and for all beyond 1e5 [-].
+constexpr double stiffest_generated = 1e3;
+
+void describe(const Contact& contact, MaterialSource& source) {
+  source.changes.insert_or_assign("dimension", 2);
+  change(source, "contact", "law", "frictional");
+  change(source, "contact", "young", contact.young);
+  change(source, "contact", "ratio", contact.ratio);
+  change(source, "contact", "friction", contact.friction);
+  change(source, "contact", "rotation", contact.rotation);
+  change(source, "solver", "tolerance", contact.tolerance);
+}
+
+void write(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream stream(path);
+  stream << text;
+  stream.close();
+  if (!stream) throw ComputationError(fmt::format("{}: cannot be written", path.string()));
+}
+
+// Of files that the library or write_tiny wrote.
+TinyPacking read_tiny(const std::filesystem::path& prefix) {
+  const CsvTable particles = read_csv(prefix.string() + "_particles.csv");
+  const CsvTable cell = read_csv(prefix.string() + "_cell.csv");
+  TinyPacking packing;
+  for (std::size_t k = 0; k < particles.rows(); ++k)
+    packing.discs.push_back({particles["x"][k], particles["y"][k], particles["r"][k]});
+  packing.cell << cell["H00"][0], cell["H01"][0], cell["H10"][0], cell["H11"][0];
+  packing.thickness = cell["thickness"][0];
+  return packing;
+}
+
+void write_tiny(const std::filesystem::path& prefix, const TinyPacking& packing) {
+  std::string text = "id,x,y,r\n";
+  for (std::size_t k = 0; k < packing.discs.size(); ++k)
+    text += fmt::format("{},{},{},{}\n", k, packing.discs[k].x, packing.discs[k].y,
+                        packing.discs[k].radius);
+  write(prefix.string() + "_particles.csv", text);
+  const Tensor& h = packing.cell;
+  write(prefix.string() + "_cell.csv",
+        fmt::format("H00,H01,H10,H11,thickness\n{},{},{},{},{}\n", h(0, 0), h(0, 1), h(1, 0),
+                    h(1, 1), packing.thickness));
+}
+
+// Distance from a place to the nearest surface of a disc or of its images [m].
+double clearance(const TinyPacking& packing, double x, double y) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Disc& disc : packing.discs) {
+    Eigen::Vector2d way(disc.x - x, disc.y - y);
+    Eigen::Vector2d share = packing.cell.inverse() * way;
+    share = share.unaryExpr([](double s) { return s - std::round(s); });
+    way = packing.cell * share;
+    least = std::min(least, way.norm() - disc.radius);
+  }
+  return least;
+}
+
+// The generator asks for another seed where a packing does not come to rest.
+Material first_generated(Recipe recipe) {
+  constexpr long seeds_apart = 1000;
+  constexpr int trials = 5;
+  for (int trial = 1; trial < trials; ++trial, recipe.seed += seeds_apart) {
+    try {
+      return PackingStore::by_generator(recipe);
+    } catch (const ComputationError&) {
+    }
+  }
+  return PackingStore::by_generator(recipe);
+}
+
+double mean_pressure(const Recipe& recipe) {
+  return pressure * std::min(1.0, stiffest_generated / recipe.stiffness);
+}
+
+// Expands by isotropic stretches until the pressure is `target` to 1 % [Pa].
+void expand_to(grainlaw_state* state, double target) {
+  constexpr int most_evaluations = 1000;
+  constexpr double accuracy = 0.01;
+  double stretch = 1;
+  double step = 0;
+  for (int k = 0; k < most_evaluations; ++k) {
+    const Evaluation found =
+        evaluate(state, (stretch + step) * Tensor::Identity(), GRAINLAW_WANT_TANGENT_EXACT);
+    const double now = -0.5 * found.stress.trace() / (stretch + step);
+    if (found.status != GRAINLAW_OK || now < (1 - accuracy) * target) {
+      step *= 0.5;
+      continue;
+    }
+    check(grainlaw_commit(state), "committing");
+    stretch += step;
+    if (now < (1 + accuracy) * target) return;
+    const Tangent& a = found.tangent;
+    const double bulk = 0.5 * (a(0, 0) + a(0, 3) + a(3, 0) + a(3, 3));
+    step = std::min((now - target) / bulk, 0.3 * now / bulk);
+  }
+  throw ComputationError(fmt::format("unloading to {:g} Pa found no packing at rest", target));
+}
+
+}  // namespace
+
+double Recipe::young() const {
+  return std::min(stiffness, stiffest_generated) * pressure * thickness / mean_radius;
+}
+
+Material PackingStore::by_generator(const Recipe& recipe) {
+  const double smallest = 2 * mean_radius / (1 + recipe.size_ratio);
+  MaterialSource source;
+  describe({.young = recipe.stiffness * pressure * thickness / mean_radius, .tolerance = 1e-8},
+           source);
+  source.changes.insert_or_assign("thickness", thickness);
+  change(source, "packing", "generator", "compaction");
+  change(source, "packing", "count", recipe.count);
+  change(source, "packing", "radii", toml::array{smallest, smallest * recipe.size_ratio});
+  change(source, "packing", "seed", recipe.seed);
+  change(source, "packing", "pressure", pressure);
+  return make_material(source);
+}
+
+State PackingStore::unloaded(const Recipe& recipe) const {
+  Recipe softer = recipe;
+  softer.stiffness = std::max(recipe.stiffness / 10, stiffest_generated);
+  const double target = mean_pressure(softer) * softer.stiffness / recipe.stiffness;
+  State state = make_state(from_files(
+      ensure(softer), {.young = recipe.young(), .friction = 0, .tolerance = 1e-8}, true));
+  expand_to(state.get(), target);
+  return state;
+}
+
+std::string PackingStore::ensure(const Recipe& recipe) const {
+  const std::string name = fmt::format("discs{}_stiffness{:g}_sizes{:.3g}_seed{}", recipe.count,
+                                       recipe.stiffness, recipe.size_ratio, recipe.seed);
+  if (std::filesystem::exists(directory_ / (name + "_cell.csv"))) return name;
+  std::filesystem::create_directories(directory_);
+  const State state = recipe.stiffness > stiffest_generated ? unloaded(recipe)
+                                                            : make_state(first_generated(recipe));
+  check(grainlaw_state_write_packing(state.get(), (directory_ / name).string().c_str()),
+        "writing a packing");
+  return name;
+}
+
+Material PackingStore::from_files(const std::string& name, const Contact& contact,
+                                  bool with_forces) const {
+  MaterialSource source;
+  source.base = directory_;
+  describe(contact, source);
+  change(source, "packing", "particles", name + "_particles.csv");
+  change(source, "packing", "cell", name + "_cell.csv");
+  if (with_forces) change(source, "packing", "contacts", name + "_contacts.csv");
+  return make_material(source);
+}
+
+Material PackingStore::generated(const Recipe& recipe, Contact contact) const {
+  contact.young = recipe.young();
+  return from_files(ensure(recipe), contact, true);
+}
+
+Material PackingStore::with_rattler(const Recipe& recipe, Contact contact) const {
+  contact.young = recipe.young();
+  const std::string name = ensure(recipe);
+  TinyPacking packing = read_tiny(directory_ / name);
+  constexpr int places = 400;  // per side, in search of the widest void
+  Disc rattler;
+  for (int a = 0; a < places; ++a)
+    for (int b = 0; b < places; ++b) {
+      const Eigen::Vector2d at = packing.cell * Eigen::Vector2d(a, b) / places;
+      const double radius = 0.5 * clearance(packing, at.x(), at.y());
+      if (radius > rattler.radius) rattler = {at.x(), at.y(), radius};
+    }
+  packing.discs.push_back(rattler);
+  return tiny(name + "_rattler", packing, contact);
+}
+
+Material PackingStore::barely_touching(const Recipe& recipe, Contact contact) const {
+  contact.young = recipe.young();
+  const std::string name = ensure(recipe) + "_barely_touching";
+  const Material tight = from_files(ensure(recipe), contact, true);
+  const State state = make_state(tight);
+  double stretch = 1;
+  for (double step = 0.1 / recipe.stiffness; step > 1e-6 / recipe.stiffness;) {
+    const Tensor deformation = (stretch + step) * Tensor::Identity();
+    if (evaluate(state.get(), deformation, 0).status == GRAINLAW_OK) {
+      check(grainlaw_commit(state.get()), "committing");
+      stretch += step;
+    } else {
+      step *= 0.5;
+    }
+  }
+  check(grainlaw_state_write_packing(state.get(), (directory_ / name).string().c_str()),
+        "writing a packing");
+  return from_files(name, contact, true);
+}
+
+Material PackingStore::in_units(const Recipe& recipe, Contact contact, const Units& units) const {
+  contact.young = recipe.young() * units.modulus;
+  const std::string name = ensure(recipe);
+  TinyPacking packing = read_tiny(directory_ / name);
+  for (Disc& disc : packing.discs)
+    disc = {disc.x * units.length, disc.y * units.length, disc.radius * units.length};
+  packing.cell *= units.length;
+  packing.thickness *= units.length;
+  return tiny(fmt::format("{}_length{:g}", name, units.length), packing, contact);
+}
+
+Material PackingStore::tiny(const std::string& name, const TinyPacking& packing,
+                            const Contact& contact) const {
+  std::filesystem::create_directories(directory_);
+  write_tiny(directory_ / name, packing);
+  return from_files(name, contact, false);
+}
+
+}  // namespace verification::stability
