@@ -11,7 +11,7 @@ constexpr int most_subincrements = 64;
 
 // Relaxation hands over to Newton at this residual: Newton's reach shrinks with the packing's size.
 double switch_tolerance(std::size_t nodes) {
-  return 3e-4 * std::pow(std::min(1.0, 400.0 / static_cast<double>(nodes)), 1.66);
+  return 5e-4 * std::pow(std::min(1.0, 400.0 / static_cast<double>(nodes)), 1.66);
 }
 
 long relaxation_limit(std::size_t nodes) {
@@ -54,26 +54,29 @@ void start_iteration(const Request& request, double share, Increment& increment)
 }
 
 // One sub-increment: relaxation, then Newton; when Newton does not get there, both again from where
-// they are, the relaxation tighter. A round costs about as much in relaxation steps as in
-// factorisations.
+// they are, the relaxation longer and tighter, at last down to the target itself.
 bool solve_part(const Request& request, Workspace& w) {
-  constexpr int rounds = 5;
+  constexpr int rounds = 9;
+  constexpr int first_factorisations = 12;  // where Newton works at once, it works soon
   constexpr int most_factorisations = 50;
   constexpr double tighter = 0.3;
+  constexpr double much_tighter = 0.1;
   auto& increment = w.increment;
-  const long limit = relaxation_limit(increment.nodes());
   increment.refresh_masses();
   // Where rounding is all that is left, there is no equilibrium to speak of.
   constexpr double loosest = 1e-3;
   const double target =
       std::max(request.tolerance, std::min(increment.rounding_residual(), loosest));
   double hand_over = switch_tolerance(increment.nodes());
-  for (int round = 0; round < rounds; ++round, hand_over *= tighter) {
+  for (int round = 0; round < rounds; ++round) {
     const double tolerance = std::max(hand_over, target);
+    const long limit = (1 + round / 2) * relaxation_limit(increment.nodes());
     const bool relaxed = relax(increment, tolerance, limit, History::committed, w.relaxation);
     if (increment.touching == 0) return false;
     if (relaxed && tolerance == target) return true;
-    if (flow_newton(increment, target, most_factorisations, w.newton)) return true;
+    const int factorisations = round == 0 ? first_factorisations : most_factorisations;
+    if (flow_newton(increment, target, factorisations, w.newton)) return true;
+    hand_over *= round < 2 ? tighter : much_tighter;
   }
   return false;
 }
@@ -151,7 +154,7 @@ Outcome solve(const Request& request, Workspace& w) {
     if (request.options->method != Method::chain) {
       return attempt(solve_advancing(request, request.options->method, w, outcome));
     }
-    for (const int refinement : {1, 2, 4}) {
+    for (const int refinement : {1, 2, 4, 8}) {
       if (parts * refinement > most_subincrements) break;
       if (attempt(solve_parts(request, parts * refinement, w, outcome))) return true;
       if (w.increment.touching == 0) return false;
