@@ -70,7 +70,7 @@ bool solve_part(const Request& request, Workspace& w) {
   double hand_over = switch_tolerance(increment.nodes());
   for (int round = 0; round < rounds; ++round) {
     const double tolerance = std::max(hand_over, target);
-    const long limit = (1 + round / 2) * relaxation_limit(increment.nodes());
+    const long limit = (round < 5 ? 1 : 2) * relaxation_limit(increment.nodes());
     const bool relaxed = relax(increment, tolerance, limit, History::committed, w.relaxation);
     if (increment.touching == 0) return false;
     if (relaxed && tolerance == target) return true;
