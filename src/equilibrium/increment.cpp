@@ -193,7 +193,8 @@ double Increment::overlap(std::size_t c) const {
 }
 
 double Increment::chance_force() const {
-  return std::max(problem->tolerance * relative_scale(), rounding_force_);
+  constexpr double loosest = 1e-4;  // a coarse solution still has real contacts that carry little
+  return std::max(std::min(problem->tolerance, loosest) * relative_scale(), rounding_force_);
 }
 
 bool Increment::carries(std::size_t c) const {

@@ -30,15 +30,14 @@ double largest_move(const Increment& increment, std::span<const double> step) {
   return largest;
 }
 
-constexpr double first_shift = 1e-5;
+constexpr double first_shift = 1e-6;
 constexpr double least_shift = 1e-7;
 constexpr double largest_shift = 1e3;
 constexpr double acceptable = 0.9;  // of the residual after a step against before
 
 class FlowNewton {
  public:
-  FlowNewton(Increment& increment, NewtonMemory& memory)
-      : increment_(increment), memory_(memory) {
+  FlowNewton(Increment& increment, NewtonMemory& memory) : increment_(increment), memory_(memory) {
     memory.step.assign(increment.unknowns(), 0.0);
     increment.refresh_masses();
     keep_best();
@@ -113,7 +112,8 @@ class FlowNewton {
     const double smallest =
         *std::min_element(increment_.node_radius.begin(), increment_.node_radius.end());
     memory_.coordinates = increment_.coordinates;
-    const double cap = std::min(1.0, move_limit * smallest / largest_move(increment_, memory_.step));
+    const double cap =
+        std::min(1.0, move_limit * smallest / largest_move(increment_, memory_.step));
     double fraction = cap;
     for (int shortening = 0; shortening < 3; ++shortening, fraction *= 0.3) {
       increment_.coordinates = memory_.coordinates;

@@ -8,13 +8,15 @@ constexpr double strain = 1e-3;
 
 Tensor sheared(double share) { return {1, strain * share, 0, 1 - 0.3 * strain * share}; }
 
-MaterialDescription servo(double inheritance) {
+MaterialDescription servo(double inheritance, const Packing& packing = reference_packing(),
+                          double tolerance = 1e-4) {
   MaterialDescription description =
-      describe(reference_packing(), rough_law(), BoundaryType::frame_p, 1e-4);
+      describe(packing, rough_law(), BoundaryType::frame_p, tolerance);
   description.solver.method = Method::published;
   description.boundary.method = BoundaryMethod::servo;
   description.boundary.servo.inheritance = inheritance;
-  description.boundary.servo.tolerance = 1e-6;
+  description.boundary.servo.tolerance = 3e-7;
+  description.boundary.servo.max_corrections = 2000;
   return description;
 }
 
@@ -33,9 +35,10 @@ Tensor stress_after(int increments, const MaterialDescription& description) {
   Tensor stress{};
   for (int k = 1; k <= increments; ++k) {
     const Evaluation at = advance(state, sheared(static_cast<double>(k) / increments));
+    if (at.status != GRAINLAW_OK) break;
     EXPECT_EQ(at.report.servo_corrections > 0, by_servo);
     EXPECT_EQ(at.report.history_advanced, 1);
-    EXPECT_LT(at.report.residual, 2e-3);
+    EXPECT_LT(at.report.residual, 1e-3);
     stress = at.stress;
   }
   return stress;
@@ -74,10 +77,10 @@ TEST(servo, without_inheritance_stays_off_by_the_friction_of_starting_over) {
 
 TEST(servo, with_and_without_inheritance_agrees_in_the_first_increment) {
   // No fluctuation exists yet that could be inherited.
-  State with(make_material(servo(1)));
-  State without(make_material(servo(0)));
-  const Evaluation a = evaluate(with, sheared(0.25));
-  const Evaluation b = evaluate(without, sheared(0.25));
+  State with(make_material(servo(1, small_packing(60), 1e-5)));
+  State without(make_material(servo(0, small_packing(60), 1e-5)));
+  const Evaluation a = evaluate(with, sheared(1));
+  const Evaluation b = evaluate(without, sheared(1));
   ASSERT_EQ(a.status, GRAINLAW_OK);
   EXPECT_LE(relative_difference(b.stress, a.stress), 1e-12);
 }
@@ -85,10 +88,10 @@ TEST(servo, with_and_without_inheritance_agrees_in_the_first_increment) {
 TEST(servo, tolerance_bounds_the_boundary_residual) {
   double last = 1;
   for (const double tolerance : {1e-6, 1e-7, 1e-8}) {
-    MaterialDescription description = servo(1);
+    MaterialDescription description = servo(1, small_packing(60), 1e-5);
     description.boundary.servo.tolerance = tolerance;
     State state(make_material(description));
-    const Evaluation at = evaluate(state, sheared(0.25));
+    const Evaluation at = evaluate(state, sheared(1));
     ASSERT_EQ(at.status, GRAINLAW_OK);
     EXPECT_LT(at.report.residual, 0.2 * last);
     last = at.report.residual;
@@ -96,13 +99,13 @@ TEST(servo, tolerance_bounds_the_boundary_residual) {
 }
 
 TEST(servo, too_few_corrections_are_recoverable) {
-  MaterialDescription description = servo(1);
+  MaterialDescription description = servo(1, small_packing(60), 1e-5);
   description.boundary.servo.max_corrections = 5;
   State state(make_material(description));
   const Configuration before = state.committed();
   Tensor stress{1, 2, 3, 4};
   grainlaw_report report{};
-  const Tensor F = sheared(0.25);
+  const Tensor F = sheared(1);
   EXPECT_EQ(state.evaluate(F.data(), TangentKind::none, stress.data(), nullptr, report),
             GRAINLAW_NOT_CONVERGED);
   EXPECT_EQ(stress, (Tensor{1, 2, 3, 4}));

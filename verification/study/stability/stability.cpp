@@ -3,8 +3,8 @@
 #include "study/study.hpp"
 
 #include "app/progress.hpp"
-#include "study/stability_cases.hpp"
-#include "study/stability_isolated.hpp"
+#include "study/stability/cases.hpp"
+#include "study/stability/isolated.hpp"
 
 #include <fmt/format.h>
 

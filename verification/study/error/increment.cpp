@@ -1,7 +1,7 @@
 // Single increments from exact starts: what stopping the relaxation early costs, and saves.
 
 #include "study/clock.hpp"
-#include "study/error.hpp"
+#include "study/error/error.hpp"
 #include "study/statistics.hpp"
 
 #include "app/progress.hpp"

@@ -1,6 +1,6 @@
 // Pictures of `grainlaw study error`.
 
-#include "study/error.hpp"
+#include "study/error/error.hpp"
 
 #include "app/figure.hpp"
 
@@ -99,7 +99,7 @@ void draw_paths(const StudyOptions& options, const std::vector<PathRow>& rows) {
                 true};
   for (const char* path : {"drained", "shear"}) {
     Panel panel{
-        fmt::format("{}: largest error of P [-]", path), {}, 1.5, "bottom left", true, 1e-5};
+        fmt::format("{}: largest error of P [-]", path), {}, 1.5, "bottom left", true, 1e-6};
     for (const Line& line : {Line{&direct, 1e-2, colour::grey, open_square},
                              {&direct, 1e-3, colour::sky, ring},
                              {&direct, 1e-4, colour::amber, open_triangle},

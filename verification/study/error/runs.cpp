@@ -1,7 +1,7 @@
 // Methods, paths and runs of `grainlaw study error`.
 
 #include "study/clock.hpp"
-#include "study/error.hpp"
+#include "study/error/error.hpp"
 
 #include <fmt/format.h>
 

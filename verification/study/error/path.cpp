@@ -1,6 +1,6 @@
 // Whole paths: error by increment size, tolerance and method, against CPU time.
 
-#include "study/error.hpp"
+#include "study/error/error.hpp"
 
 #include "app/progress.hpp"
 
@@ -13,7 +13,7 @@ namespace verification::error_study {
 namespace {
 
 // The frame serves only the servo, in large increments.
-constexpr int frame_coarser = 20;
+constexpr int frame_coarser = 10;
 
 struct Sweep {
   Method method;
@@ -60,9 +60,8 @@ std::vector<PathRow> study_paths(const StudyOptions& options, const std::vector<
       throw InputError(fmt::format("--reference {}: expected a multiple of {}",
                                    reference_increments, 2 * count));
   std::vector<PathRow> rows;
-  Table references(fmt::format("references at tolerance {:.0e} [-]; change when increments double",
-                               reference_tolerance),
-                   {"path", "method", "increments[-]", "increment[-]", "change[-]", "cpu[s]"});
+  Table references("references; change of P when their increments double",
+                   {"path", "method", "tolerance[-]", "increment[-]", "change[-]", "cpu[s]"});
   Table table(
       fmt::format("error along the path to {:g} %, largest |P - P_ref| / |P_ref|", 100 * path_end),
       {"path", "method", "tolerance[-]", "increment[-]", "error[-]", "cpu_path[ms]",

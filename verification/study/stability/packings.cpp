@@ -1,4 +1,4 @@
-#include "study/stability_packings.hpp"
+#include "study/stability/packings.hpp"
 
 #include "app/csv.hpp"
 

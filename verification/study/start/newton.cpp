@@ -1,4 +1,4 @@
-#include "study/start_newton.hpp"
+#include "study/start/newton.hpp"
 
 #include "study/clock.hpp"
 

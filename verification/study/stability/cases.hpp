@@ -1,8 +1,8 @@
 // What the stability study runs: one case per row of its table.
 #pragma once
 
-#include "study/stability_packings.hpp"
-#include "study/stability_walk.hpp"
+#include "study/stability/packings.hpp"
+#include "study/stability/walk.hpp"
 
 #include <functional>
 #include <string>

@@ -1,8 +1,8 @@
 // `grainlaw study reach`: how every increment of many paths reaches its equilibrium.
 
-#include "study/reach_packings.hpp"
-#include "study/reach_paths.hpp"
-#include "study/reach_tables.hpp"
+#include "study/reach/packings.hpp"
+#include "study/reach/paths.hpp"
+#include "study/reach/tables.hpp"
 #include "study/study.hpp"
 
 #include "app/progress.hpp"

@@ -1,7 +1,7 @@
 // YADE's cost of an increment against ours at equal error, and the bars of the drained path.
 
 #include "study/clock.hpp"
-#include "study/error.hpp"
+#include "study/error/error.hpp"
 #include "study/statistics.hpp"
 
 #include "app/progress.hpp"

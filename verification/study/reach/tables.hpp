@@ -1,7 +1,7 @@
 // What came of the increments: shares against the bars, cost, and every exception.
 #pragma once
 
-#include "study/reach_paths.hpp"
+#include "study/reach/paths.hpp"
 
 #include <filesystem>
 #include <vector>

@@ -1,7 +1,7 @@
 // CPU time per evaluation against the number of particles.
 
 #include "study/clock.hpp"
-#include "study/error.hpp"
+#include "study/error/error.hpp"
 #include "study/statistics.hpp"
 
 #include "app/progress.hpp"

@@ -1,4 +1,4 @@
-#include "study/stability_closed_forms.hpp"
+#include "study/stability/closed_forms.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // Packings of a few discs whose stress is known: lattices of equal discs, and columns.
 #pragma once
 
-#include "study/stability_packings.hpp"
-#include "study/stability_walk.hpp"
+#include "study/stability/packings.hpp"
+#include "study/stability/walk.hpp"
 
 #include <Eigen/Dense>
 

@@ -1,7 +1,7 @@
 // `grainlaw study start`: how many steps of the drained test Newton's method converges in, with
 // solver.start = "committed" and "trial", and how much P depends on the iterates with the second.
 
-#include "study/start_newton.hpp"
+#include "study/start/newton.hpp"
 #include "study/statistics.hpp"
 #include "study/study.hpp"
 

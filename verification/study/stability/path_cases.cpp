@@ -1,7 +1,7 @@
 // Extreme deformation: large, turning, cyclic, random, in large steps, to no contacts and back.
 
-#include "study/stability_cases.hpp"
-#include "study/stability_paths.hpp"
+#include "study/stability/cases.hpp"
+#include "study/stability/paths.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // `grainlaw study features`: what every feature costs, in time and in memory, against the same
 // material and increments without it.
 
-#include "study/features_cost.hpp"
+#include "study/features/cost.hpp"
 #include "study/study.hpp"
 
 #include "app/output.hpp"

@@ -1,4 +1,4 @@
-#include "study/features_cost.hpp"
+#include "study/features/cost.hpp"
 
 #include "study/clock.hpp"
 

@@ -1,7 +1,7 @@
 // Extreme contacts: stiff, soft, slippery, rough, and discs of very different sizes.
 
-#include "study/stability_cases.hpp"
-#include "study/stability_paths.hpp"
+#include "study/stability/cases.hpp"
+#include "study/stability/paths.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "study/reach_paths.hpp"
+#include "study/reach/paths.hpp"
 
 #include "study/clock.hpp"
 #include "study/study.hpp"

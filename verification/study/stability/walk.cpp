@@ -1,4 +1,4 @@
-#include "study/stability_walk.hpp"
+#include "study/stability/walk.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "study/reach_tables.hpp"
+#include "study/reach/tables.hpp"
 
 #include "study/statistics.hpp"
 #include "study/study.hpp"

@@ -1,8 +1,8 @@
 // Cases in which P is known: closed forms, a rattler that must not matter, and units.
 
-#include "study/stability_cases.hpp"
-#include "study/stability_closed_forms.hpp"
-#include "study/stability_paths.hpp"
+#include "study/stability/cases.hpp"
+#include "study/stability/closed_forms.hpp"
+#include "study/stability/paths.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "study/reach_packings.hpp"
+#include "study/reach/packings.hpp"
 
 #include "app/material.hpp"
 

@@ -1,4 +1,4 @@
-#include "study/stability_paths.hpp"
+#include "study/stability/paths.hpp"
 
 #include <cmath>
 #include <numbers>

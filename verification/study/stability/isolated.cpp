@@ -1,4 +1,4 @@
-#include "study/stability_isolated.hpp"
+#include "study/stability/isolated.hpp"
 
 #include "app/library.hpp"
 

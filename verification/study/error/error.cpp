@@ -1,7 +1,7 @@
 // `grainlaw study error`: error of P against CPU time, by tolerance, increment, method, tangent and
 // number of particles, beside YADE.
 
-#include "study/error.hpp"
+#include "study/error/error.hpp"
 
 #include <algorithm>
 
@@ -12,7 +12,7 @@ const std::vector<std::string> all_parts{"increments", "paths", "numbers"};
 
 struct Arguments {
   std::vector<std::string> parts = all_parts;
-  int reference_increments = 8000;
+  int reference_increments = 4000;
   int largest_count = 6400;
 };
 

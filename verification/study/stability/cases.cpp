@@ -1,4 +1,4 @@
-#include "study/stability_cases.hpp"
+#include "study/stability/cases.hpp"
 
 #include <algorithm>
 #include <utility>
