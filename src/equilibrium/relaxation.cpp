@@ -134,7 +134,8 @@ bool Relaxation::run(double tolerance, long steps) {
   constexpr long window = 100;  // steps after which the floor is reviewed
   increment_.load_records();
   refresh();
-  update();
+  increment_.update_forces();
+  if (increment_.residual_norm() < tolerance) return true;
   for (const long last = steps_ + steps;;) {
     step();
     update();
