@@ -186,7 +186,7 @@ class Compaction {
     std::copy_n(increment.coordinates.begin(), packing.position.size(), packing.position.begin());
     for (std::size_t c = 0; c < increment.contacts.size(); ++c) {
       const auto point = contact_point(increment.contacts, c, increment.coordinates, packing.size(),
-                                       increment.cell, law_);
+                                       law_);
       if (point.status == ContactStatus::open) continue;
       const auto& pair = increment.pairs[c];
       const double t = point.tangential_force;

@@ -116,6 +116,24 @@ GRAINLAW_INLINE void put_records(const Lanes<width>& columns_x, const Lanes<widt
   }
 }
 
+// A sum over contacts by their places in a group, so that it has the same bits for any width.
+template <std::size_t width>
+struct GroupSum {
+  static constexpr std::size_t parts = ContactList::group / width;
+  Lanes<width> part[parts] = {};
+
+  GRAINLAW_INLINE void add(std::size_t c, const Lanes<width>& value) {
+    part[c / width % parts] += value;
+  }
+  GRAINLAW_INLINE double total() const {
+    double sum = 0;
+    for (const auto& lanes : part) {
+      for (std::size_t k = 0; k < width; ++k) sum += lanes[k];
+    }
+    return sum;
+  }
+};
+
 enum class Kinematics { frictionless, locked, rotating };
 
 struct LoopResult {
@@ -159,14 +177,13 @@ GRAINLAW_INLINE Lanes<width> find_normals(const ContactList& list, std::size_t f
 
 // `far` takes any turn by halving the angle, to round-off below 90 degrees and to 1e-7 at 180;
 // `advance` moves the start of the history here
-// and returns what was dissipated.
+// and adds up what was dissipated.
 template <std::size_t width, Kinematics kinematics, bool far, bool advance>
-GRAINLAW_INLINE Lanes<width> find_forces(double friction, ContactList& list, std::size_t first,
-                                         std::size_t size, const Block& at) {
+GRAINLAW_INLINE void find_forces(double friction, ContactList& list, std::size_t first,
+                                 std::size_t size, const Block& at, GroupSum<width>& dissipated) {
   using V = Lanes<width>;
   constexpr bool rotating = kinematics == Kinematics::rotating;
   const V zero{};
-  V dissipated{};
   const double* inverse_reach = list.inverse_reach.data() + first;
   const double* stiffness = list.tangential_stiffness.data() + first;
   double* start_x = list.start_x.data() + first;
@@ -205,14 +222,13 @@ GRAINLAW_INLINE Lanes<width> find_forces(double friction, ContactList& list, std
       // Sliding at ft, and what the spring gives up when the bound falls below its force.
       const V excess = largest(magnitude(start) - bound, zero);
       const V lost = (magnitude(ft * (trial - ft)) + 0.5 * excess * excess) / kt;
-      dissipated += kt > zero ? lost : zero;
+      dissipated.add(c, kt > zero ? lost : zero);
       store(start_x + c, x * inverse);
       store(start_y + c, y * inverse);
       if constexpr (rotating) store(start_roll + c, roll);
       store(start_force + c, ft);
     }
   }
-  return dissipated;
 }
 
 template <std::size_t width, Kinematics kinematics, bool far, bool advance>
@@ -220,7 +236,7 @@ GRAINLAW_INLINE LoopResult contact_loop(const Loop& loop) {
   using V = Lanes<width>;
   ContactList& list = *loop.list;
   V beyond{};
-  V dissipated{};
+  GroupSum<width> dissipated;
   Block at;
   for (std::size_t first = 0; first < list.i.size(); first += block) {
     const std::size_t size = std::min(block, list.i.size() - first);
@@ -237,11 +253,11 @@ GRAINLAW_INLINE LoopResult contact_loop(const Loop& loop) {
       }
     } else {
       beyond = largest(beyond, find_normals<width>(list, first, size, at));
-      dissipated += find_forces<width, kinematics, far, advance>(loop.friction, list, first, size,
-                                                                 at);
+      find_forces<width, kinematics, far, advance>(loop.friction, list, first, size, at,
+                                                   dissipated);
     }
   }
-  return {most(beyond), sum(dissipated)};
+  return {most(beyond), dissipated.total()};
 }
 
 // Records (kn, kn, kt d^2 / (R_i + R_j), 1) of the touching contacts.
@@ -251,7 +267,7 @@ GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
   ContactList& list = *loop.list;
   const V zero{};
   const V one = zero + 1.0;
-  V force{}, weight{}, touching{};
+  GroupSum<width> force, weight, touching;
   const bool weighted = !list.weight.empty();
   Block at;
   for (std::size_t first = 0; first < list.i.size(); first += block) {
@@ -266,14 +282,15 @@ GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
       const V kn = here ? load<width>(&list.normal_stiffness[first + c]) : zero;
       const V kt = here ? load<width>(&list.tangential_stiffness[first + c]) : zero;
       const V touches = here ? one : zero;
-      force += kn * overlap;
-      touching += touches;
-      if (weighted) weight += here ? load<width>(&list.weight[first + c]) : zero;
+      force.add(c, kn * overlap);
+      touching.add(c, touches);
+      if (weighted) weight.add(c, here ? load<width>(&list.weight[first + c]) : zero);
       put_records<width>(kn, kn, kt * square * load<width>(&list.inverse_reach[first + c]),
                          touches, &list.forces[first + c].x);
     }
   }
-  return {sum(force), weighted ? sum(weight) : sum(touching), static_cast<int>(sum(touching))};
+  return {force.total(), weighted ? weight.total() : touching.total(),
+          static_cast<int>(touching.total())};
 }
 
 #define GRAINLAW_LOOP(Result, name, loop_of, ...)                                  \
@@ -334,7 +351,7 @@ ContactTotals sum_stiffnesses(std::span<const ParticleRecord> particles, Contact
 
 ContactPoint contact_point(const ContactList& list, std::size_t c,
                            std::span<const double> coordinates, std::size_t particles,
-                           const std::array<double, 4>& /*cell*/, const ContactLaw& law) {
+                           const ContactLaw& law) {
   const double* x = coordinates.data();
   const double* y = x + particles;
   const auto p = static_cast<std::size_t>(list.i[c]);

@@ -46,7 +46,7 @@ struct ContactPoint {
 
 ContactPoint contact_point(const ContactList& list, std::size_t c,
                            std::span<const double> coordinates, std::size_t particles,
-                           const std::array<double, 4>& cell, const ContactLaw& law);
+                           const ContactLaw& law);
 
 // d(fn, ft, d ft) by (normal displacement, tangential displacement, lambda_i theta_i + lambda_j
 // theta_j) of the branch, 3 x 3 row-major; the first two rows are the force vector's components in

@@ -61,6 +61,7 @@ bool solve_part(const Request& request, Workspace& w) {
   constexpr int most_factorisations = 50;
   constexpr double tighter = 0.3;
   constexpr double much_tighter = 0.1;
+  constexpr double worth_newton = 0.1;  // a looser target is sooner reached by relaxation alone
   auto& increment = w.increment;
   increment.refresh_masses();
   // Where rounding is all that is left, there is no equilibrium to speak of.
@@ -68,6 +69,7 @@ bool solve_part(const Request& request, Workspace& w) {
   const double target =
       std::max(request.tolerance, std::min(increment.rounding_residual(), loosest));
   double hand_over = switch_tolerance(increment.nodes());
+  if (target > worth_newton * hand_over) hand_over = target;
   for (int round = 0; round < rounds; ++round) {
     const double tolerance = std::max(hand_over, target);
     const long limit = (round < 5 ? 1 : 2) * relaxation_limit(increment.nodes());

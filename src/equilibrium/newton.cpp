@@ -39,6 +39,7 @@ class FlowNewton {
  public:
   FlowNewton(Increment& increment, NewtonMemory& memory) : increment_(increment), memory_(memory) {
     memory.step.assign(increment.unknowns(), 0.0);
+    memory.coordinates.reserve(increment.coordinates.size());
     increment.refresh_masses();
     keep_best();
   }

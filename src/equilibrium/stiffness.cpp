@@ -128,13 +128,6 @@ GRAINLAW_CLONES void add_to(std::span<Quad> to, std::span<const Quad> values) {
 
 }  // namespace
 
-ContactMap contact_map(double nx, double ny, double lever) {
-  return {{-nx, ny, 0, -ny, -nx, 0, 0, 0, -lever},
-          {nx, -ny, 0, ny, nx, 0, 0, 0, lever - 1},
-          {-nx, -ny, 0, ny, -nx, 0, 0, 0, lever},
-          {nx, ny, 0, -ny, nx, 0, 0, 0, 1 - lever}};
-}
-
 void Stiffness::find_touching(const Increment& increment) {
   const auto& list = increment.contacts;
   const auto& node = increment.problem->space->node;
@@ -142,7 +135,7 @@ void Stiffness::find_touching(const Increment& increment) {
   touching_.clear();
   for (std::size_t c = 0; c < list.size(); ++c) {
     const auto point =
-        contact_point(list, c, increment.coordinates, increment.particles(), increment.cell, law);
+        contact_point(list, c, increment.coordinates, increment.particles(), law);
     if (point.status == ContactStatus::open) continue;
     touching_.push_back({c, static_cast<std::size_t>(node[static_cast<std::size_t>(list.i[c])]),
                          static_cast<std::size_t>(node[static_cast<std::size_t>(list.j[c])]),

@@ -72,12 +72,4 @@ class Stiffness {
   std::vector<double> right_column_, column_;
 };
 
-// How the generalised force of a contact acts: C_p of the particles i and j, so that the force and
-// moment on p are C_p (fn, ft, d ft); and B_p, so that (normal, tangential displacement, weighted
-// rotation) = sum_p B_p z_p. 3 x 3 row-major, local tangent t = (-n_y, n_x).
-struct ContactMap {
-  std::array<double, 9> force_i, force_j, motion_i, motion_j;
-};
-ContactMap contact_map(double normal_x, double normal_y, double lever_i);
-
 }  // namespace grainlaw

@@ -27,7 +27,7 @@ void for_each_contact(const Increment& increment, Visit&& visit) {
   for (std::size_t c = 0; c < increment.contacts.size(); ++c) {
     const auto point =
         contact_point(increment.contacts, c, increment.coordinates, increment.particles(),
-                      increment.cell, *increment.problem->law);
+                      *increment.problem->law);
     if (point.status == ContactStatus::open) continue;
     visit(c, point, pull_back(point.branch_x, point.branch_y));
   }

@@ -54,7 +54,7 @@ struct Discs {
     return advance_contacts(test::records(z, radius), law, list, sums);
   }
   [[nodiscard]] ContactPoint point(std::size_t c = 0) const {
-    return contact_point(list, c, z, size(), cell, law);
+    return contact_point(list, c, z, size(), law);
   }
 };
 

@@ -1,4 +1,5 @@
 // A rotation changes nothing in the packing: the stress turns with it.
+#include "firm_packing.hpp"
 #include "support.hpp"
 
 #include <numbers>
@@ -11,9 +12,9 @@ constexpr double angles[] = {0.01, 0.7, -1.5, 2.5, std::numbers::pi};
 const Tensor increments[] = {{1.0005, 2e-4, -1e-4, 0.999}, {1, 0.002, 0, 1}, {0.999, 0, 0, 0.999}};
 
 std::vector<MaterialDescription> descriptions() {
-  return {describe(small_packing(), rough_law()),
-          describe(small_packing(), rough_law(), BoundaryType::frame_p),
-          describe(small_packing(), locked_law()), describe(small_packing(), smooth_law())};
+  static const Packing packing = firm_packing();
+  return {describe(packing, rough_law()), describe(packing, rough_law(), BoundaryType::frame_p),
+          describe(packing, locked_law()), describe(packing, smooth_law())};
 }
 
 // sigma12 - sigma21, relative.

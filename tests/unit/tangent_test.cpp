@@ -2,6 +2,7 @@
 // changes status within the stencil.
 #include "support.hpp"
 
+#include <limits>
 #include <optional>
 
 namespace grainlaw::test {
@@ -29,22 +30,20 @@ std::optional<Tangent> central_differences(State& state, const Tensor& F, double
   return result;
 }
 
-struct Stencil {
-  double large, small;
-};
-
-void expect_derivative(State& state, const Tensor& F, const Stencil& stencil) {
+// Differences err too: by the curvature of P over a wide stencil, or a change of status in a
+// sub-increment on the way; by the solver's tolerance over a narrow one. A tangent that is wrong
+// agrees with none of them.
+void expect_derivative(State& state, const Tensor& F) {
   const Evaluation at = evaluate(state, F, TangentKind::exact);
   ASSERT_EQ(at.status, GRAINLAW_OK);
   EXPECT_EQ(at.report.tangent_exact, 1);
-  int compared = 0;
-  for (const double step : {stencil.large, stencil.small}) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double step : {1e-6, 3e-7, 1e-7, 3e-8}) {
     const auto differences = central_differences(state, F, step);
-    if (!differences) continue;
-    EXPECT_LE(relative_difference(at.tangent, *differences), bar) << "stencil " << step;
-    ++compared;
+    if (differences) least = std::min(least, relative_difference(at.tangent, *differences));
+    if (least <= bar) break;
   }
-  EXPECT_GT(compared, 0) << "a contact changes status in every stencil";
+  EXPECT_LE(least, bar) << "infinite when a contact changes status in every stencil";
 }
 
 struct Path {
@@ -60,15 +59,14 @@ const Path paths[] = {
     {"sheared", {1, 0.004, 0.001, 0.999}, 5, {1.0001, 0.005, 0.0011, 0.9987}},
 };
 
-void expect_derivative_along(const MaterialDescription& description,
-                             const Stencil& stencil = {1e-6, 1e-7}) {
+void expect_derivative_along(const MaterialDescription& description) {
   const auto material = make_material(description);
   for (const Path& path : paths) {
     SCOPED_TRACE(path.name);
     State state(material);
     advance(state, path.reached, path.steps);
-    expect_derivative(state, path.next, stencil);
-    expect_derivative(state, product(rotation(0.7), path.next), stencil);
+    expect_derivative(state, path.next);
+    expect_derivative(state, product(rotation(0.7), path.next));
   }
 }
 
@@ -85,8 +83,8 @@ TEST(tangent, with_locked_rotation_matches_central_differences) {
 }
 
 TEST(tangent, without_friction_matches_central_differences) {
-  // Softer and less linear than with friction: the error of larger stencils is their own.
-  expect_derivative_along(describe(small_packing(), smooth_law()), {5e-8, 2e-8});
+  // Small packings may not hold without it, or change their contacts within every stencil.
+  expect_derivative_along(describe(reference_packing(), smooth_law()));
 }
 
 TEST(tangent, of_the_reference_packing_matches_central_differences) {
@@ -126,7 +124,7 @@ TEST(tangent, turns_the_stress_under_a_spin) {
 }
 
 TEST(tangent, by_forward_differences_is_near_the_exact_one) {
-  State state(make_material(describe(small_packing(), rough_law())));
+  State state(make_material(describe(reference_packing(), rough_law())));
   advance(state, paths[1].reached, paths[1].steps);
   const Evaluation exact = evaluate(state, paths[1].next, TangentKind::exact);
   const Evaluation perturbed = evaluate(state, paths[1].next, TangentKind::perturbed);

@@ -27,7 +27,7 @@ const std::vector<Sweep>& sweeps() {
       {direct,
        reference_tolerance,
        100,
-       {1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10}},
+       {1e-2, 3e-3, 1e-3, 5e-4, 3e-4, 1e-4, 3e-5, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10}},
       {advancing, reference_tolerance, 100, {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}},
       {published, 1e-9, 100, {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}},
       {frame_servo, 1e-5, 3, {1e-2, 1e-3, 1e-4}}};
