@@ -61,7 +61,7 @@ bool solve_part(const Request& request, Workspace& w) {
   constexpr int most_factorisations = 50;
   constexpr double tighter = 0.3;
   constexpr double much_tighter = 0.1;
-  constexpr double worth_newton = 0.1;  // a looser target is sooner reached by relaxation alone
+  constexpr double worth_newton = 0.5;  // a looser target is sooner reached by relaxation alone
   auto& increment = w.increment;
   increment.refresh_masses();
   // Where rounding is all that is left, there is no equilibrium to speak of.
