@@ -61,7 +61,10 @@ void Table::write(const std::filesystem::path& path) const {
   stream << fmt::format("{}\n", fmt::join(columns_, ","));
   for (const auto& row : rows_) {
     std::vector<std::string> fields;
-    for (const Cell& cell : row) fields.push_back(cell.full);
+    for (const Cell& cell : row) {
+      fields.push_back(cell.full);
+      std::replace(fields.back().begin(), fields.back().end(), ',', ';');  // one field it stays
+    }
     stream << fmt::format("{}\n", fmt::join(fields, ","));
   }
   if (!stream) throw ComputationError(fmt::format("{}: cannot be written", path.string()));
