@@ -30,7 +30,7 @@ double largest_move(const Increment& increment, std::span<const double> step) {
   return largest;
 }
 
-constexpr double first_shift = 1e-6;
+constexpr double first_shift = 1e-5;
 constexpr double least_shift = 1e-7;
 constexpr double largest_shift = 1e3;
 constexpr double acceptable = 0.9;  // of the residual after a step against before
