@@ -84,7 +84,8 @@ void ContactSums::arrange(std::span<const std::int32_t> i, std::span<const std::
 
 void ContactSums::add_up(std::span<const ForceRecord> values, const ForceRecord& sign,
                          std::span<ForceRecord> sums) const {
-  Gather g{&values.data()->x, contact_.data(), node_.data(), &sums.data()->x, sign};
+  Gather g{values.empty() ? nullptr : &values.data()->x, contact_.data(), node_.data(),
+           &sums.data()->x, sign};
   for (const Run& run : runs_) gather(g, run.nodes, run.as_i, run.as_j);
 }
 
