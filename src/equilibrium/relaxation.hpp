@@ -28,9 +28,6 @@ class Relaxation {
   // there. The coordinates may be changed between two calls.
   bool run(double tolerance, long steps);
 
-  // Before the last step [-]; infinite when nothing touches or a number is not finite.
-  [[nodiscard]] double residual() const { return residual_; }
-
  private:
   void refresh();
   void update();
@@ -40,7 +37,7 @@ class Relaxation {
   Increment& increment_;
   History history_;
   RelaxationMemory& memory_;
-  double residual_ = 0;
+  double residual_ = 0;   // before the last step [-]; infinite: no contact, or not a finite number
   double frequency_ = 0;  // sqrt of the Rayleigh quotient of the velocity [1 / step]
   double floor_ = 0.1;    // of the damping
   long steps_ = 0;
