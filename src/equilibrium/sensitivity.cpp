@@ -1,7 +1,8 @@
 #include "equilibrium/sensitivity.hpp"
 
+#include "equilibrium/pull_back.hpp"
+#include "equilibrium/quad.hpp"
 #include "room.hpp"
-#include "simd.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,26 +10,9 @@
 
 namespace grainlaw {
 
-using simd::store;
-using Lanes = simd::Lanes<4>;  // of a quad
-constexpr std::size_t width = 4;
-GRAINLAW_INLINE Lanes load(const double* from) { return simd::load<4>(from); }
+using namespace quad;
 
 namespace {
-
-struct PullBack {
-  double a, b, c, d;
-  explicit PullBack(const std::array<double, 4>& f) {
-    const double det = f[0] * f[3] - f[1] * f[2];
-    a = f[3] / det;
-    b = -f[1] / det;
-    c = -f[2] / det;
-    d = f[0] / det;
-  }
-  [[nodiscard]] GRAINLAW_INLINE std::array<double, 2> operator()(double x, double y) const {
-    return {a * x + b * y, c * x + d * y};
-  }
-};
 
 // What all contacts share, and the arrays they write to.
 struct ContactLoop {

@@ -1,24 +1,11 @@
 #include "homogenise/stress.hpp"
 
 #include "contact/frictional.hpp"
+#include "equilibrium/pull_back.hpp"
 
 namespace grainlaw {
 
 namespace {
-
-struct PullBack {
-  double a, b, c, d;
-  explicit PullBack(const std::array<double, 4>& f) {
-    const double det = f[0] * f[3] - f[1] * f[2];
-    a = f[3] / det;
-    b = -f[1] / det;
-    c = -f[2] / det;
-    d = f[0] / det;
-  }
-  [[nodiscard]] std::array<double, 2> operator()(double x, double y) const {
-    return {a * x + b * y, c * x + d * y};
-  }
-};
 
 // Calls visit(contact, point, L) for every touching contact.
 template <class Visit>
