@@ -160,6 +160,24 @@ void Sensitivity::start_of_history(const Increment& increment, double start_shar
   }
 }
 
+bool Sensitivity::springs_start_determined(const Increment& increment,
+                                           std::span<const TouchingContact> touching) {
+  if (!increment.problem->law->tangential()) return true;
+  const auto& node = increment.problem->space->node;
+  resize_with_room(held_, increment.nodes());
+  std::fill(held_.begin(), held_.end(), 0);
+  for (const auto& contact : increment.history) {
+    held_[static_cast<std::size_t>(node[static_cast<std::size_t>(contact.i)])] = 1;
+    held_[static_cast<std::size_t>(node[static_cast<std::size_t>(contact.j)])] = 1;
+  }
+  for (const auto& contact : touching) {
+    if (contact.point.status != ContactStatus::sticking) continue;
+    if (held_[contact.node_i] == 1 && held_[contact.node_j] == 1) continue;
+    if (increment.carries(contact.index)) return false;
+  }
+  return true;
+}
+
 bool Sensitivity::solve(Increment& increment, double share, double start_share,
                         Stiffness& stiffness) {
   if (carried_) start_of_history(increment, start_share);
@@ -168,6 +186,7 @@ bool Sensitivity::solve(Increment& increment, double share, double start_share,
   const bool rotating = increment.problem->law->rotating();
   stiffness.assemble(increment, 0);
   const auto touching = stiffness.touching();
+  if (carried_ && !springs_start_determined(increment, touching)) determined_ = false;
   const ContactLoop loop{touching,
                          PullBack(increment.deformation),
                          share,

@@ -14,11 +14,18 @@ namespace grainlaw {
 // at the end of the increment; a sub-increment ends at a share of the way, linear in F.
 class Sensitivity {
  public:
-  void reset() { carried_ = false; }
+  void reset() {
+    carried_ = false;
+    determined_ = true;
+  }
 
   // Solve K dz = dr/dF at a converged sub-increment that ends at `share` and began at
   // `start_share`. False when the stiffness is singular.
   bool solve(Increment& increment, double share, double start_share, Stiffness& stiffness);
+
+  // False when a spring started where a rattler had been left by an earlier sub-increment:
+  // equilibrium does not tell where that is, nor how it changes with F.
+  [[nodiscard]] bool determined() const { return determined_; }
 
   // Keep what the next sub-increment's history depends on; call before
   // Increment::advance_history().
@@ -44,14 +51,18 @@ class Sensitivity {
 
  private:
   void start_of_history(const Increment& increment, double start_share);
+  [[nodiscard]] bool springs_start_determined(const Increment& increment,
+                                              std::span<const TouchingContact> touching);
 
   std::vector<Quad> motion_, right_;  // per node and component
   std::vector<Changes> changes_;      // per touching contact
   std::vector<std::int32_t> place_;   // of a listed contact among them, -1 when open
   bool carried_ = false;
+  bool determined_ = true;
   std::vector<Quad> carried_motion_;            // at the start of the history
   std::vector<Quad> carried_force_;             // per contact of increment.history
   std::vector<Quad> start_turn_, start_force_;  // per listed contact
+  std::vector<char> held_;                      // per node, at the start of the history
 };
 
 }  // namespace grainlaw

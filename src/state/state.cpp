@@ -180,7 +180,7 @@ grainlaw_status State::evaluate(const double* F, TangentKind kind, double* P, do
   std::array<double, 16> tangent{};
   if (kind == TangentKind::exact && outcome.sensitivities) {
     tangent = condensed_tangent(w.increment, w.sensitivity);
-    report.tangent_exact = outcome.history_advanced ? 0 : 1;
+    report.tangent_exact = !outcome.history_advanced && w.sensitivity.determined() ? 1 : 0;
   } else if (kind == TangentKind::exact || kind == TangentKind::elastic) {
     tangent = elastic_tangent(w.increment);
     if (kind == TangentKind::exact) {
