@@ -60,7 +60,7 @@ struct Discs {
 
 // Radii 1 and 3, overlap 0.1 along x, unturned.
 Discs pair(const ContactLaw& law = rough(), double committed = 0) {
-  return {law, {1, 3}, {0, 3.9, 0, 0, 0, 0}, {{0, 1, {}, false, committed}}};
+  return {law, {1, 3}, {0, 3.9, 0, 0, 0, 0}, {{0, 1, {}, false, false, committed}}};
 }
 
 // Turn everything about the origin.
