@@ -42,6 +42,7 @@ class Compaction {
   Compaction(const GeneratorOptions& options, const ContactLaw& law)
       : options_(options), packing_(scatter(options)), law_(law) {
     law_.friction = options.friction;
+    if (law_.bonds()) law_.kind = LawKind::frictional;  // bonds come with F = I
     space_ = make_boundary_space(packing_, {});
     const double n = static_cast<double>(packing_.size());
     double radius = 0;
@@ -53,6 +54,11 @@ class Compaction {
     const double stress = options.void_ratio > 0
                               ? 1e-4 * law.stiffness(radius, radius) / packing_.thickness
                               : options.pressure;
+    if (law_.hertzian()) {
+      const double force = stress * packing_.thickness * solid_ / (2 * n * radius);
+      law_.typical_overlap =
+          std::pow(1.5 * force / law_.coefficient(radius, radius), 2.0 / 3) / radius;
+    }
     bearing_pressure_ = bearing_share * stress;
     const double mean_force = stress * packing_.thickness * solid_ / (2 * n * radius);
     problem_ = {&packing_, &law_, &space_, faded_force * mean_force};
