@@ -34,11 +34,23 @@ struct PullBack {
 struct ContactLoop {
   std::span<const TouchingContact> touching;
   PullBack pull_back;
-  double share;
-  const Quad* start_turn;  // per listed contact, null before the first history
+  const Quad* deformation;  // change of F
+  const Quad* start_turn;   // per listed contact, null before the first history
   const Quad* start_force;
   const double* tangential_stiffness;
+  const Increment* bound_to_axes;  // null: branches are pulled back
 };
+
+ContactLoop contact_loop(const Increment& increment, std::span<const TouchingContact> touching,
+                         const DeformationChange& change, const HistoryChange& history) {
+  return {touching,
+          PullBack(increment.deformation),
+          change.data(),
+          history.turn,
+          history.force,
+          increment.contacts.tangential_stiffness.data(),
+          increment.problem->space->bound_to_axes() ? &increment : nullptr};
+}
 
 // The change of one contact; `motion` null: under the affine motion and the history alone. Returns
 // that of the couple d ft.
@@ -48,11 +60,13 @@ GRAINLAW_INLINE Lanes change_of(const ContactLoop& loop, const TouchingContact& 
                                 Lanes& branch_x, Lanes& branch_y, Lanes& tangential_force) {
   constexpr std::size_t b = rotating ? 3 : 2;
   const auto& point = contact.point;
-  const auto reference = loop.pull_back(point.branch_x, point.branch_y);
-  const double rx = loop.share * reference[0];
-  const double ry = loop.share * reference[1];
-  branch_x = Lanes{rx, ry, 0, 0};
-  branch_y = Lanes{0, 0, rx, ry};
+  const auto reference = loop.bound_to_axes == nullptr
+                             ? loop.pull_back(point.branch_x, point.branch_y)
+                             : loop.bound_to_axes->fixed_branch(contact.index);
+  branch_x = load(loop.deformation[0].lane) * reference[0] +
+             load(loop.deformation[1].lane) * reference[1];
+  branch_y = load(loop.deformation[2].lane) * reference[0] +
+             load(loop.deformation[3].lane) * reference[1];
   Lanes rotation{};
   if (motion != nullptr) {
     const double* zi = motion + contact.node_i * b * width;
@@ -106,7 +120,7 @@ GRAINLAW_INLINE void sum_right_sides(const ContactLoop& loop, double* right) {
 
 template <bool rotating>
 GRAINLAW_INLINE void find_changes(const ContactLoop& loop, const double* motion,
-                                  Sensitivity::Changes* changes) {
+                                  ContactChange* changes) {
   for (const auto& contact : loop.touching) {
     Lanes fx{}, fy{}, bx{}, by{}, ft{};
     change_of<rotating>(loop, contact, motion, fx, fy, bx, by, ft);
@@ -123,11 +137,39 @@ GRAINLAW_CLONES void right_sides(const ContactLoop& loop, bool rotating, double*
   rotating ? sum_right_sides<true>(loop, right) : sum_right_sides<false>(loop, right);
 }
 GRAINLAW_CLONES void all_changes(const ContactLoop& loop, bool rotating, const double* motion,
-                                 Sensitivity::Changes* changes) {
+                                 ContactChange* changes) {
   rotating ? find_changes<true>(loop, motion, changes) : find_changes<false>(loop, motion, changes);
 }
 
+// Change of F at a share of the way; found components are those of `found`.
+DeformationChange change_at(double share, const BoundarySpace& space,
+                            const DeformationChange& found) {
+  DeformationChange change{};
+  for (std::size_t k = 0; k < width; ++k) {
+    if (space.found[k]) {
+      change[k] = found[k];
+    } else {
+      change[k].lane[k] = share;
+    }
+  }
+  return change;
+}
+
 }  // namespace
+
+void add_residual_changes(const Increment& increment, std::span<const TouchingContact> touching,
+                          const DeformationChange& change, const HistoryChange& history,
+                          std::span<Quad> residual) {
+  right_sides(contact_loop(increment, touching, change, history),
+              increment.problem->law->rotating(), residual.data()->lane);
+}
+
+void find_contact_changes(const Increment& increment, std::span<const TouchingContact> touching,
+                          const DeformationChange& change, const HistoryChange& history,
+                          std::span<const Quad> motion, std::span<ContactChange> changes) {
+  all_changes(contact_loop(increment, touching, change, history),
+              increment.problem->law->rotating(), motion.data()->lane, changes.data());
+}
 
 void Sensitivity::start_of_history(const Increment& increment, double start_share) {
   const auto& list = increment.contacts;
@@ -140,6 +182,8 @@ void Sensitivity::start_of_history(const Increment& increment, double start_shar
   const auto& f = increment.start_deformation;
   const PullBack pull_back(f);
   const double* x = increment.start.data();
+  const auto start_change = change_at(start_share, *increment.problem->space, carried_change_);
+  const bool bound_to_axes = increment.problem->space->bound_to_axes();
   resize_with_room(start_turn_, list.size());
   resize_with_room(start_force_, list.size());
   std::size_t h = 0;
@@ -151,13 +195,14 @@ void Sensitivity::start_of_history(const Increment& increment, double start_shar
     const double lx = x[j] - x[i] + f[0] * ax + f[1] * ay;
     const double ly = x[n + j] - x[n + i] + f[2] * ax + f[3] * ay;
     const double d2 = lx * lx + ly * ly;
-    const auto reference = pull_back(lx, ly);
+    const auto reference = bound_to_axes ? increment.fixed_branch(c) : pull_back(lx, ly);
     const Quad* zi = &carried_motion_[static_cast<std::size_t>(node[i]) * b];
     const Quad* zj = &carried_motion_[static_cast<std::size_t>(node[j]) * b];
     for (std::size_t k = 0; k < width; ++k) {
-      double dx = zj[0].lane[k] - zi[0].lane[k];
-      double dy = zj[1].lane[k] - zi[1].lane[k];
-      (k < 2 ? dx : dy) += start_share * reference[k % 2];
+      const double dx = zj[0].lane[k] - zi[0].lane[k] + start_change[0].lane[k] * reference[0] +
+                        start_change[1].lane[k] * reference[1];
+      const double dy = zj[1].lane[k] - zi[1].lane[k] + start_change[2].lane[k] * reference[0] +
+                        start_change[3].lane[k] * reference[1];
       start_turn_[c].lane[k] = -(lx * dy - ly * dx) / d2;
       if (rotating) {
         start_turn_[c].lane[k] +=
@@ -184,32 +229,43 @@ bool Sensitivity::solve(Increment& increment, double share, double start_share,
   const bool rotating = increment.problem->law->rotating();
   stiffness.assemble(increment, 0);
   const auto touching = stiffness.touching();
-  const ContactLoop loop{touching,
-                         PullBack(increment.deformation),
-                         share,
-                         carried_ ? start_turn_.data() : nullptr,
-                         carried_ ? start_force_.data() : nullptr,
-                         list.tangential_stiffness.data()};
+  const HistoryChange history = carried_ ? HistoryChange{start_turn_.data(), start_force_.data()}
+                                         : HistoryChange{};
+  change_ = change_at(share, space, {});
 
   const std::size_t b = rotating ? 3 : 2;
-  resize_with_room(motion_, increment.unknowns());
-  right_.assign(increment.unknowns(), Quad{});
-  right_sides(loop, rotating, right_.data()->lane);
+  resize_with_room(motion_, increment.node_unknowns());
+  right_.assign(increment.node_unknowns(), Quad{});
+  add_residual_changes(increment, touching, change_, history, right_);
   if (!space.identity) {
     for (std::size_t q = 0; q < increment.nodes(); ++q) {
-      if (space.fixed[q]) right_[q * b] = right_[q * b + 1] = {};
+      for (std::size_t k = 0; k < b; ++k) {
+        if ((space.fixed[q] >> k & 1U) != 0) right_[q * b + k] = {};
+      }
     }
   }
   if (!stiffness.solve_four(increment, right_, motion_)) return false;
 
   resize_with_room(changes_, touching.size());
-  all_changes(loop, rotating, motion_.data()->lane, changes_.data());
+  if (Border::needed(space) && !complete(increment, history, stiffness)) return false;
+  find_contact_changes(increment, touching, change_, history, motion_, changes_);
   resize_with_room(place_, list.size());
   std::fill(place_.begin(), place_.end(), -1);
   for (std::size_t k = 0; k < touching.size(); ++k) {
     place_[touching[k].index] = static_cast<std::int32_t>(k);
   }
   return true;
+}
+
+// What the border adds.
+bool Sensitivity::complete(Increment& increment, const HistoryChange& history,
+                           Stiffness& stiffness) {
+  const auto touching = stiffness.touching();
+  if (increment.problem->space->finds_deformation) {
+    find_contact_changes(increment, touching, change_, history, motion_, changes_);
+  }
+  return border_.prepare(increment, stiffness) &&
+         border_.complete(increment, touching, changes_, motion_, change_);
 }
 
 void Sensitivity::carry(const Increment& increment) {
@@ -223,6 +279,7 @@ void Sensitivity::carry(const Increment& increment) {
   }
   keep_room(carried_force_);
   carried_motion_ = motion_;
+  carried_change_ = change_;
   carried_ = true;
 }
 
