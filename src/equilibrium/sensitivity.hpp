@@ -2,6 +2,8 @@
 #pragma once
 
 #include "contact/frictional.hpp"
+#include "equilibrium/border.hpp"
+#include "equilibrium/contact_change.hpp"
 #include "equilibrium/increment.hpp"
 #include "equilibrium/stiffness.hpp"
 
@@ -31,10 +33,8 @@ class Sensitivity {
   // Increment::advance_history().
   void carry(const Increment& increment);
 
-  // Change of the force on j (x, y) and of the branch (x, y) of a contact that touches.
-  struct Changes {
-    Quad force_x, force_y, branch_x, branch_y, tangential_force;
-  };
+  // Of a contact that touches.
+  using Changes = ContactChange;
   [[nodiscard]] const Changes& changes(std::size_t c) const {
     return changes_[static_cast<std::size_t>(place_[c])];
   }
@@ -51,14 +51,14 @@ class Sensitivity {
 
  private:
   void start_of_history(const Increment& increment, double start_share);
+  bool complete(Increment& increment, const HistoryChange& history, Stiffness& stiffness);
   [[nodiscard]] bool springs_start_determined(const Increment& increment,
                                               std::span<const TouchingContact> touching);
-  // What laws beyond linear springs with friction need, in sensitivity_composite.cpp.
+  // Hertz-Mindlin: the springs follow the overlap.
   void rescale_start(const Increment& increment);
-  void find_moment_changes(const Increment& increment, double share, const Stiffness& stiffness,
-                           std::span<const Quad> motion);
-  void add_moments(const Stiffness& stiffness);
 
+  DeformationChange change_{}, carried_change_{};  // of F; found components depend on the others
+  Border border_;
   std::vector<Quad> motion_, right_;  // per node and component
   std::vector<Changes> changes_;      // per touching contact
   std::vector<std::int32_t> place_;   // of a listed contact among them, -1 when open
