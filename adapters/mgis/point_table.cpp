@@ -88,7 +88,7 @@ void PointTable::keep(const std::shared_ptr<TablePoint>& point) {
 }
 
 void PointTable::limit_new() {
-  const double most = std::max(2.0 * static_cast<double>(kept_), budget_ / 4 / bytes_);
+  const double most = std::max(static_cast<double>(kept_), budget_ / 4 / bytes_);
   while (static_cast<double>(points_.size() - kept_) > std::max(most, 1.0)) {
     const auto oldest = points_.find(new_.front());
     new_.pop_front();
