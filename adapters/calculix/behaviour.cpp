@@ -19,10 +19,10 @@ namespace grainlaw::adapters {
 namespace {
 
 constexpr std::array<std::size_t, 6> order{0, 4, 8, 1, 2, 5};  // 11 22 33 12 13 23
-constexpr double rounding = 1e-12;     // of F, which CalculiX computes from displacements
-constexpr double default_cut = 0.25;   // CalculiX's own, when an increment diverges
-constexpr double largest_cut = 0.5;    // a factor that comes near 1 gains nothing
-constexpr double soft = 1;             // Pa; keeps the host's matrix regular without a material
+constexpr double rounding = 1e-12;    // of F, which CalculiX computes from displacements
+constexpr double default_cut = 0.25;  // CalculiX's own, when an increment diverges
+constexpr double largest_cut = 0.5;   // a factor that comes near 1 gains nothing
+constexpr double soft = 1;            // Pa; keeps the host's matrix regular without a material
 
 struct ElementPoint : Point {
   using Point::Point;
@@ -107,8 +107,7 @@ void give_soft(double* stress, double* stiffness) {
 void give_start(ElementPoint& point, double* stress, double* stiffness) {
   give_soft(stress, stiffness);
   Response response;
-  const Answer answer =
-      point.evaluate(point.committed(), GRAINLAW_WANT_TANGENT_ELASTIC, response);
+  const Answer answer = point.evaluate(point.committed(), GRAINLAW_WANT_TANGENT_ELASTIC, response);
   point.revert();
   point.has_stress = point.has_stiffness = false;
   if (answer.status != GRAINLAW_OK) return;
@@ -117,9 +116,7 @@ void give_start(ElementPoint& point, double* stress, double* stiffness) {
   std::copy(point.stiffness.begin(), point.stiffness.end(), stiffness);
 }
 
-void cut(double* pnewdt, double ratio) {
-  *pnewdt = *pnewdt > 0 ? std::min(*pnewdt, ratio) : ratio;
-}
+void cut(double* pnewdt, double ratio) { *pnewdt = *pnewdt > 0 ? std::min(*pnewdt, ratio) : ratio; }
 
 void evaluate(ElementPoint& point, const Tensor2& F0, const Tensor2& F1, bool stress_only,
               double* stress, double* stiffness, double* pnewdt) {
@@ -134,7 +131,8 @@ void evaluate(ElementPoint& point, const Tensor2& F0, const Tensor2& F1, bool st
       point.accept(F0);
       point.has_stress = point.has_stiffness = false;
     }
-    const bool known = point.has_stress && point.asked == F1 && (stress_only || point.has_stiffness);
+    const bool known =
+        point.has_stress && point.asked == F1 && (stress_only || point.has_stiffness);
     if (!known) {
       point.started = true;
       point.has_stress = point.has_stiffness = false;
@@ -165,8 +163,8 @@ void evaluate(ElementPoint& point, const Tensor2& F0, const Tensor2& F1, bool st
 extern "C" {
 
 void grainlaw_calculix_evaluate(grainlaw_calculix_material* material, int element, int point,
-                                const double* F0, const double* F1, int stress_only,
-                                double* stress, double* stiffness, double* pnewdt) {
+                                const double* F0, const double* F1, int stress_only, double* stress,
+                                double* stiffness, double* pnewdt) {
   using namespace grainlaw::adapters;
   std::string text;
   try {

@@ -1,8 +1,8 @@
 # grainlaw_calculix_material(LIBRARY NAME MATERIAL [NAME MATERIAL ...])
 #
-# Builds libLIBRARY.so with a function NAME for each material file MATERIAL; in the input of CalculiX
-# its material is @LIBRARY_NAME. LIBRARY and NAMEs in capitals, without underscore in LIBRARY. The
-# absolute paths of the files go into the library.
+# Builds libLIBRARY.so with a function NAME for each material file MATERIAL; in the input of
+# CalculiX its material is @LIBRARY_NAME. LIBRARY and NAMEs in capitals, no underscore in LIBRARY.
+# The absolute paths of the files go into the library.
 function(grainlaw_calculix_material LIBRARY)
   if(NOT LIBRARY MATCHES "^[A-Z0-9]+$")
     message(FATAL_ERROR "grainlaw_calculix_material: CalculiX reads ${LIBRARY} in capitals, up to "

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t message_size = 512;
 constexpr double unreliable_step = 0.5;  // asked for after an approximate answer
-constexpr double same_place = 1e-9;      // of F, between what is committed and what the host recalls
+constexpr double same_place = 1e-9;  // of F, between what is committed and what the host recalls
 
 constexpr std::array<std::size_t, 9> tensor_order{0, 4, 8, 1, 3, 2, 6, 5, 7};
 constexpr std::array<std::size_t, 6> symmetric_order{0, 4, 8, 1, 2, 5};
@@ -154,9 +154,9 @@ Start start(PointTable& table, const grainlaw_mgis_state& s0, int dimension) {
     ++point.step;
     table.keep(result.point);
   } else if (step != static_cast<double>(point.step)) {
-    throw std::runtime_error(
-        "GrainlawStep is " + std::to_string(step) + ", but the point has gone through " +
-        std::to_string(point.step) + " increments: only the last one can be retried");
+    throw std::runtime_error("GrainlawStep is " + std::to_string(step) +
+                             ", but the point has gone through " + std::to_string(point.step) +
+                             " increments: only the last one can be retried");
   } else if (!(Point::distance(F0, point.committed()) <= same_place)) {
     throw std::runtime_error(
         "the gradients at the start of the step are not those of the point's state: two points "
@@ -195,8 +195,7 @@ int integrate(PointTable& table, int dimension, grainlaw_mgis_data& data) {
                              answer.report.message);
   }
   if (request.want != 0) {
-    const Tensor2 F0 =
-        from.is_new ? identity : read_gradient(data.s0.gradients, dimension);
+    const Tensor2 F0 = from.is_new ? identity : read_gradient(data.s0.gradients, dimension);
     write_tangent(request, dimension, response, F0, data.K);
   }
   if (request.prediction) {

@@ -2,9 +2,10 @@
 // state variables: which point it is, and how many increments it has gone through.
 //
 // The host never says commit, and never that it drops a state. What can be lost is bounded:
-//   - A point that has not got through its first increment is a function of F alone. A retried first
-//     increment leaves such a state behind, since the host's zeros name no point; it is freed when it
-//     has been idle for long or when there are many, and made again if the host does come back.
+//   - A point that has not got through its first increment is a function of F alone. A retried
+//     first increment leaves such a state behind, since the host's zeros name no point; it is freed
+//     when it has been idle for long or when there are many, and made again if the host does come
+//     back.
 //   - A point further on is freed only when it has been idle for long and all together take more
 //     memory than the budget; the host is told if it still comes back.
 // Idle for long: not asked for during four calls per state in memory. A host asks for each of its

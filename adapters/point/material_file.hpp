@@ -15,8 +15,8 @@ class MaterialFile {
   // GRAINLAW_MATERIAL_<name> goes before it; a relative path starts at that library's folder.
   MaterialFile(const char* name, const char* path, const void* in_library);
 
-  // Reads the file at the first call; threads that come meanwhile wait. Throws abi::StatusError with
-  // the library's message, and tries again at the next call.
+  // Reads the file at the first call; threads that come meanwhile wait. Throws abi::StatusError
+  // with the library's message, and tries again at the next call.
   const abi::Material& material();
 
  private:

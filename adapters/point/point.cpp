@@ -47,14 +47,15 @@ Answer Point::evaluate(const Tensor2& F, unsigned want, Response& response) {
   }
   double reduced[9], P[9], A[81];
   if (const int wrong = reduce(dimension_, F, reduced); wrong >= 0) {
-    refuse("%s is %.9g, but this packing of discs is plane strain in the 1-2 plane: F33 = 1 and "
-           "F13, F23, F31, F32 = 0 were expected; hold the displacements along 3",
-           component_name(wrong), F[static_cast<std::size_t>(wrong)]);
+    refuse(
+        "%s is %.9g, but this packing of discs is plane strain in the 1-2 plane: F33 = 1 and "
+        "F13, F23, F31, F32 = 0 were expected; hold the displacements along 3",
+        component_name(wrong), F[static_cast<std::size_t>(wrong)]);
   }
   has_trial_ = false;
   Answer answer;
-  answer.status = grainlaw_evaluate(state_.get(), reduced, want, P, want != 0 ? A : nullptr,
-                                    &answer.report);
+  answer.status =
+      grainlaw_evaluate(state_.get(), reduced, want, P, want != 0 ? A : nullptr, &answer.report);
   if (answer.status < 0) throw abi::StatusError(answer.status, answer.report.message);
   if (answer.status != GRAINLAW_OK) return answer;
   has_trial_ = true;

@@ -25,7 +25,7 @@ class Point {
   static double distance(const Tensor2& F, const Tensor2& other);
 
   [[nodiscard]] const Tensor2& committed() const { return committed_; }  // F of the last commit
-  [[nodiscard]] bool is_trial(const Tensor2& F) const;   // F of the trial, to rounding
+  [[nodiscard]] bool is_trial(const Tensor2& F) const;  // F of the trial, to rounding
 
   // P and, when wanted, dP/dF at F, from the committed state. Throws std::runtime_error with a text
   // for the host when F is not finite or not plane strain, abi::StatusError for the library's own.

@@ -20,8 +20,8 @@ struct Response {
 };
 
 // The components of F that a packing of this dimension is asked for: F[dim*dim], row-major.
-// Returns the index 3 i + J of a component in which F leaves plane strain, or -1: a packing of discs
-// (dimension 2) wants F33 = 1 and F13, F23, F31, F32 = 0, each to 1e-9.
+// Returns the index 3 i + J of a component in which F leaves plane strain, or -1: a packing of
+// discs (dimension 2) wants F33 = 1 and F13, F23, F31, F32 = 0, each to 1e-9.
 int reduce(int dimension, const Tensor2& F, double* reduced);
 
 // P[dim*dim] and A[dim^4] (or NULL) of the packing, completed to three dimensions. Out of the plane

@@ -1,8 +1,8 @@
 // Stands in for CalculiX 2.20: calls a material function as nonlingeo.c, resultsmech.f and
 // call_external_umat_user.c do, in an order taken down from the solver.
 //   - An increment starts with a call at the predicted F, where PNEWDT is not looked at.
-//   - Each iteration makes one call; PNEWDT > 0 there cuts the increment, which starts again from the
-//     same F0.
+//   - Each iteration makes one call; PNEWDT > 0 there cuts the increment, which starts again from
+//     the same F0.
 //   - An accepted increment ends with a call at the same F for the stress alone (icmd = 3).
 //   - The next one starts from the F of that call.
 #pragma once
@@ -63,9 +63,10 @@ class Host {
     const double zero[9]{}, step = 1;
     double state = 0;
     pnewdt = -1;
-    material_("@GRAIN_SAND", &element_, &point_, &constants, zero, zero, zero, zero, F0.data(), zero,
-              F1.data(), zero, &none, zero, &step, &step, zero, &command, &none, &points, &none,
-              &state, &state, stress.data(), stiffness.data(), &none, zero, zero, &pnewdt, &one, 80);
+    material_("@GRAIN_SAND", &element_, &point_, &constants, zero, zero, zero, zero, F0.data(),
+              zero, F1.data(), zero, &none, zero, &step, &step, zero, &command, &none, &points,
+              &none, &state, &state, stress.data(), stiffness.data(), &none, zero, zero, &pnewdt,
+              &one, 80);
     ++calls;
     return !(pnewdt > 0);
   }

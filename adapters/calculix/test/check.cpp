@@ -120,8 +120,8 @@ bool newton(grainlaw::abi::State state, const std::vector<Call>& calls) {
                 100 * (1 - F[3]), -axial / 1e3, -found / 1e3, std::abs(found / axial - 1));
     good = good && std::abs(found / axial - 1) <= 1e-6;
   }
-  const auto iterations = std::count_if(calls.begin(), calls.end(),
-                                        [](const Call& call) { return call.command != 3; });
+  const auto iterations =
+      std::count_if(calls.begin(), calls.end(), [](const Call& call) { return call.command != 3; });
   std::printf("%ld calls with a tangent in %zu increments\n", static_cast<long>(iterations),
               accepted(calls).size());
   return good && accepted(calls).size() == 5;

@@ -29,8 +29,7 @@ class calculix_material : public testing::Test {
     return abi::State(abi::Material::load(file));
   }
   static void expect_reference(const Host& host, const Reference& expected) {
-    const auto [stress, stiffness] =
-        distance(expected, host.stress.data(), host.stiffness.data());
+    const auto [stress, stiffness] = distance(expected, host.stress.data(), host.stiffness.data());
     EXPECT_LE(stress, 1e-12);
     EXPECT_LE(stiffness, 1e-12);
   }

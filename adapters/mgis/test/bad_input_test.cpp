@@ -60,9 +60,8 @@ class mgis_bad_input : public testing::Test {
 
 TEST_F(mgis_bad_input, gradients_that_are_no_numbers) {
   refused("F12 of the deformation gradient is nan", [](Manager& m) { m.s1.gradients[3] = nan; });
-  refused("F33 of the deformation gradient is inf", [](Manager& m) {
-    m.s1.gradients[2] = std::numeric_limits<double>::infinity();
-  });
+  refused("F33 of the deformation gradient is inf",
+          [](Manager& m) { m.s1.gradients[2] = std::numeric_limits<double>::infinity(); });
 }
 
 TEST_F(mgis_bad_input, gradients_out_of_the_plane_of_discs) {
@@ -91,8 +90,10 @@ TEST_F(mgis_bad_input, two_points_with_one_state) {
 }
 
 TEST_F(mgis_bad_input, requests_that_are_not_known) {
-  refused("speed of sound", [](Manager&) {}, 104);
-  refused("not finite", [](Manager&) {}, nan);
+  refused(
+      "speed of sound", [](Manager&) {}, 104);
+  refused(
+      "not finite", [](Manager&) {}, nan);
 }
 
 TEST_F(mgis_bad_input, null_pointers) {

@@ -1,5 +1,5 @@
-// What MGIS reads from a library before it calls anything (LibrariesManager.cxx): names and types of
-// symbols, and values that it refuses otherwise.
+// What MGIS reads from a library before it calls anything (LibrariesManager.cxx): names and types
+// of symbols, and values that it refuses otherwise.
 #include "mgis_host.hpp"
 
 #include <gtest/gtest.h>
@@ -51,9 +51,8 @@ TEST_F(mgis_description, asks_for_nothing_else) {
   }
   EXPECT_TRUE(types("ExternalStateVariables").empty());
   EXPECT_TRUE(types("Parameters").empty());
-  for (const char* name :
-       {"requiresStiffnessTensor", "requiresThermalExpansionCoefficientTensor",
-        "ComputesInternalEnergy", "ComputesDissipatedEnergy"}) {
+  for (const char* name : {"requiresStiffnessTensor", "requiresThermalExpansionCoefficientTensor",
+                           "ComputesInternalEnergy", "ComputesDissipatedEnergy"}) {
     EXPECT_EQ(number(name), 0) << name;
   }
 }

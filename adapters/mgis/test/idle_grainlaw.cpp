@@ -1,5 +1,5 @@
-// The part of grainlaw.h that the adapter calls, answering at once: all that is left of the time of a
-// call is the adapter's.
+// The part of grainlaw.h that the adapter calls, answering at once: all that is left of the time of
+// a call is the adapter's.
 #include <grainlaw/grainlaw.h>
 
 #include <algorithm>

@@ -37,7 +37,8 @@ int main(int count, char** arguments) {
         separator = ",";
       }
       for (const std::size_t a : in_plane) {
-        for (const std::size_t b : in_plane) std::printf(",%.17g", manager.K[a * manager.tensor + b]);
+        for (const std::size_t b : in_plane)
+          std::printf(",%.17g", manager.K[a * manager.tensor + b]);
       }
       std::printf("\n");
       manager.update();

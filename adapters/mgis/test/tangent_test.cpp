@@ -22,10 +22,13 @@ Matrix embedded(const F2& F) { return {F[0], F[1], 0, F[2], F[3], 0, 0, 0, 1}; }
 
 Matrix product(const Matrix& a, const Matrix& b) {
   Matrix c{};
-  for (std::size_t k = 0; k < 27; ++k) c[k / 9 * 3 + k % 3] += a[k / 9 * 3 + k / 3 % 3] * b[k / 3 % 3 * 3 + k % 3];
+  for (std::size_t k = 0; k < 27; ++k)
+    c[k / 9 * 3 + k % 3] += a[k / 9 * 3 + k / 3 % 3] * b[k / 3 % 3 * 3 + k % 3];
   return c;
 }
-Matrix transposed(const Matrix& a) { return {a[0], a[3], a[6], a[1], a[4], a[7], a[2], a[5], a[8]}; }
+Matrix transposed(const Matrix& a) {
+  return {a[0], a[3], a[6], a[1], a[4], a[7], a[2], a[5], a[8]};
+}
 Matrix combined(const Matrix& a, double factor, const Matrix& b) {
   Matrix c;
   for (std::size_t k = 0; k < 9; ++k) c[k] = a[k] + factor * b[k];
@@ -143,8 +146,9 @@ TEST_P(mgis_tangent, pairs_match_central_differences) {
     Tangent tangent;
     bool rows, columns;
   };
-  for (const Pair pair : {Pair{cauchy, dsigma_dF, true, false}, Pair{second_piola, dS_dE, true, true},
-                          Pair{first_piola, dP_dF, false, false}, Pair{cauchy, dtau_ddF, true, false}}) {
+  for (const Pair pair :
+       {Pair{cauchy, dsigma_dF, true, false}, Pair{second_piola, dS_dE, true, true},
+        Pair{first_piola, dP_dF, false, false}, Pair{cauchy, dtau_ddF, true, false}}) {
     const Result result = at(after, pair.stress, pair.tangent);
     for (std::size_t component = 0; component < 4; ++component) {
       Matrix dF{};
@@ -160,8 +164,7 @@ TEST_P(mgis_tangent, pairs_match_central_differences) {
           if (pair.tangent != dtau_ddF) return value;
           return combined({}, where[0] * where[3] - where[1] * where[2], value);
         };
-        const Matrix difference =
-            combined({}, 0.5 / h, combined(stress(plus), -1, stress(minus)));
+        const Matrix difference = combined({}, 0.5 / h, combined(stress(plus), -1, stress(minus)));
         Matrix variable = dF;
         if (pair.tangent == dS_dE) {
           const Matrix FdF = product(transposed(F), dF);
@@ -187,7 +190,8 @@ TEST_P(mgis_tangent, is_not_symmetric_where_contacts_slide) {
   double skew = 0, norm = 0;
   for (std::size_t a = 0; a < result.symmetric; ++a) {
     for (std::size_t b = 0; b < result.symmetric; ++b) {
-      const double difference = result.K[a * result.symmetric + b] - result.K[b * result.symmetric + a];
+      const double difference =
+          result.K[a * result.symmetric + b] - result.K[b * result.symmetric + a];
       skew += difference * difference;
       norm += result.K[a * result.symmetric + b] * result.K[a * result.symmetric + b];
     }
@@ -207,6 +211,31 @@ TEST_P(mgis_tangent, out_of_plane_stress_is_zero_and_turns_with_F) {
     const Matrix dP = apply(first, false, false, dF);
     near(dP, {0, 0, 0, 0, 0, 0, S[L * 3], S[L * 3 + 1], 0}, 1e-12);
   }
+}
+
+// A rotation on top of F turns the stress, about any axis; a stretch along 3 only thins it out.
+TEST_P(mgis_tangent, stress_turns_with_a_small_rotation) {
+  const Matrix F = embedded(after), F0 = embedded(before);
+  const double J = F[0] * F[4] - F[1] * F[3];
+  const Result spatial = at(after, cauchy, dsigma_dF);
+  const Result increment = at(after, cauchy, dtau_ddF);
+  const Result first = at(after, first_piola, dP_dF);
+  const Matrix sigma = full(spatial.stress, true);
+  const Matrix P = full(first.stress, false);
+  std::vector<Matrix> rotations{{0, 1, 0, -1, 0, 0, 0, 0, 0}};
+  if (spatial.symmetric == 6) {
+    rotations.push_back({0, 0, 1, 0, 0, 0, -1, 0, 0});
+    rotations.push_back({0, 0, 0, 0, 0, 1, 0, -1, 0});
+  }
+  for (const Matrix& W : rotations) {
+    const Matrix turned = combined(product(W, sigma), -1, product(sigma, W));
+    near(apply(spatial, true, false, product(W, F)), turned, 1e-10);
+    near(apply(increment, true, false, product(W, product(F, inverse(F0)))),
+         combined({}, J, turned), 1e-10);
+    near(apply(first, false, false, product(W, F)), product(W, P), 1e-10);
+  }
+  const Matrix stretch{0, 0, 0, 0, 0, 0, 0, 0, 1};
+  near(apply(spatial, true, false, stretch), combined({}, -1, sigma), 1e-12);
 }
 
 TEST_P(mgis_tangent, the_elastic_operator_is_symmetric_in_S_and_E) {

@@ -20,15 +20,16 @@
  * GRAINLAW_MATERIAL_SAND, when set, goes before it. No *DEPVAR is needed.
  *
  * A packing of discs is plane strain: use CPE elements, or solid elements with all displacements
- * along 3 held. The stress is that of the packing from the start, so loads have to balance it there.
+ * along 3 held. The stress is that of the packing from the start, so loads have to balance it
+ * there.
  *
  * CalculiX takes dS/dE as symmetric; it gets the symmetric part of the exact tangent, and Newton
  * converges linearly once contacts slide.
  *
  * States are kept by element and point. CalculiX never says that an increment is accepted, and this
- * interface does not tell its number; it tells F at the start of the increment. That is the F of the
- * committed state when the increment goes on or is tried again, and the F of the last answer when
- * that was accepted, which is the moment it is committed.
+ * interface does not tell its number; it tells F at the start of the increment. That is the F of
+ * the committed state when the increment goes on or is tried again, and the F of the last answer
+ * when that was accepted, which is the moment it is committed.
  */
 #ifndef GRAINLAW_CALCULIX_H
 #define GRAINLAW_CALCULIX_H
@@ -51,9 +52,10 @@ typedef struct grainlaw_calculix_material {
  * column by column. stress_only: icmd is 3. stress[6]: second Piola-Kirchhoff stress 11 22 33 12 13
  * 23 [Pa]. stiffness[21]: dS/dE, upper triangle column by column, of the symmetric part [Pa].
  * pnewdt: set to a number in 0..1 when the increment has to be cut; stress and stiffness are then
- * those of the start, the stiffness elastic, since CalculiX solves once more before it cuts.
- * What is wrong otherwise is printed as CalculiX prints its own errors, once, and asks for cuts too,
- * upon which CalculiX ends the analysis; states stay as committed. Any number of threads at once. */
+ * those of the start, the stiffness elastic, since CalculiX solves once more before it cuts. What
+ * is wrong otherwise is printed as CalculiX prints its own errors, once, and asks for cuts too,
+ * upon which CalculiX ends the analysis; states stay as committed. Any number of threads at once.
+ */
 GRAINLAW_API void grainlaw_calculix_evaluate(grainlaw_calculix_material*, int element, int point,
                                              const double* F0, const double* F1, int stress_only,
                                              double* stress, double* stiffness, double* pnewdt);

@@ -14,17 +14,17 @@
  * relative path starts at the folder of the library; the environment variable
  * GRAINLAW_MATERIAL_Sand, when set, goes before it. A library may hold several behaviours.
  *
- * What the host sees: gradient DeformationGradient, force Stress (Cauchy, PK2 or PK1 as it asks), any
- * of the four tangents dsigma/dF, dS/dE, dP/dF, dtau/d(dF), elastic tangent for the elastic and
+ * What the host sees: gradient DeformationGradient, force Stress (Cauchy, PK2 or PK1 as it asks),
+ * any of the four tangents dsigma/dF, dS/dE, dP/dF, dtau/d(dF), elastic tangent for the elastic and
  * secant operators, prediction operators, no material property, no parameter, external state
  * variable Temperature (not used). Internal state variables GrainlawPoint and GrainlawStep name the
  * state of the point; start them at zero and keep them as they are. A packing of discs is plane
  * strain: F33 = 1, stress out of the plane is 0.
  *
- * Returned: 1; 0 when the equilibrium was only found by advancing the friction history (approximate,
- * rdt = 0.5); -1 on failure, with a text in error_message. rdt < 1 comes with failures that a smaller
- * step may cure; other failures leave it alone. After -1 nothing of the host's is changed, and the
- * state is as it was committed.
+ * Returned: 1; 0 when the equilibrium was only found by advancing the friction history
+ * (approximate, rdt = 0.5); -1 on failure, with a text in error_message. rdt < 1 comes with
+ * failures that a smaller step may cure; other failures leave it alone. After -1 nothing of the
+ * host's is changed, and the state is as it was committed.
  */
 #ifndef GRAINLAW_MGIS_H
 #define GRAINLAW_MGIS_H
@@ -77,7 +77,7 @@ GRAINLAW_API int grainlaw_mgis_integrate(grainlaw_mgis_behaviour*, int dimension
  * all together exceed the budget: GRAINLAW_IDLE_MEMORY [MiB, default 1024]. */
 GRAINLAW_API size_t grainlaw_mgis_states(const grainlaw_mgis_behaviour*);
 
-/* Free all states, at the end of an analysis; the next starts anew. No other thread may be inside. */
+/* Free all states at the end of an analysis; the next starts anew. No thread may be inside. */
 GRAINLAW_API void grainlaw_mgis_release(grainlaw_mgis_behaviour*);
 
 #ifdef __cplusplus
