@@ -1,11 +1,11 @@
 // One call of CalculiX: the state of an element's point, the packing's answer, PK2 and 21 numbers.
+#include "library_points.hpp"
 #include "material_file.hpp"
 #include "point.hpp"
 
 #include <grainlaw/calculix.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
@@ -62,19 +62,6 @@ class PointMap {
   std::unordered_map<std::uint64_t, std::unique_ptr<ElementPoint>> points_;
   std::string told_;
 };
-
-PointMap& map_of(grainlaw_calculix_material* material) {
-  std::atomic_ref<void*> points(material->points);
-  if (void* made = points.load(std::memory_order_acquire); made != nullptr) {
-    return *static_cast<PointMap*>(made);
-  }
-  static std::mutex making;
-  const std::lock_guard lock(making);
-  if (points.load() == nullptr) {
-    points.store(new PointMap(material->name, material->material, material));
-  }
-  return *static_cast<PointMap*>(points.load());
-}
 
 Tensor2 from_columns(const double* F) {
   return {F[0], F[3], F[6], F[1], F[4], F[7], F[2], F[5], F[8]};
@@ -168,7 +155,7 @@ void grainlaw_calculix_evaluate(grainlaw_calculix_material* material, int elemen
   using namespace grainlaw::adapters;
   std::string text;
   try {
-    PointMap& points = map_of(material);
+    PointMap& points = points_of<PointMap>(material);
     ElementPoint* found = nullptr;
     try {
       found = &points.find(element, point);
@@ -197,9 +184,7 @@ void grainlaw_calculix_evaluate(grainlaw_calculix_material* material, int elemen
 }
 
 void grainlaw_calculix_release(grainlaw_calculix_material* material) {
-  if (material == nullptr || material->points == nullptr) return;
-  delete static_cast<grainlaw::adapters::PointMap*>(material->points);
-  material->points = nullptr;
+  grainlaw::adapters::release_points<grainlaw::adapters::PointMap>(material);
 }
 
 }  // extern "C"

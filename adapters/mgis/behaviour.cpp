@@ -1,13 +1,16 @@
 // One call of an MGIS host: which state is meant, the packing's answer, in the host's measures.
+#include "library_points.hpp"
 #include "point_table.hpp"
 
 #include <grainlaw/mgis.h>
 
-#include <atomic>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <memory>
+#include <mutex>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -108,19 +111,6 @@ void write_tangent(const Request& request, int dimension, const Response& respon
       *K++ = factor(rows, a) * factor(columns, b) * row[place(columns, b)];
     }
   }
-}
-
-PointTable& table_of(grainlaw_mgis_behaviour* behaviour) {
-  std::atomic_ref<void*> points(behaviour->points);
-  if (void* made = points.load(std::memory_order_acquire); made != nullptr) {
-    return *static_cast<PointTable*>(made);
-  }
-  static std::mutex making;
-  const std::lock_guard lock(making);
-  if (points.load() == nullptr) {
-    points.store(new PointTable(behaviour->name, behaviour->material, behaviour));
-  }
-  return *static_cast<PointTable*>(points.load());
 }
 
 // The point in the state the host starts from.
@@ -231,7 +221,7 @@ int grainlaw_mgis_integrate(grainlaw_mgis_behaviour* behaviour, int dimension,
     return -1;
   };
   try {
-    return integrate(table_of(behaviour), dimension, *data);
+    return integrate(points_of<PointTable>(behaviour), dimension, *data);
   } catch (const std::exception& error) {
     return tell(error.what());
   } catch (...) {
@@ -245,9 +235,7 @@ size_t grainlaw_mgis_states(const grainlaw_mgis_behaviour* behaviour) {
 }
 
 void grainlaw_mgis_release(grainlaw_mgis_behaviour* behaviour) {
-  if (behaviour == nullptr || behaviour->points == nullptr) return;
-  delete static_cast<grainlaw::adapters::PointTable*>(behaviour->points);
-  behaviour->points = nullptr;
+  grainlaw::adapters::release_points<grainlaw::adapters::PointTable>(behaviour);
 }
 
 }  // extern "C"
