@@ -1,5 +1,6 @@
 #include "consolidation/compaction.hpp"
 
+#include "consolidation/anisotropic.hpp"
 #include "consolidation/compression.hpp"
 #include "consolidation/stress_control.hpp"
 #include "error.hpp"
@@ -116,18 +117,22 @@ Packing make_random(const GeneratorOptions& options, const ContactLaw& material_
   const double pressure = to_pressure ? options.pressure : soft.pressure;
   const double mean_force = pressure * options.thickness * solid_area(loose) /
                             (2 * static_cast<double>(loose.size()) * radius);
-  if (unload) {
+  const bool anisotropic = options.anisotropy >= 0;
+  if (unload || anisotropic) {
     StressControl control(loose, law, *std::move(compressed), faded_force * mean_force);
-    IsotropicTarget target;
+    StressTarget target;
     target.pressure = options.pressure;
     if (!to_pressure)
       target.volume = (1 + options.void_ratio) * solid_area(loose) / cell_area(loose);
-    if (!control.reach(target))
+    if (unload && !control.reach(target))
       throw Error(GRAINLAW_NOT_CONVERGED,
                   fmt::format("generator: no packing at rest was found on unloading; pressure "
                               "{:.6g} Pa, void ratio {:.6g}; try another seed",
                               control.pressure(),
                               control.volume() * cell_area(loose) / solid_area(loose) - 1));
+    if (anisotropic)
+      consolidate_anisotropically(control, target, options.anisotropy,
+                                  options.anisotropy_direction);
     return packing_of(control.problem(), control.configuration());
   }
   const BoundarySpace space = make_boundary_space(loose, {});
