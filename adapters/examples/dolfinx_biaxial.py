@@ -90,7 +90,8 @@ class Biaxial:
         return False, residuals, answer.step_ratio if not answer.ok else 0.5
 
     def solve(self):
-        """Newton's correction; the increment of the boundary values enters through the right side."""
+        """Newton's correction; the increment of the boundary values enters through its right side.
+        """
         matrix = fem.petsc.assemble_matrix(self.stiffness, self.conditions)
         matrix.assemble()
         right = fem.petsc.assemble_vector(self.residual)

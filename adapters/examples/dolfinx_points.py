@@ -8,9 +8,9 @@ import grainlaw
 
 
 class Points:
-    """The quadrature points of a two-dimensional mesh, of one material. `P` (2, 2) and
-    `A` (4, 4), with a row for P_iJ and a column for F_kL in row-major order, are functions for forms
-    over `dx`; both hold what the last `evaluate` found."""
+    """The quadrature points of a two-dimensional mesh, of one material. The functions `P` (2, 2)
+    and `A` (4, 4), which has a row for each P_iJ and a column for each F_kL in row-major order, are
+    for forms over `dx` and hold what the last `evaluate` found."""
 
     def __init__(self, domain, material, degree):
         cell = domain.ufl_cell()
