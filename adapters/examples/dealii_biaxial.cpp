@@ -1,6 +1,6 @@
 // The biaxial test of adapters/biaxial/biaxial.toml in deal.II 9.4.
 //
-//   dealii_biaxial MATERIAL.toml [PREFIX]
+//   dealii_biaxial MATERIAL.toml [PREFIX [STEPS]]
 //
 // prints the residuals of Newton's method, and writes PREFIX_force.csv and PREFIX_newton.csv.
 #include <deal.II/base/quadrature_lib.h>
@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <memory>
 #include <stdexcept>
@@ -29,7 +30,7 @@ namespace {
 constexpr double width = 0.05, height = 0.1;  // m
 constexpr double side_pressure = 100e3;       // Pa, dead load
 constexpr double shortening = 1e-3;           // m, at full load
-constexpr unsigned columns = 4, rows = 8, steps = 20;
+constexpr unsigned columns = 4, rows = 8;
 constexpr double tolerance = 1e-10;  // |force on the unknowns| / |nodal forces of P| [-]
 constexpr int max_iterations = 12;
 constexpr double smallest_cut = 0.1, usual_cut = 0.5, smallest_part = 1e-3;  // of a load step
@@ -53,8 +54,8 @@ class Biaxial {
     sides_.reinit(n);
     for (types::global_dof_index d = 0; d < n; ++d)
       if (!in_y_.is_element(d)) sides_(d) = side_force(where_[d]);
-    points_ = std::make_unique<grainlaw_dealii::Points>(mapping_, dofs_, QGaussSimplex<2>(1),
-                                                        material);
+    points_ =
+        std::make_unique<grainlaw_dealii::Points>(mapping_, dofs_, QGaussSimplex<2>(1), material);
     if (!points_->evaluate(displacement_)) throw std::runtime_error(points_->message());
     points_->commit();
   }
@@ -65,11 +66,12 @@ class Biaxial {
     const Vector<double> start = displacement_;
     residuals.clear();
     ratio = usual_cut;
+    std::string reason = "Newton did not converge";
     for (int iteration = 0; iteration < max_iterations; ++iteration) {
       correct(fraction);
       if (!points_->evaluate(displacement_)) {
         ratio = points_->step_ratio();
-        std::printf("load %g: %s; the step is cut\n", fraction, points_->message().c_str());
+        reason = points_->message();
         break;
       }
       residuals.push_back(residual());
@@ -78,11 +80,9 @@ class Biaxial {
         return true;
       }
     }
-    // Back to the committed displacement, and to its stress and tangent.
+    std::printf("load %g: %s; the step is cut\n", fraction, reason.c_str());
     points_->revert();
     displacement_ = start;
-    if (!points_->evaluate(displacement_)) throw std::runtime_error(points_->message());
-    points_->revert();
     return false;
   }
 
@@ -96,7 +96,7 @@ class Biaxial {
  private:
   // Of the dead load on a node of the sides, along x [N/m].
   static double side_force(const Point<2>& X) {
-    const bool left = X[0] < 1e-9, right = X[0] > width - 1e-9;
+    const bool left = X[0]<1e-9, right = X[0]> width - 1e-9;
     if (!left && !right) return 0;
     const bool corner = X[1] < 1e-9 || X[1] > height - 1e-9;
     return (left ? 1 : -1) * side_pressure * height / rows * (corner ? 0.5 : 1);
@@ -159,14 +159,15 @@ std::unique_ptr<std::FILE, Close> table(const std::string& path, const char* hea
   return file;
 }
 
-void run(const char* material, const std::string& prefix) {
+void run(const char* material, const std::string& prefix, int steps) {
+  if (steps < 1) throw std::runtime_error("expected a number of load steps >= 1");
   Biaxial problem(grainlaw::abi::Material::load(material));
-  const auto force = table(prefix + "_force.csv",
-                           "step[-],fraction[-],top_y_displacement[m],top_y_force[N/m]");
+  const auto force =
+      table(prefix + "_force.csv", "step[-],fraction[-],top_y_displacement[m],top_y_force[N/m]");
   const auto newton = table(prefix + "_newton.csv", "step[-],iteration[-],relative_residual[-]");
   std::vector<double> residuals;
   double done = 0, ratio = 1;
-  for (unsigned step = 0; step <= steps; ++step) {
+  for (int step = 0; step <= steps; ++step) {
     const double goal = static_cast<double>(step) / steps;
     double next = goal;
     do {
@@ -182,22 +183,23 @@ void run(const char* material, const std::string& prefix) {
       done = next;
       next = goal;
     } while (done < goal);
-    std::fprintf(force.get(), "%u,%.17g,%.17g,%.17g\n", step, goal, -shortening * goal,
+    std::fprintf(force.get(), "%d,%.17g,%.17g,%.17g\n", step, goal, -shortening * goal,
                  problem.top_force());
     for (std::size_t k = 0; k < residuals.size(); ++k)
-      std::fprintf(newton.get(), "%u,%zu,%.17g\n", step, k + 1, residuals[k]);
+      std::fprintf(newton.get(), "%d,%zu,%.17g\n", step, k + 1, residuals[k]);
   }
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
-  if (count < 2 || count > 3) {
-    std::fprintf(stderr, "usage: dealii_biaxial MATERIAL.toml [PREFIX]\n");
+  if (count < 2 || count > 4) {
+    std::fprintf(stderr, "usage: dealii_biaxial MATERIAL.toml [PREFIX [STEPS]]\n");
     return 2;
   }
   try {
-    run(arguments[1], count == 3 ? arguments[2] : "biaxial");
+    run(arguments[1], count > 2 ? arguments[2] : "biaxial",
+        count > 3 ? std::atoi(arguments[3]) : 20);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

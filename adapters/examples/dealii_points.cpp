@@ -16,8 +16,8 @@ const FEValuesExtractors::Vector displacement_components(0);
 
 }  // namespace
 
-Points::Points(const Mapping<2>& mapping, const DoFHandler<2>& dofs, const Quadrature<2>& quadrature,
-               const grainlaw::abi::Material& material)
+Points::Points(const Mapping<2>& mapping, const DoFHandler<2>& dofs,
+               const Quadrature<2>& quadrature, const grainlaw::abi::Material& material)
     : mapping_(mapping), dofs_(dofs), quadrature_(quadrature) {
   const std::size_t n = dofs.get_triangulation().n_active_cells() * quadrature.size();
   states_.reserve(n);
@@ -59,10 +59,14 @@ bool Points::evaluate(const Vector<double>& displacement) {
 
 void Points::commit() {
   for (auto& state : states_) state.commit();
+  committed_P_ = P_;
+  committed_A_ = A_;
 }
 
 void Points::revert() {
   for (auto& state : states_) state.revert();
+  P_ = committed_P_;
+  A_ = committed_A_;
 }
 
 double Points::step_ratio() const {
@@ -92,8 +96,7 @@ void Points::internal_forces(Vector<double>& forces) const {
       for (unsigned a = 0; a < indices.size(); ++a) {
         const unsigned i = dofs_.get_fe().system_to_component_index(a).first;
         const Tensor<1, 2> gradient = values.shape_grad(a, q);
-        forces(indices[a]) +=
-            (P[2 * i] * gradient[0] + P[2 * i + 1] * gradient[1]) * values.JxW(q);
+        forces(indices[a]) += (P[2 * i] * gradient[0] + P[2 * i + 1] * gradient[1]) * values.JxW(q);
       }
     }
   }

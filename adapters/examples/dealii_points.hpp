@@ -25,6 +25,7 @@ class Points {
   // Throws grainlaw::abi::StatusError where the library refuses, e.g. a NaN in u.
   bool evaluate(const dealii::Vector<double>& displacement);
   void commit();
+  // Back to the committed states; forces and stiffness are theirs again.
   void revert();
 
   // The factor on the step that the failed points suggest, and the first of them in words.
@@ -45,8 +46,9 @@ class Points {
   dealii::Quadrature<2> quadrature_;
   std::vector<grainlaw::abi::State> states_;
   std::vector<grainlaw_state*> handles_;
-  std::vector<double> F_, P_, A_;          // of the last success
+  std::vector<double> F_, P_, A_;          // P, A: of the last success
   std::vector<double> trial_P_, trial_A_;  // being evaluated
+  std::vector<double> committed_P_, committed_A_;
   std::vector<grainlaw_status> status_;
   std::vector<grainlaw_report> reports_;
 };

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The biaxial test of adapters/biaxial/biaxial.toml in DOLFINx 0.5 (one process).
 
-    dolfinx_biaxial.py ../biaxial/material.toml [PREFIX]
+    dolfinx_biaxial.py ../biaxial/material.toml [PREFIX [STEPS]]
 
 Prints the residuals of Newton's method, and writes PREFIX_force.csv and PREFIX_newton.csv.
 """
@@ -59,7 +59,7 @@ class Biaxial:
         answer = self.points.evaluate(self.u)
         if not answer.ok:
             sys.exit(f"no state to start from: {answer.message}")
-        self.points.states.commit()
+        self.points.commit()
 
     def forces(self):
         """Nodal forces of P, and |force on the unknowns| relative to their norm."""
@@ -71,23 +71,22 @@ class Biaxial:
         """Newton's method to a fraction of the load. Returns whether it got there, the residuals,
         and the factor on the step to try next."""
         start = self.u.x.array.copy()
-        committed = self.points.P.x.array.copy(), self.points.A.x.array.copy()
         self.top_displacement.value = (0, -SHORTENING * load)
         residuals = []
         for _ in range(MAX_ITERATIONS):
             self.u.x.array[:] -= self.solve()
             answer = self.points.evaluate(self.u)
             if not answer.ok:
-                print(f"load {load:.6g}: {answer.message}; the step is cut")
                 break
             residuals.append(self.forces()[1])
             if residuals[-1] <= TOLERANCE:
-                self.points.states.commit()
+                self.points.commit()
                 return True, residuals, 1.0
-        self.points.states.revert()
+        reason = answer.message or "Newton did not converge"
+        print(f"load {load:.6g}: {reason}; the step is cut", flush=True)
+        self.points.revert()
         self.u.x.array[:] = start
-        self.points.P.x.array[:], self.points.A.x.array[:] = committed
-        return False, residuals, answer.step_ratio if not answer.ok else 0.5
+        return False, residuals, 0.5 if answer.ok else answer.step_ratio
 
     def solve(self):
         """Newton's correction; the increment of the boundary values enters through its right side.
@@ -106,9 +105,9 @@ class Biaxial:
         return correction.array.copy()
 
 
-def main(material, prefix="biaxial"):
+def main(material, prefix="biaxial", count="20"):
     problem = Biaxial(grainlaw.Material(material))
-    steps = LoadSteps([0, *(k / 20 for k in range(1, 21))])
+    steps = LoadSteps([k / int(count) for k in range(int(count) + 1)])
     with open(prefix + "_force.csv", "w", encoding="utf-8") as force, \
             open(prefix + "_newton.csv", "w", encoding="utf-8") as newton:
         force.write("step[-],fraction[-],top_y_displacement[m],top_y_force[N/m]\n")
@@ -129,7 +128,7 @@ def main(material, prefix="biaxial"):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) not in (2, 3):
+    if not 2 <= len(sys.argv) <= 4:
         sys.exit(__doc__)
     try:
         main(*sys.argv[1:])

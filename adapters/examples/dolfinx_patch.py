@@ -29,7 +29,7 @@ def main(material, path):
         answer = points.evaluate(u)
         if not answer.ok:
             sys.exit(answer.message)
-        points.states.commit()
+        points.commit()
         row = []
         for test in units:
             v.interpolate(lambda x, G=test: G @ x[:2])

@@ -28,6 +28,7 @@ class Points:
                                 dtype=np.int32)
         self.states = grainlaw.States(material, len(self._cells) * len(self._where))
         self._F = None
+        self._committed = None
 
     def evaluate(self, u):
         """Evaluate all points at I + grad u in one call, with the exact tangent. P and A follow
@@ -41,6 +42,15 @@ class Points:
             self.A.x.array.reshape(-1, 16)[self._A_space.dofmap.list.array] = \
                 answer.A.reshape(-1, 16)
         return answer
+
+    def commit(self):
+        self.states.commit()
+        self._committed = self.P.x.array.copy(), self.A.x.array.copy()
+
+    def revert(self):
+        """Back to the committed states; P and A are theirs again."""
+        self.states.revert()
+        self.P.x.array[:], self.A.x.array[:] = self._committed
 
     def stress_power(self, v):
         """P : grad v, for the residual."""

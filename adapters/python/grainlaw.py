@@ -9,7 +9,7 @@ A[i, J, k, L] = dP_iJ/dF_kL, SI units. d is the dimension of the material.
     if answer.ok:
         points.commit()                                     # answer.P, answer.A
     else:
-        points.revert()                                     # retry with answer.step_ratio of the step
+        points.revert()                 # and retry with answer.step_ratio of the step
 
 A status < 0 raises Error and leaves what is committed as it was; a recoverable one (> 0) is an
 answer. The library is $GRAINLAW_LIBRARY, or the one this file was installed with, or the one the
