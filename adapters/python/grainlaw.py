@@ -144,8 +144,9 @@ class States:
             n, self._array, F.ctypes.data, want, P.ctypes.data, A.ctypes.data if want else None,
             status.ctypes.data, reports.ctypes.data, threads)
         if result < 0:
+            of_points = (reports["message"] != b"").any() or not (status == result).all()
             point = int(np.flatnonzero(status == result)[0])
-            raise Error(result, _point_message(point, status, reports))
+            raise Error(result, _point_message(point, status, reports) if of_points else "")
         self._trial = result == Status.OK
         return Evaluation(P, A, status, reports)
 

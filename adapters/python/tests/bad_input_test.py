@@ -55,7 +55,8 @@ class BadInput(Case):
 
     def test_unknown_tangent_and_measure(self):
         for want in (3, 8, 64):
-            self.assert_refused(Status.BAD_ARGUMENT, [], self.states.evaluate, self.good, want)
+            self.assert_refused(Status.BAD_ARGUMENT, ["outside its documented range"],
+                                self.states.evaluate, self.good, want)
         for measure in (-1, 1000):
             self.assert_refused(Status.BAD_ARGUMENT, [], self.states.measure, measure)
 
