@@ -55,9 +55,8 @@ auto guarded(const char* name, Command&& command) {
     return command();
   } catch (const std::exception& error) {
     last_error = std::string(name) + ": " + error.what();
+    throw ErrorExec(last_error.c_str(), 1);
   }
-  ExecError(last_error);
-  throw;  // not reached
 }
 
 PointSet& find(long number) {
@@ -151,8 +150,7 @@ long destroy(const long& number) {
   });
 }
 
-// An operator without arguments gets one that FreeFEM never looks at.
-string* text_of_last_error() { return new string(last_error); }
+string* text_of_last_error() { return &last_error; }
 
 template <class Field>
 void add_array_functions() {
