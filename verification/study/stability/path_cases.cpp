@@ -116,8 +116,7 @@ void add_dilution(const PackingStore& store, Cases& cases) {
 // release does not fall with the increment.
 void add_energy(const PackingStore& store, const MaterialSource& yade, Cases& cases) {
   for (const int steps : {15, 60, 240})
-    add(
-        cases, "energy", fmt::format("friction 0, shear to 1.5 % and back by {:g} %", 1.5 / steps),
+    add(cases, "energy", fmt::format("friction 0, shear to 1.5 % and back by {:g} %", 1.5 / steps),
         [=] { return store.generated({}, {.friction = 0}); },
         {.targets = cycles(1, steps, [](double s) { return simple_shear(0.015 * s); })});
   const Maker material = [yade] { return make_material(yade); };

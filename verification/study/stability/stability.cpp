@@ -173,8 +173,8 @@ void write_tables(const std::vector<Row>& rows, const std::filesystem::path& out
   Table shown(
       "stability: every case converges or ends in a defined way. Checked in every evaluation: P, "
       "tangent and measures are finite; after a failure the state has its bytes. Steps and "
-      "factorisations per evaluation, CPU per increment; energy over the absolute work: set free in "
-      "jumps between equilibria, and what then remains of work - stored - dissipated - released",
+      "factorisations per evaluation, CPU per increment; energy over the absolute work: set free "
+      "in jumps between equilibria, and what then remains of work - stored - dissipated - released",
       printed);
   for (const Row& row : rows) {
     Row written, narrow;

@@ -219,10 +219,10 @@ class Host {
 
   const Path& path_;
   State state_;
-  double volume_ = 0;        // at F = I [m3]
-  double first_stored_ = 0;  // [J]
-  double stored_ = 0;        // [J]
-  double dissipated_ = 0;    // [J]
+  double volume_ = 0;              // at F = I [m3]
+  double first_stored_ = 0;        // [J]
+  double stored_ = 0;              // [J]
+  double dissipated_ = 0;          // [J]
   std::vector<double> left_over_;  // of the work of every step: neither stored nor dissipated [J]
   Tensor here_ = Tensor::Identity();
   Tensor stress_ = Tensor::Zero();
