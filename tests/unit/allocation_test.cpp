@@ -1,6 +1,6 @@
 // After warm-up an evaluation allocates nothing. A program of its own: it counts every operator
 // new.
-#include "support.hpp"
+#include "boundary_support.hpp"
 
 #include <cstdlib>
 #include <new>
@@ -97,6 +97,10 @@ std::vector<MaterialDescription> descriptions() {
       all.push_back(describe(reference_packing(), law, boundary, 1e-8));
     }
   }
+  for (const auto boundary : {BoundaryType::frame_d, BoundaryType::frame_t}) {
+    all.push_back(describe(small_packing(), rough_law(), boundary, 1e-8));
+  }
+  all.push_back(describe_layer(small_packing(), -1e5));
   return all;
 }
 
@@ -133,6 +137,8 @@ TEST(allocation, does_not_happen_in_the_reference_methods) {
   description.solver.method = Method::published;
   EXPECT_EQ(allocations_after_warm_up(description, TangentKind::none), none);
   description.boundary.method = BoundaryMethod::servo;
+  EXPECT_EQ(allocations_after_warm_up(description, TangentKind::none), none);
+  description.boundary.type = BoundaryType::frame_t;
   EXPECT_EQ(allocations_after_warm_up(description, TangentKind::none), none);
 }
 
