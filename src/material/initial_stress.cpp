@@ -67,7 +67,7 @@ void load_to_stress(const BoundarySpace& space, const Request& request, Workspac
     }
     const auto status =
         outcome.status == GRAINLAW_OK ? GRAINLAW_CONTACTS_LOST : outcome.status;
-    throw Error(status,
+    throw Error(GRAINLAW_NOT_CONVERGED,
                 fmt::format("boundary.stress: no state of the packing carries {}: {}", prescribed,
                             grainlaw_status_text(status)));
   }

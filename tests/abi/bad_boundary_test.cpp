@@ -48,7 +48,7 @@ void expect_told(const std::string& text, const std::string& particles, grainlaw
   grainlaw_material* made = nullptr;
   const auto path = (directory / "material.toml").string();
   expect_refused(grainlaw_material_load(path.c_str(), &made, message, sizeof message), expected,
-                 told + " <- " + message);
+                 told);
   EXPECT_EQ(made, nullptr);
   EXPECT_NE(std::string(message).find(told), std::string::npos) << message << "\nfor " << told;
 }
@@ -132,7 +132,7 @@ TEST(bad_boundary, frames_are_told) {
 }
 
 TEST(bad_boundary, stress_that_no_state_carries_is_told) {
-  expect_told(sides(p, p, d, d) + "stress = {P22 = 1e9}\n", frame, GRAINLAW_CONTACTS_LOST,
+  expect_told(sides(p, p, d, d) + "stress = {P22 = 1e9}\n", frame, GRAINLAW_NOT_CONVERGED,
               "boundary.stress: no state of the packing carries P22 = 1e+09 Pa");
 }
 

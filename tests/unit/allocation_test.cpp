@@ -139,6 +139,7 @@ TEST(allocation, does_not_happen_in_the_reference_methods) {
   description.boundary.method = BoundaryMethod::servo;
   EXPECT_EQ(allocations_after_warm_up(description, TangentKind::none), none);
   description.boundary.type = BoundaryType::frame_t;
+  description.boundary.servo.tolerance = 1e-4;
   EXPECT_EQ(allocations_after_warm_up(description, TangentKind::none), none);
 }
 
