@@ -160,7 +160,7 @@ TEST(bad_material, any_mistake_is_told_with_file_line_key_and_expectation) {
 TEST(bad_material, any_mistake_in_a_generator_is_told) {
   const Mistake mistakes[] = {
       {2, "", 1, "thickness", "found nothing, expected a number > 0 with a generator"},
-      {4, "generator = \"rain\"", 4, "packing.generator", "expected \"compaction\""},
+      {4, "generator = \"rain\"", 4, "packing.generator", "expected one of \"compaction\""},
       {5, "count = 1", 5, "packing.count", "expected an integer from 2"},
       {5, "count = 100.0", 5, "packing.count", "expected an integer from 2"},
       {5, "", 3, "packing.count", "found nothing"},
