@@ -118,7 +118,7 @@ def collect(arguments):
 
 @_guarded(FAILED)
 def evaluate():
-    """All points that a pass collected, in one call: GO_ON, or CUT when one found no equilibrium."""
+    """All points that a pass collected, in one call: GO_ON, or CUT where no equilibrium was found."""
     run = _current()
     collected, run.gradients = run.gradients, {}
     if failures:
@@ -171,8 +171,8 @@ def load():
 
 @_guarded(FAILED)
 def judge(arguments):
-    """After the system was generated: |residual| and |nodal forces of the stresses| of it. The first
-    call of an attempt is the out-of-balance of the load increment, the others follow a solve."""
+    """After the system was generated: its |residual| and |nodal forces of the stresses|. The first
+    call of an attempt tells the out-of-balance of the load increment, the others follow a solve."""
     run = _current()
     if failures:
         return FAILED
