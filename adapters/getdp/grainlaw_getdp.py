@@ -99,6 +99,11 @@ def start(material, loads, tolerance, max_iterations=12, history=None):
     return GO_ON
 
 
+def states():
+    """The points as grainlaw.States, in the order of the first pass, e.g. to write one as VTK."""
+    return _current().states
+
+
 @_guarded([0.0])
 def collect(arguments):
     """Of one point: element, point, and a gradient of 3 numbers for each displacement component."""
@@ -118,7 +123,7 @@ def collect(arguments):
 
 @_guarded(FAILED)
 def evaluate():
-    """All points that a pass collected, in one call: GO_ON, or CUT where no equilibrium was found."""
+    """All points that a pass collected, in one call: GO_ON, or CUT where one has no equilibrium."""
     run = _current()
     collected, run.gradients = run.gradients, {}
     if failures:
