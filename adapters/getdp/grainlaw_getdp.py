@@ -136,20 +136,21 @@ def evaluate():
     try:
         run.answer = run.states.evaluate(F, grainlaw.Tangent.EXACT, run.threads)
     except grainlaw.Error as error:
-        raise grainlaw.Error(error.status, f"{error.message}; {_where(run, error)}") from None
+        if error.point is None:
+            raise
+        message = f"{error.message}; {_where(run, error.point)}"
+        raise grainlaw.Error(error.status, message) from None
     if not run.answer.ok:
-        return _cut(run, run.answer.step_ratio, run.answer.message)
+        reason = f"{run.answer.message}; {_where(run, run.answer.failed[0])}"
+        return _cut(run, run.answer.step_ratio, reason)
     run.tables = _tables(F, run.answer.P, run.answer.A)
     if run.committed is None:  # the first pass, at no displacement
         _commit(run)
     return GO_ON
 
 
-def _where(run, error):
-    keys = list(run.rows)
-    words = error.message.split(":")[0].split()
-    number = int(words[1]) if words[0] == "point" else 0
-    return "element {}, quadrature point {}".format(*keys[number])
+def _where(run, point):
+    return "point {} is element {}, quadrature point {}".format(point, *list(run.rows)[point])
 
 
 def _commit(run):
