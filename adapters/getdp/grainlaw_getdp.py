@@ -15,7 +15,7 @@ import sys
 import numpy as np
 
 import grainlaw
-from grainlaw_steps import LoadSteps, StepTooSmall
+from grainlaw_steps import LoadSteps
 
 FAILED, GO_ON, CUT, CONVERGED = 0, 1, 2, 3
 PATIENCE = 4  # iterations without halving the residual before a step is cut
