@@ -1,239 +1,145 @@
 #include "consolidation/compaction.hpp"
 
-#include "boundary/boundary_space.hpp"
-#include "contact/frictional.hpp"
-#include "equilibrium/chain.hpp"
+#include "consolidation/compression.hpp"
+#include "consolidation/stress_control.hpp"
 #include "error.hpp"
-#include "homogenise/stress.hpp"
+#include "packing/lubachevsky_stillinger.hpp"
+#include "packing/regular.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace grainlaw {
 
 namespace {
 
-// Compression with incomplete relaxations: linear strain per step, of discs that never bore load
-// and of those that did (a share of the final pressure); not every passing state comes to rest, the
-// next step moves on from it. Forces count as faded at a share of what their mean will be.
-constexpr double loose_step = 5e-3;
-constexpr double bearing_step = 5e-4;
-constexpr double bearing_share = 1e-2;
-constexpr double faded_force = 1e-3;
-constexpr double passing_tolerance = 1e-2;
-constexpr long passing_relaxation = 1000;
-// Within this share of the target stresses equilibria are exact, to a residual relative to the mean
-// contact force. Relative accuracy of the stresses at the end.
-constexpr double exact_from = 0.1;
-constexpr double exact_relaxation = 1e-4;
-constexpr double exact_tolerance = 1e-9;
-constexpr int most_factorisations = 50;
-constexpr double stress_tolerance = 1e-7;
-constexpr int most_steps = 2000;
+// Beyond this kn / (p t) compression does not end at rest for every seed.
+constexpr double stiffest_compression = 1e3;
+// The most that neighbours may overlap, of their distance at first touch: contact laws of discs mean
+// small overlaps.
+constexpr double most_overlap = 0.2;
+constexpr double faded_force = 1e-3;  // of the mean force at the target
 
-using Stretches = std::array<double, 2>;
+[[noreturn]] void wrong(const char* name, double value, const std::string& expected) {
+  throw Error(GRAINLAW_BAD_PACKING,
+              fmt::format("generator: {} = {}, expected {}", name, value, expected));
+}
 
-class Compaction {
- public:
-  Compaction(const GeneratorOptions& options, const ContactLaw& law)
-      : options_(options), packing_(scatter(options)), law_(law) {
-    law_.friction = options.friction;
-    space_ = make_boundary_space(packing_, {});
-    const double n = static_cast<double>(packing_.size());
-    double radius = 0;
-    for (const double r : packing_.radius) {
-      solid_ += std::numbers::pi * r * r;
-      radius += r / n;
-    }
-    // With 2 n contacts of branches 2 R: p V = sum fn 2 R / 2.
-    const double stress = options.void_ratio > 0
-                              ? 1e-4 * law.stiffness(radius, radius) / packing_.thickness
-                              : options.pressure;
-    bearing_pressure_ = bearing_share * stress;
-    const double mean_force = stress * packing_.thickness * solid_ / (2 * n * radius);
-    problem_ = {&packing_, &law_, &space_, faded_force * mean_force};
-  }
+double mean_radius(const Packing& packing) {
+  double sum = 0;
+  for (const double r : packing.radius) sum += r;
+  return sum / static_cast<double>(packing.size());
+}
 
-  Packing run() {
-    Configuration start;
-    start.deformation = {1, 0, 0, 1};
-    start.coordinates = packing_.position;
-    if (law_.rotating()) start.coordinates.resize(3 * packing_.size(), 0.0);
-    increment_.begin(problem_, start, {1, 0, 0, 1});
-    bool borne = false;
-    for (int step = 0; step < most_steps; ++step) {
-      relax_to(passing_tolerance);
-      const bool bears = pressure() > bearing_pressure_;
-      borne = borne || bears;
-      if (void_ratio() > options_.void_ratio * (1 + 1e-12) && (options_.void_ratio > 0 || !bears)) {
-        shrink(borne ? bearing_step : loose_step);
-        continue;
-      }
-      if (!bears)
-        throw Error(GRAINLAW_BAD_PACKING,
-                    fmt::format("generator: the discs bear no load at void_ratio = {}, expected a "
-                                "lower one",
-                                options_.void_ratio));
-      Target target = newton(elastic_tangent(increment_));
-      if (target.misfit < exact_from) {
-        const bool at_rest = come_to_rest();
-        target = towards_target(at_rest);
-        if (at_rest && target.misfit < stress_tolerance) return result();
-      }
-      stretch(target.step, bearing_step);
-    }
-    throw Error(
-        GRAINLAW_NOT_CONVERGED,
-        fmt::format("generator: no packing at rest was found; pressure {:.6g} Pa, void ratio "
-                    "{:.6g}; try another seed",
-                    pressure(), void_ratio()));
-  }
+double solid_area(const Packing& packing) {
+  double sum = 0;
+  for (const double r : packing.radius) sum += std::numbers::pi * r * r;
+  return sum;
+}
 
- private:
-  [[nodiscard]] double void_ratio() const {
-    return packing_.cell[0] * packing_.cell[3] * stretch_[0] * stretch_[1] / solid_ - 1;
-  }
-  [[nodiscard]] double pressure() const {
-    return -0.5 * (stress_[0] / stretch_[1] + stress_[3] / stretch_[0]);
-  }
+double cell_area(const Packing& packing) {
+  return packing.cell[0] * packing.cell[3] - packing.cell[1] * packing.cell[2];
+}
 
-  void stretch(Stretches change, double largest_strain) {
-    const double strain =
-        std::max(std::abs(change[0] / stretch_[0]), std::abs(change[1] / stretch_[1]));
-    const double share = std::min(1.0, largest_strain / strain);
-    stretch_ = {stretch_[0] + share * change[0], stretch_[1] + share * change[1]};
-    increment_.advance_history();
-    increment_.deform({stretch_[0], 0, 0, stretch_[1]});
-  }
+// p t / kn of equal discs, over their relative overlap: p V = 1/2 sum fn d.
+double largest_pressure(const GeneratorOptions& options, const ContactLaw& law, double radius) {
+  return most_overlap * law.stiffness(radius, radius) / options.thickness;
+}
 
-  // By a linear strain, or to the target void ratio if that is less.
-  void shrink(double strain) {
-    if (options_.void_ratio > 0)
-      strain = std::min(strain, 1 - std::sqrt((1 + options_.void_ratio) / (1 + void_ratio())));
-    stretch({-strain * stretch_[0], -strain * stretch_[1]}, strain);
-  }
-
-  bool relax_to(double tolerance) {
-    const auto history = law_.tangential() ? History::advancing : History::committed;
-    const bool done =
-        relax(increment_, tolerance, passing_relaxation, history, workspace_.relaxation);
-    stress_ = piola_stress(increment_);
-    return done;
-  }
-
-  // The exact equilibrium, with sensitivities; false when it is out of reach from here.
-  bool come_to_rest() {
-    relax_to(exact_relaxation);
-    workspace_.sensitivity.reset();
-    const bool done =
-        flow_newton(increment_, exact_tolerance, most_factorisations, workspace_.newton) &&
-        workspace_.sensitivity.solve(increment_, 1, 0, workspace_.newton.stiffness);
-    stress_ = piola_stress(increment_);
-    return done;
-  }
-
-  struct Target {
-    double misfit;  // of the stresses, relative to the pressure [-]
-    bool stable;    // the step leads downhill in enthalpy
-    Stretches step;
-  };
-
-  // Newton's step with the exact tangent where that is stable; frictionless packings are often
-  // close to a rearrangement, and then the stiffer affine tangent leads on.
-  [[nodiscard]] Target towards_target(bool exact) const {
-    Target target{};
-    if (exact) target = newton(condensed_tangent(increment_, workspace_.sensitivity));
-    if (!target.stable) target = newton(elastic_tangent(increment_));
-    return target;
-  }
-
-  [[nodiscard]] Target newton(const std::array<double, 16>& tangent) const {
-    const auto [a, b] = stretch_;
-    const auto& p = stress_;
-    // dP11 and dP22 by the two stretches.
-    const double c11 = tangent[0];
-    const double c12 = tangent[3];
-    const double c21 = tangent[12];
-    const double c22 = tangent[15];
-    if (options_.void_ratio > 0) {
-      // Area fixed: a = s exp(q), b = s exp(-q); Cauchy stresses P11 / b and P22 / a equal.
-      const double difference = p[0] / b - p[3] / a;
-      const double slope = (c11 * a - c12 * b + p[0]) / b - (c21 * a - c22 * b - p[3]) / a;
-      const double q = -difference / slope;
-      return {
-          std::abs(difference) / pressure(), slope > 0, {a * std::expm1(q), b * std::expm1(-q)}};
-    }
-    const double target = options_.pressure;
-    const double r1 = p[0] + target * b;
-    const double r2 = p[3] + target * a;
-    const double k12 = c12 + target;
-    const double k21 = c21 + target;
-    const double det = c11 * c22 - k12 * k21;
-    const bool stable = c11 > 0 && 4 * c11 * c22 > (k12 + k21) * (k12 + k21);
-    return {std::max(std::abs(r1) / b, std::abs(r2) / a) / target,
-            stable,
-            {-(c22 * r1 - k12 * r2) / det, -(c11 * r2 - k21 * r1) / det}};
-  }
-
-  [[nodiscard]] Packing result() const {
-    const Increment& increment = increment_;
-    Packing packing = packing_;
-    packing.cell = {increment.cell[0], increment.cell[1], increment.cell[2], increment.cell[3]};
-    std::copy_n(increment.coordinates.begin(), packing.position.size(), packing.position.begin());
-    for (std::size_t c = 0; c < increment.contacts.size(); ++c) {
-      const auto point = contact_point(increment.contacts, c, increment.coordinates, packing.size(),
-                                       law_);
-      if (point.status == ContactStatus::open) continue;
-      const auto& pair = increment.pairs[c];
-      const double t = point.tangential_force;
-      packing.contacts.push_back({pair.i,
-                                  pair.j,
-                                  {pair.shift[0], pair.shift[1]},
-                                  point.normal_force,
-                                  {-t * point.normal_y, t * point.normal_x}});
-    }
-    return packing;
-  }
-
-  GeneratorOptions options_;
-  Packing packing_;  // the start configuration
-  ContactLaw law_;
-  BoundarySpace space_;
-  Problem problem_;
-  Workspace workspace_;
-  Increment& increment_ = workspace_.increment;
-  Stretches stretch_ = {1, 1};      // of the start configuration
-  std::array<double, 4> stress_{};  // first Piola-Kirchhoff against it [Pa]
-  double solid_ = 0;                // area of the discs [m2]
-  double bearing_pressure_ = 0;     // [Pa]
-};
-
-void check(const GeneratorOptions& options) {
-  const auto require = [](bool right, const char* name, double value) {
-    if (!right)
-      throw Error(GRAINLAW_BAD_PACKING,
-                  fmt::format("generator: {} = {}, expected a finite number > 0", name, value));
-  };
+void check(const GeneratorOptions& options, const ContactLaw& law, double radius) {
   const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
   if (options.void_ratio != 0) {
-    require(positive(options.void_ratio), "void_ratio", options.void_ratio);
+    if (!positive(options.void_ratio))
+      wrong("void_ratio", options.void_ratio, "a finite number > 0");
   } else {
-    require(positive(options.pressure), "pressure", options.pressure);
+    if (!positive(options.pressure)) wrong("pressure", options.pressure, "a finite number > 0");
+    const double most = largest_pressure(options, law, radius);
+    if (options.pressure > most)
+      wrong("pressure", options.pressure,
+            fmt::format("at most {:.6g} Pa, a fifth of kn / thickness", most));
   }
   if (!(options.friction >= 0) || !std::isfinite(options.friction))
-    throw Error(GRAINLAW_BAD_PACKING,
-                fmt::format("generator: friction = {}, expected a number >= 0", options.friction));
+    wrong("friction", options.friction, "a number >= 0");
+}
+
+// Both lattices: fn = kn overlap at distance d; square p t = fn / d, hexagonal p t = sqrt(3) fn / d.
+Packing make_regular(const GeneratorOptions& options, const ContactLaw& law) {
+  const double radius = options.radius_max;
+  const double diameter = 2 * radius;
+  const bool square = options.kind == GeneratorKind::square;
+  const double kn = law.stiffness(radius, radius);
+  double overlap = options.overlap;
+  if (!(overlap > 0)) {
+    check(options, law, radius);
+    const double load = options.pressure * options.thickness / (square ? 1 : std::numbers::sqrt3);
+    overlap = diameter * load / (kn + load);
+  }
+  if (!(overlap < most_overlap * diameter))
+    wrong("overlap", overlap, fmt::format("a length > 0 and below {} m", most_overlap * diameter));
+  const double distance = diameter - overlap;
+  Packing packing = square
+                        ? square_lattice(options.columns, options.rows, radius, distance)
+                        : hexagonal_lattice(options.columns, options.rows, radius, distance);
+  packing.thickness = options.thickness;
+  packing.density = options.density;
+  return packing;
+}
+
+Packing make_random(const GeneratorOptions& options, const ContactLaw& material_law) {
+  check(options, material_law, 0.5 * (options.radius_min + options.radius_max));
+  ContactLaw law = material_law;
+  law.friction = options.friction;
+  const Packing loose =
+      options.kind == GeneratorKind::lubachevsky_stillinger ? grow(options) : scatter(options);
+  const double radius = mean_radius(loose);
+  const double line_stiffness = law.stiffness(radius, radius) / options.thickness;  // [Pa]
+  const bool to_pressure = !(options.void_ratio > 0);
+  // The compression's own target, softer than the packing's where that is stiff.
+  GeneratorOptions soft = options;
+  soft.pressure = std::max(options.pressure, line_stiffness / stiffest_compression);
+  std::optional<Configuration> compressed;
+  bool unload = to_pressure && soft.pressure > options.pressure;
+  try {
+    compressed = compress(loose, soft, law);
+  } catch (const Error& error) {
+    if (error.status != GRAINLAW_NOT_CONVERGED || to_pressure) throw;
+    // A void ratio of so little load that it is reached from above.
+    soft.void_ratio = 0;
+    soft.pressure = line_stiffness / stiffest_compression;
+    compressed = compress(loose, soft, law);
+    unload = true;
+  }
+  const double pressure = to_pressure ? options.pressure : soft.pressure;
+  const double mean_force = pressure * options.thickness * solid_area(loose) /
+                            (2 * static_cast<double>(loose.size()) * radius);
+  if (unload) {
+    StressControl control(loose, law, *std::move(compressed), faded_force * mean_force);
+    IsotropicTarget target;
+    target.pressure = options.pressure;
+    if (!to_pressure)
+      target.volume = (1 + options.void_ratio) * solid_area(loose) / cell_area(loose);
+    if (!control.reach(target))
+      throw Error(GRAINLAW_NOT_CONVERGED,
+                  fmt::format("generator: no packing at rest was found on unloading; pressure "
+                              "{:.6g} Pa, void ratio {:.6g}; try another seed",
+                              control.pressure(),
+                              control.volume() * cell_area(loose) / solid_area(loose) - 1));
+    return packing_of(control.problem(), control.configuration());
+  }
+  const BoundarySpace space = make_boundary_space(loose, {});
+  return packing_of({&loose, &law, &space}, *compressed);
 }
 
 }  // namespace
 
 Packing consolidate(const GeneratorOptions& options, const ContactLaw& law) {
-  check(options);
-  return Compaction(options, law).run();
+  const bool regular =
+      options.kind == GeneratorKind::square || options.kind == GeneratorKind::hexagonal;
+  return regular ? make_regular(options, law) : make_random(options, law);
 }
 
 }  // namespace grainlaw

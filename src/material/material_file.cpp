@@ -1,8 +1,8 @@
 #include "material/material_file.hpp"
 
 #include "error.hpp"
+#include "material/packing_keys.hpp"
 #include "material/toml_table.hpp"
-#include "packing/generator.hpp"
 #include "packing/packing_file.hpp"
 
 #include <fmt/format.h>
@@ -89,21 +89,6 @@ SolverOptions read_solver(TomlTable table, BoundaryMethod boundary_method) {
   solver.published = read_published(table.optional_table("published"));
   table.finish();
   return solver;
-}
-
-GeneratorOptions read_generator(TomlTable& table) {
-  GeneratorOptions generator;
-  table.required("generator", one_of<bool>({{"compaction", true}}));
-  table.required("count", integer_between(2, 1000000), generator.count);
-  const auto radii = table.required("radii", positive_range());
-  generator.radius_min = radii[0];
-  generator.radius_max = radii[1];
-  table.required("seed", integer_between(0), generator.seed);
-  table.require_either("pressure", "void_ratio");
-  table.optional("pressure", number_above(0), generator.pressure);
-  table.optional("void_ratio", number_above(0), generator.void_ratio);
-  table.optional("friction", number_at_least(0), generator.friction);
-  return generator;
 }
 
 PackingPaths read_paths(TomlTable& table, const std::filesystem::path& directory) {

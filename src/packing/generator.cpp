@@ -19,11 +19,6 @@ namespace {
 constexpr double volume_fraction = 0.4;
 constexpr int most_trials = 100000;
 
-// The engine's bits are fixed by the standard; what its distributions make of them is not.
-double unit_double(std::mt19937_64& engine) {
-  return static_cast<double>(engine() >> 11) * 0x1p-53;
-}
-
 void shuffle(std::vector<double>& values, std::mt19937_64& engine) {
   for (std::size_t k = values.size(); k > 1; --k) {
     const auto other = static_cast<std::size_t>(unit_double(engine) * static_cast<double>(k));
@@ -91,6 +86,16 @@ class PlacedDiscs {
 
 }  // namespace
 
+std::vector<double> graded_radii(const GeneratorOptions& options, std::mt19937_64& engine) {
+  const auto n = static_cast<double>(options.count);
+  std::vector<double> radii;
+  for (std::size_t p = 0; p < options.count; ++p)
+    radii.push_back(options.radius_min + (options.radius_max - options.radius_min) *
+                                             (static_cast<double>(p) + 0.5) / n);
+  shuffle(radii, engine);
+  return radii;
+}
+
 Packing scatter(const GeneratorOptions& options) {
   check(options);
   const std::size_t n = options.count;
@@ -98,11 +103,7 @@ Packing scatter(const GeneratorOptions& options) {
   Packing packing;
   packing.thickness = options.thickness;
   packing.density = options.density;
-  for (std::size_t p = 0; p < n; ++p)
-    packing.radius.push_back(options.radius_min + (options.radius_max - options.radius_min) *
-                                                      (static_cast<double>(p) + 0.5) /
-                                                      static_cast<double>(n));
-  shuffle(packing.radius, engine);
+  packing.radius = graded_radii(options, engine);
 
   double solid = 0;
   for (const double r : packing.radius) solid += std::numbers::pi * r * r;

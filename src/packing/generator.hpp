@@ -1,30 +1,59 @@
-// A start configuration for compaction: discs of given sizes, loose, at random places in a square
-// cell.
+// How a packing is to be made, and the start configuration of a compaction: discs of given sizes,
+// loose, at random places in a square cell.
 #pragma once
 
 #include "packing/packing.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <random>
+#include <vector>
 
 namespace grainlaw {
 
+enum class GeneratorKind { compaction, lubachevsky_stillinger, square, hexagonal };
+
 struct GeneratorOptions {
+  GeneratorKind kind = GeneratorKind::compaction;
+  double pressure = 1e5;   // of the packing at F = I [Pa]; unused when another target is given
+  double thickness = 0.1;  // [m]
+  double density = 2650;   // of the grains [kg/m3]
+
+  // Random packings.
   std::size_t count = 400;
   double radius_min = 3e-3;  // [m]
   double radius_max = 7e-3;  // [m]
   std::uint64_t seed = 1;
-  double pressure = 1e5;   // of the consolidated packing [Pa]; unused when void_ratio > 0
-  double void_ratio = 0;   // target instead of the pressure [-]; 0: the pressure is the target
-  double friction = 0;     // tan(phi) during consolidation [-]
-  double thickness = 0.1;  // [m]
-  double density = 2650;   // of the grains [kg/m3]
+  double void_ratio = 0;  // target instead of the pressure [-]; 0: the pressure is the target
+  double friction = 0;    // tan(phi) during consolidation [-]
+  // Wanted fabric anisotropy, and the angle of its major direction against axis 1 [rad]; below 0:
+  // as it comes.
+  double anisotropy = -1;
+  double anisotropy_direction = 0;
+  // Event-driven growth: of the mean radius, over the mean thermal speed [-]; and the volume
+  // fraction where it ends [-], 0: when the discs jam.
+  double growth_rate = 0.01;
+  double growth_end = 0;
+
+  // Regular packings: discs in a row and rows of the periodic cell, all of radius_max.
+  std::size_t columns = 0;
+  std::size_t rows = 0;
+  double overlap = 0;  // of neighbours, instead of the pressure [m]
 };
 
-// Radii are the quantiles (i + 1/2) / count of the uniform distribution, so that every seed has the
-// same grading; order and places depend on the seed, bit for bit the same on every platform. No two
-// discs touch; discs cover 40 % of the cell. Throws Error (BAD_PACKING) for options out of range:
-// count < 1, 0 < radius_min <= radius_max, thickness > 0, density > 0.
+// In [0, 1), from the engine's bits: they are fixed by the standard; what its distributions make of
+// them is not.
+inline double unit_double(std::mt19937_64& engine) {
+  return static_cast<double>(engine() >> 11) * 0x1p-53;
+}
+
+// The quantiles (i + 1/2) / count of the uniform distribution of radii in random order, so that
+// every seed has the same grading [m].
+std::vector<double> graded_radii(const GeneratorOptions& options, std::mt19937_64& engine);
+
+// Discs of graded radii; order and places depend on the seed, bit for bit the same on every
+// platform. No two discs touch; discs cover 40 % of the cell. Throws Error (BAD_PACKING) for options
+// out of range: count < 1, 0 < radius_min <= radius_max, thickness > 0, density > 0.
 Packing scatter(const GeneratorOptions& options);
 
 }  // namespace grainlaw

@@ -1,0 +1,68 @@
+#include "material/packing_keys.hpp"
+
+#include <numbers>
+
+namespace grainlaw {
+
+namespace {
+
+void read_regular(TomlTable& table, GeneratorOptions& generator) {
+  constexpr long most = 10000;
+  table.required("columns", integer_between(2, most), generator.columns);
+  table.required("rows", integer_between(2, most), generator.rows);
+  if (generator.kind == GeneratorKind::hexagonal && generator.rows % 2 != 0)
+    table.fail("rows", std::to_string(generator.rows), "an even number of rows");
+  table.required("radius", number_above(0), generator.radius_max);
+  table.require_either("pressure", "overlap");
+  table.optional("pressure", number_above(0), generator.pressure);
+  table.optional("overlap", number_above_up_to(0, 0.5 * generator.radius_max), generator.overlap);
+}
+
+void read_anisotropy(TomlTable& table, GeneratorOptions& generator) {
+  table.optional("anisotropy", number_between(0, 0.5), generator.anisotropy);
+  double degrees = 0;
+  table.optional("anisotropy_direction", number_between(-180, 180), degrees);
+  generator.anisotropy_direction = degrees * std::numbers::pi / 180;
+  if (table.has("anisotropy_direction") && !table.has("anisotropy"))
+    table.fail("anisotropy", "nothing", "a number with anisotropy_direction");
+  if (table.has("anisotropy") && !(generator.friction > 0))
+    table.fail("friction", "none", "a number > 0, since without it no anisotropy stays");
+}
+
+void read_random(TomlTable& table, GeneratorOptions& generator) {
+  table.required("count", integer_between(2, 1000000), generator.count);
+  const auto radii = table.required("radii", positive_range());
+  generator.radius_min = radii[0];
+  generator.radius_max = radii[1];
+  table.required("seed", integer_between(0), generator.seed);
+  table.require_either("pressure", "void_ratio");
+  table.optional("pressure", number_above(0), generator.pressure);
+  table.optional("void_ratio", number_above(0), generator.void_ratio);
+  table.optional("friction", number_at_least(0), generator.friction);
+  read_anisotropy(table, generator);
+  if (generator.kind != GeneratorKind::lubachevsky_stillinger) return;
+  table.optional("growth_rate", number_between(1e-5, 1), generator.growth_rate);
+  table.optional("volume_fraction", number_between(0.4, 0.95), generator.growth_end);
+}
+
+}  // namespace
+
+GeneratorOptions read_generator(TomlTable& table) {
+  GeneratorOptions generator;
+  generator.kind = table.required(
+      "generator",
+      one_of<GeneratorKind>({{"compaction", GeneratorKind::compaction},
+                             {"lubachevsky-stillinger", GeneratorKind::lubachevsky_stillinger},
+                             {"square", GeneratorKind::square},
+                             {"hexagonal", GeneratorKind::hexagonal}}));
+  const bool regular =
+      generator.kind == GeneratorKind::square || generator.kind == GeneratorKind::hexagonal;
+  if (regular) {
+    read_regular(table, generator);
+  } else {
+    read_random(table, generator);
+  }
+  return generator;
+}
+
+}  // namespace grainlaw

@@ -1,0 +1,13 @@
+// The keys of [packing] that describe a generator.
+#pragma once
+
+#include "material/toml_table.hpp"
+#include "packing/generator.hpp"
+
+namespace grainlaw {
+
+// Every generator has its own keys; one of another generator counts as unknown. Throws Error
+// (BAD_MATERIAL). `density` and the thickness are read elsewhere.
+GeneratorOptions read_generator(TomlTable& table);
+
+}  // namespace grainlaw
