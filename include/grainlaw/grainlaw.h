@@ -135,6 +135,7 @@ typedef struct grainlaw_report {
   int tangent_exact;      /* 1: the returned tangent is the derivative of the returned P */
   int history_advanced;   /* 1: fallback that advances the friction history was used; approximate */
   char message[256];      /* one line of text, "" after plain success */
+  int broken_bonds;       /* bonds that broke in this evaluation [-] */
 } grainlaw_report;
 
 /* A report with its size set and everything else zero. */

@@ -93,9 +93,16 @@ Packing make_random(const GeneratorOptions& options, const ContactLaw& material_
   check(options, material_law, 0.5 * (options.radius_min + options.radius_max));
   ContactLaw law = material_law;
   law.friction = options.friction;
+  if (law.bonds()) law.kind = LawKind::frictional;  // bonds come with F = I
   const Packing loose =
       options.kind == GeneratorKind::lubachevsky_stillinger ? grow(options) : scatter(options);
   const double radius = mean_radius(loose);
+  if (law.hertzian() && !(options.void_ratio > 0)) {
+    // With 2 n contacts of branches 2 R: p V = sum fn 2 R / 2.
+    const double force = options.pressure * options.thickness * solid_area(loose) /
+                         (2 * static_cast<double>(loose.size()) * radius);
+    law.typical_overlap = std::pow(1.5 * force / law.coefficient(radius, radius), 2.0 / 3) / radius;
+  }
   const double line_stiffness = law.stiffness(radius, radius) / options.thickness;  // [Pa]
   const bool to_pressure = !(options.void_ratio > 0);
   // The compression's own target, softer than the packing's where that is stiff.

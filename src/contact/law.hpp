@@ -1,26 +1,99 @@
-// The contact law of a material: stiffness from moduli, friction, and what may rotate.
+// The contact law of a material: stiffness, friction, bonds, rolling resistance, and what may rotate.
 #pragma once
+
+#include <cmath>
 
 namespace grainlaw {
 
-enum class LawKind { frictional };
+// compressive  fn = kn overlap, nothing else (bond-elastic's counterpart in Liu's thesis, eq. 4.7)
+// frictional   Liu, Bosco & Suiker (2017) eq. 6
+// bonded       eqs. 7-8 until a bond breaks, then frictional
+// hertz        Hertz-Mindlin, Guo & Zhao (2014) after eq. 9
+enum class LawKind { frictional, compressive, bonded, hertz };
+
+// A spring between the rotations of two discs, capped: kr = ratio kt r^2 and |m| <= friction r fn,
+// with r = 2 Ri Rj / (Ri + Rj), the radius of equal discs.
+struct RollingResistance {
+  double ratio = 0;     // [-]
+  double friction = 0;  // [-]
+};
+
+// A bond has the contact's kn and kt, in tension too, and bends. It breaks when fn / normal_strength
+// + |ft| / tangential_strength + |m| / bending_strength >= 1, fn positive in tension.
+struct Bond {
+  double normal_strength = 0;      // [N]
+  double tangential_strength = 0;  // [N]
+  double bending_strength = 0;     // [N m], 0 when bonds do not bend
+  double bending_stiffness = 0;    // [N m / rad]
+  double gap = 0;                  // discs nearer than this at F = I are bonded [m]
+};
 
 struct ContactLaw {
   LawKind kind = LawKind::frictional;
   double young = 0;             // kn = young * 2 Ri Rj / (Ri + Rj), Guo & Zhao eq. 14 [Pa]; or
   double normal_stiffness = 0;  // kn itself, used when young is 0 [N/m]
-  double ratio = 0;             // kt / kn [-]
+  double ratio = 0;             // kt / kn; Hertz-Mindlin: 2 (1 - poisson) / (2 - poisson) [-]
   double friction = 0;          // tan(phi) [-]
   bool rotation = true;         // false: particles keep their orientation
+  double shear_modulus = 0;     // Hertz-Mindlin [Pa]
+  double poisson = 0;           // Hertz-Mindlin [-]
+  RollingResistance rolling;
+  Bond bond;
+  // Overlap / common radius at which a Hertz-Mindlin contact states one stiffness, where the solver
+  // needs a scale; that of the packing at F = I [-].
+  double typical_overlap = 1e-3;
+
+  // 2 a b / (a + b) [m]
+  [[nodiscard]] static double common_radius(double a, double b) { return 2 * a * b / (a + b); }
 
   // Normal stiffness of a contact between radii a and b [N/m].
   [[nodiscard]] double stiffness(double a, double b) const {
+    if (hertzian()) return coefficient(a, b) * std::sqrt(typical_overlap * common_radius(a, b));
     return young > 0 ? young * 2 * a * b / (a + b) : normal_stiffness;
   }
-  // Tangential springs act: there is friction and stiffness.
-  [[nodiscard]] bool tangential() const { return friction > 0 && ratio > 0; }
+  // What contacts are listed with: kn [N/m]; Hertz-Mindlin: kn / sqrt(overlap), G / (1 - poisson)
+  // sqrt(2 r) [N/m^1.5].
+  [[nodiscard]] double coefficient(double a, double b) const {
+    if (!hertzian()) return stiffness(a, b);
+    return shear_modulus / (1 - poisson) * std::sqrt(2 * common_radius(a, b));
+  }
+  // Of a contact between radii a and b; overlap negative in tension, which only bonds carry [N].
+  [[nodiscard]] double normal_force(double a, double b, double overlap) const {
+    const double root = hertzian() ? std::sqrt(overlap > 0 ? overlap : 0) : 1;
+    return (hertzian() ? 2.0 / 3 : 1) * coefficient(a, b) * root * overlap;
+  }
+  // What its springs hold [J]; bonded: by a bond.
+  [[nodiscard]] double energy(double a, double b, double overlap, double tangential_force,
+                              double moment, bool bonded) const {
+    const double kn = hertzian() ? coefficient(a, b) * std::sqrt(overlap > 0 ? overlap : 0)
+                                 : coefficient(a, b);
+    const double kr = bonded ? bond.bending_stiffness : rolling_ratio(a, b) * ratio * kn;
+    double sum = (hertzian() ? 4.0 / 15 : 0.5) * kn * overlap * overlap;
+    if (tangential_force != 0) sum += 0.5 * tangential_force * tangential_force / (ratio * kn);
+    if (moment != 0) sum += 0.5 * moment * moment / kr;
+    return sum;
+  }
+  // kr / kt of contacts without a bond [m2].
+  [[nodiscard]] double rolling_ratio(double a, double b) const {
+    const double r = common_radius(a, b);
+    return rolls() ? rolling.ratio * r * r : 0;
+  }
+
+  [[nodiscard]] bool hertzian() const { return kind == LawKind::hertz; }
+  [[nodiscard]] bool bonds() const { return kind == LawKind::bonded; }
+  // Tangential springs act: there is friction (or a bond) and stiffness.
+  [[nodiscard]] bool tangential() const { return ratio > 0 && (friction > 0 || bonds()); }
   // Particle rotations are unknowns.
   [[nodiscard]] bool rotating() const { return tangential() && rotation; }
+  [[nodiscard]] bool rolls() const {
+    return rotating() && rolling.ratio > 0 && rolling.friction > 0;
+  }
+  // Contacts carry moments.
+  [[nodiscard]] bool moments() const {
+    return rolls() || (rotating() && bonds());
+  }
+  // Linear, without bonds and moments: the law of the shortest loops.
+  [[nodiscard]] bool plain() const { return !hertzian() && !bonds() && !moments(); }
 };
 
 }  // namespace grainlaw

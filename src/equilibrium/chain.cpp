@@ -39,7 +39,11 @@ double hardness(const Request& request) {
   const double pressure = -0.5 * trace / det;
   double radius = 0;
   for (const double r : packing.radius) radius += r / static_cast<double>(packing.size());
-  const double line = std::max(pressure * packing.thickness, request.problem->force_floor / radius);
+  double line = std::max(pressure * packing.thickness, request.problem->force_floor / radius);
+  // Bonds hold each other in place until they break.
+  if (request.problem->law->bonds()) {
+    line = std::max(line, request.problem->law->bond.normal_strength / radius);
+  }
   return line > 0 ? strain * request.problem->law->stiffness(radius, radius) / line : 0;
 }
 
@@ -83,6 +87,18 @@ bool solve_part(const Request& request, Workspace& w) {
   return false;
 }
 
+// Once at equilibrium, break the bonds that are beyond their strength and find the next one at the
+// same F, until none is: `solve_again` does, after `before_break`.
+template <class BeforeBreak, class SolveAgain>
+bool settle_bonds(Increment& increment, BeforeBreak&& before_break, SolveAgain&& solve_again) {
+  while (increment.overloads_bonds()) {
+    before_break();
+    increment.break_bonds();
+    if (!solve_again()) return false;
+  }
+  return true;
+}
+
 bool solve_parts(const Request& request, int parts, Workspace& w, Outcome& outcome) {
   auto& increment = w.increment;
   w.sensitivity.reset();
@@ -96,12 +112,25 @@ bool solve_parts(const Request& request, int parts, Workspace& w, Outcome& outco
       increment.deform(between(request.from->deformation, request.deformation, share));
     }
     if (!solve_part(request, w)) return false;
-    if (outcome.sensitivities) {
-      const double start = static_cast<double>(k - 1) / parts;
-      outcome.sensitivities = w.sensitivity.solve(increment, share, start, w.newton.stiffness);
-    }
-    if (k < parts) {
+    double start = static_cast<double>(k - 1) / parts;
+    const auto find_sensitivities = [&] {
+      if (outcome.sensitivities) {
+        outcome.sensitivities = w.sensitivity.solve(increment, share, start, w.newton.stiffness);
+      }
+    };
+    const auto carry = [&] {
       if (outcome.sensitivities) w.sensitivity.carry(increment);
+    };
+    find_sensitivities();
+    const bool settled = settle_bonds(increment, carry, [&] {
+      start = share;
+      if (!solve_part(request, w)) return false;
+      find_sensitivities();
+      return true;
+    });
+    if (!settled) return false;
+    if (k < parts) {
+      carry();
       increment.advance_history();
     }
   }
@@ -115,16 +144,18 @@ bool solve_advancing(const Request& request, Method method, Workspace& w, Outcom
   outcome.history_advanced = true;
   w.sensitivity.reset();
   start_iteration(request, 1, increment);
-  bool done = false;
-  if (request.problem->space->options.method == BoundaryMethod::servo) {
-    done = solve_servo(increment, *request.options, request.tolerance, w.relaxation);
-  } else if (method == Method::published) {
-    done =
-        relax_published(increment, request.tolerance, request.options->published, {}, w.relaxation);
-  } else {
-    done = relax(increment, request.tolerance, 50 * relaxation_limit(increment.nodes()),
+  const auto equilibrium = [&] {
+    if (request.problem->space->options.method == BoundaryMethod::servo) {
+      return solve_servo(increment, *request.options, request.tolerance, w.relaxation);
+    }
+    if (method == Method::published) {
+      return relax_published(increment, request.tolerance, request.options->published, {},
+                             w.relaxation);
+    }
+    return relax(increment, request.tolerance, 50 * relaxation_limit(increment.nodes()),
                  History::advancing, w.relaxation);
-  }
+  };
+  const bool done = equilibrium() && settle_bonds(increment, [] {}, equilibrium);
   outcome.sensitivities =
       done && request.sensitivities && w.sensitivity.solve(increment, 1, 0, w.newton.stiffness);
   return done;

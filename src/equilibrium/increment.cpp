@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace grainlaw {
 
@@ -46,6 +47,8 @@ void Increment::begin(const Problem& p, const Configuration& from,
                        from.deformation[3]};
   resize_with_room(history, from.contacts.size());
   std::copy(from.contacts.begin(), from.contacts.end(), history.begin());
+  history_moments.assign(from.moments.begin(), from.moments.end());
+  history_gaps.assign(from.bond_gaps.begin(), from.bond_gaps.end());
   coordinates = start;
   deformation = start_deformation;
   cell = cell_at(p, deformation);
@@ -62,7 +65,11 @@ void Increment::begin(const Problem& p, const Configuration& from,
   }
   for (std::size_t q = 0; q < nodes(); ++q) {
     const double kn = p.law->stiffness(node_radius[q], node_radius[q]);
-    const double kt = p.law->rotating() ? 2 * p.law->ratio * kn : 1;
+    double kt = p.law->rotating() ? 2 * p.law->ratio * kn : 1;
+    if (p.law->moments()) {
+      const double r = node_radius[q];
+      kt += p.law->ratio * kn * p.law->rolling_ratio(r, r) / (r * r);
+    }
     least_masses_[q] = {kn, kn, kt, 1 / node_radius[q]};
   }
   double mean_radius = 0;
@@ -74,6 +81,7 @@ void Increment::begin(const Problem& p, const Configuration& from,
   rounding_force_ = contacts_of_a_particle * std::numeric_limits<double>::epsilon() * extent *
                     p.law->stiffness(largest_radius, largest_radius);
   dissipated = 0;
+  broken_bonds = 0;
   relaxation_steps = servo_corrections = 0;
   factorisations = 0;
   deform(target);
@@ -91,6 +99,7 @@ void Increment::deform(const std::array<double, 4>& target) {
     y[p] = g[2] * a + g[3] * b;
   }
   deformation = target;
+  after_break_ = false;
   cell = cell_at(*problem, deformation);
   list_neighbours();
 }
@@ -101,14 +110,32 @@ void Increment::list_neighbours() {
                  coordinates.begin() + static_cast<std::ptrdiff_t>(2 * particles()));
   search_.find(particles(), coordinates.data(), packing.radius.data(),
                packing.frame ? nullptr : cell.data(), gap_, pairs);
+  if (problem->law->bonds()) list_bonded_pairs();
   keep_room(pairs);
   pair_weights.clear();
   if (packing.frame) problem->space->weigh(packing, pairs, pair_weights);
   build_list();
 }
 
+// Bonds hold however far they are stretched.
+void Increment::list_bonded_pairs() {
+  const auto key = [](const auto& pair) { return std::tie(pair.i, pair.j, pair.shift); };
+  resize_with_room(merged_pairs_, pairs.size() + history.size());
+  merged_pairs_.clear();
+  auto next = pairs.begin();
+  for (const auto& contact : history) {
+    if (!contact.bonded) continue;
+    for (; next != pairs.end() && key(*next) < key(contact); ++next) merged_pairs_.push_back(*next);
+    if (next != pairs.end() && key(*next) == key(contact)) continue;
+    merged_pairs_.push_back({contact.i, contact.j, contact.shift});
+  }
+  merged_pairs_.insert(merged_pairs_.end(), next, pairs.end());
+  pairs.swap(merged_pairs_);
+}
+
 void Increment::build_list() {
-  const HistoryStart from{start, cell_at(*problem, start_deformation), history};
+  const HistoryStart from{start,   cell_at(*problem, start_deformation), history, history_moments,
+                          history_gaps};
   build_contacts(pairs, pair_weights, problem->packing->radius, problem->space->node, nodes(),
                  *problem->law, cell, from, contacts);
 }
@@ -189,7 +216,7 @@ double Increment::overlap(std::size_t c) const {
   const double* x = coordinates.data();
   const double lx = x[q] - x[p] + contacts.offset_x[c];
   const double ly = x[n + q] - x[n + p] + contacts.offset_y[c];
-  return contacts.reach[c] - std::sqrt(lx * lx + ly * ly);
+  return contacts.rest_of(c) - std::sqrt(lx * lx + ly * ly);
 }
 
 double Increment::chance_force() const {
@@ -198,7 +225,8 @@ double Increment::chance_force() const {
 }
 
 bool Increment::carries(std::size_t c) const {
-  return overlap(c) * contacts.normal_stiffness[c] > 10 * chance_force();
+  return contacts.bonded(c) ||
+         normal_force(contacts, c, overlap(c), *problem->law) > 10 * chance_force();
 }
 
 bool Increment::bears() const {
@@ -221,7 +249,7 @@ void Increment::refresh_masses() {
 }
 
 void Increment::sum_masses() {
-  const auto totals = sum_stiffnesses(records, contacts, mass_records);
+  const auto totals = sum_stiffnesses(records, *problem->law, contacts, mass_records);
   touching = totals.touching;
   mean_force = touching > 0 ? totals.force / totals.weights : 0;
   for (std::size_t q = 0; q < nodes(); ++q) {
@@ -286,22 +314,82 @@ void Increment::move(std::span<const double> step, double factor) {
 
 void Increment::advance_history() {
   load_records();
-  dissipated += advance_contacts(records, *problem->law, contacts, forces);
+  const auto& law = *problem->law;
+  dissipated += advance_contacts(records, law, contacts, forces);
+  if (after_break_) {  // at the same F: nothing but the springs gives energy
+    dissipated = break_dissipated_ + break_energy_ -
+                 stored_energy(contacts, coordinates, particles(), law);
+  }
+  const bool gaps = !history_gaps.empty();
   history.clear();
-  if (history.capacity() < pairs.size()) history.reserve(pairs.capacity());
-  const bool tangential = problem->law->tangential();
+  history_moments.clear();
+  history_gaps.clear();
+  if (history.capacity() < pairs.size()) {
+    history.reserve(pairs.capacity());
+    if (law.moments()) history_moments.reserve(pairs.capacity());
+    if (gaps) history_gaps.reserve(pairs.capacity());
+  }
+  const bool tangential = law.tangential();
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (!carries(c)) continue;
-    const double normal_force = overlap(c) * contacts.normal_stiffness[c];
-    const double force = tangential ? contacts.start_force[c] : 0.0;
-    const double bound = problem->law->friction * normal_force;
+    const double depth = overlap(c);
+    const double scale = start_scale(depth, law);
+    const double force = tangential ? contacts.start_force[c] * scale : 0.0;
+    const double bound = law.friction * normal_force(contacts, c, depth, law);
+    const bool bonded = contacts.bonded(c);
+    const double weight = contacts.weight_of(c);
     history.push_back({contacts.i[c], contacts.j[c], pairs[c].shift,
-                       tangential && std::abs(force) >= bound - chance_force(),
-                       force / contacts.weight_of(c)});
+                       tangential && !bonded && std::abs(force) >= bound - chance_force(), bonded,
+                       force / weight});
+    if (law.moments()) history_moments.push_back(contacts.start_moment[c] * scale / weight);
+    if (gaps) history_gaps.push_back(contacts.rest[c] - contacts.reach[c]);
   }
   start = coordinates;
   start_deformation = deformation;
   build_list();
+}
+
+// Eq. 8 of Liu, Bosco & Suiker (2017), 1 at failure; without a bond 0.
+double Increment::bond_load(std::size_t c) const {
+  if (!contacts.bonded(c)) return 0;
+  const auto& law = *problem->law;
+  const auto point = contact_point(contacts, c, coordinates, particles(), law);
+  double load = -point.normal_force / law.bond.normal_strength +
+                std::abs(point.tangential_force) / law.bond.tangential_strength;
+  if (law.bond.bending_strength > 0 && law.moments()) {
+    load += std::abs(contact_moment(contacts, c, point, coordinates, particles(), law).moment) /
+            law.bond.bending_strength;
+  }
+  return load / contacts.weight_of(c);
+}
+
+double Increment::worst_bond() const {
+  double worst = 0;
+  if (!problem->law->bonds()) return worst;
+  for (std::size_t c = 0; c < contacts.size(); ++c) worst = std::max(worst, bond_load(c));
+  return worst;
+}
+
+bool Increment::break_bonds() {
+  if (!overloads_bonds()) return false;
+  const double energy = stored_energy(contacts, coordinates, particles(), *problem->law);
+  advance_history();
+  after_break_ = true;
+  break_energy_ = energy;
+  break_dissipated_ = dissipated;
+  const double worst = worst_bond();
+  const double limit = std::min(worst, 0.5 * (1 + worst));
+  std::size_t h = 0;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (!contacts.bonded(c)) continue;
+    const auto key = std::tie(contacts.i[c], contacts.j[c], pairs[c].shift);
+    while (std::tie(history[h].i, history[h].j, history[h].shift) != key) ++h;
+    if (bond_load(c) < limit) continue;
+    history[h].bonded = false;
+    broken_bonds += contacts.weight_of(c);
+  }
+  build_list();
+  return true;
 }
 
 void Increment::export_to(const Configuration& from, Configuration& to) const {
@@ -313,7 +401,10 @@ void Increment::export_to(const Configuration& from, Configuration& to) const {
   }
   resize_with_room(to.contacts, history.size());
   std::copy(history.begin(), history.end(), to.contacts.begin());
+  to.moments.assign(history_moments.begin(), history_moments.end());
+  to.bond_gaps.assign(history_gaps.begin(), history_gaps.end());
   to.dissipated = from.dissipated + dissipated;
+  to.broken_bonds = from.broken_bonds + broken_bonds;
 }
 
 }  // namespace grainlaw

@@ -55,6 +55,13 @@ class Increment {
   // Make the present coordinates the start of the history; sums up the dissipated energy.
   void advance_history();
 
+  // Break the bonds that are beyond their strength here, and the history starts anew from here; false
+  // when none is. The worst break first, with all that exceed the strength by at least half as much:
+  // the others may be relieved, and equal bonds break together.
+  bool break_bonds();
+  // Whether break_bonds() would.
+  [[nodiscard]] bool overloads_bonds() const { return worst_bond() >= 1; }
+
   // Overlap of a listed contact, negative across a gap [m].
   [[nodiscard]] double overlap(std::size_t c) const;
 
@@ -98,6 +105,7 @@ class Increment {
   std::vector<double> coordinates;            // component-major: positions, rotation increments
   std::vector<double> start;                  // coordinates where the history starts
   std::vector<ContactHistory> history;        // touching contacts there
+  std::vector<double> history_moments, history_gaps;  // of them, as in Configuration
   std::vector<ParticleRecord> records;        // the coordinates as contacts read them
   std::vector<ForceRecord> forces;            // on nodes
   std::vector<double> node_residual;          // reduced, component-major [N, N m]
@@ -110,15 +118,23 @@ class Increment {
   double mean_force = 0;  // [N]
   int touching = 0;
   double dissipated = 0;  // since begin [J]
+  double broken_bonds = 0;  // since begin, with their weights [-]
   long relaxation_steps = 0;
   long servo_corrections = 0;
   int factorisations = 0;
 
  private:
   void list_neighbours();
+  void list_bonded_pairs();
+  [[nodiscard]] double bond_load(std::size_t c) const;
+  [[nodiscard]] double worst_bond() const;
   void build_list();
   void project();
 
+  std::vector<NeighbourPair> merged_pairs_;
+  // Of the state in which bonds broke last: what is lost until the next is what the energy falls by.
+  bool after_break_ = false;
+  double break_energy_ = 0, break_dissipated_ = 0;  // [J]
   std::vector<ForceRecord> least_masses_;  // of one contact; and 1 / R in `unused`
   std::vector<double> listed_;  // positions when the neighbours were listed
   double gap_ = 0;

@@ -43,14 +43,8 @@ double energy_ratio(const Increment& increment, const std::vector<double>& mass,
   for (std::size_t k = 0; k < velocity.size(); ++k) {
     kinetic += 0.5 * mass[k] * velocity[k] * velocity[k];
   }
-  double potential = 0;
-  const auto& list = increment.contacts;
-  for (std::size_t c = 0; c < list.size(); ++c) {
-    const double ft = list.start_force[c];
-    const double depth = std::max(increment.overlap(c), 0.0);
-    potential += 0.5 * list.normal_stiffness[c] * depth * depth;
-    if (ft != 0) potential += 0.5 * ft * ft / list.tangential_stiffness[c];
-  }
+  const double potential = stored_energy(increment.contacts, increment.coordinates,
+                                         increment.particles(), *increment.problem->law);
   return kinetic / std::max(potential, 1e-300);
 }
 

@@ -72,7 +72,7 @@ GRAINLAW_INLINE Lanes change_of(const ContactLoop& loop, const TouchingContact& 
   const Lanes along_n = s[0] * normal + s[1] * tangential + s[2] * rotation;
   Lanes along_t = s[3] * normal + s[4] * tangential + s[5] * rotation;
   Lanes couple = s[6] * normal + s[7] * tangential + s[8] * rotation;
-  if (loop.start_turn != nullptr && point.status == ContactStatus::sticking) {
+  if (loop.start_turn != nullptr && point.status != ContactStatus::sliding) {
     const Lanes by_history = load(loop.start_force[contact.index].lane) -
                              loop.tangential_stiffness[contact.index] * point.distance *
                                  load(loop.start_turn[contact.index].lane);
@@ -133,7 +133,10 @@ void Sensitivity::start_of_history(const Increment& increment, double start_shar
   const auto& list = increment.contacts;
   const auto& node = increment.problem->space->node;
   const auto n = increment.particles();
-  const bool rotating = increment.problem->law->rotating();
+  const auto& law = *increment.problem->law;
+  const bool rotating = law.rotating();
+  const bool moments = law.moments();
+  const bool hertzian = law.hertzian();
   const std::size_t b = rotating ? 3 : 2;
   const bool frame = increment.problem->packing->frame.has_value();
   const double* h0 = increment.problem->packing->cell.data();
@@ -142,6 +145,11 @@ void Sensitivity::start_of_history(const Increment& increment, double start_shar
   const double* x = increment.start.data();
   resize_with_room(start_turn_, list.size());
   resize_with_room(start_force_, list.size());
+  if (hertzian) resize_with_room(start_overlap_, list.size());
+  if (moments) {
+    resize_with_room(start_moment_, list.size());
+    resize_with_room(start_spin_, list.size());
+  }
   std::size_t h = 0;
   for (std::size_t c = 0; c < list.size(); ++c) {
     const auto i = static_cast<std::size_t>(list.i[c]);
@@ -159,12 +167,15 @@ void Sensitivity::start_of_history(const Increment& increment, double start_shar
       double dy = zj[1].lane[k] - zi[1].lane[k];
       (k < 2 ? dx : dy) += start_share * reference[k % 2];
       start_turn_[c].lane[k] = -(lx * dy - ly * dx) / d2;
+      if (hertzian) start_overlap_[c].lane[k] = -(lx * dx + ly * dy) / std::sqrt(d2);
+      if (moments) start_spin_[c].lane[k] = zj[2].lane[k] - zi[2].lane[k];
       if (rotating) {
         start_turn_[c].lane[k] +=
             list.lever_i[c] * zi[2].lane[k] + (1 - list.lever_i[c]) * zj[2].lane[k];
       }
     }
     start_force_[c] = {};
+    if (moments) start_moment_[c] = {};
     const auto key = std::tie(list.i[c], list.j[c], increment.pairs[c].shift);
     const auto& history = increment.history;
     const auto key_of = [](const ContactHistory& s) { return std::tie(s.i, s.j, s.shift); };
@@ -172,8 +183,10 @@ void Sensitivity::start_of_history(const Increment& increment, double start_shar
     if (h == history.size() || key_of(history[h]) != key) continue;
     for (std::size_t k = 0; k < width; ++k) {
       start_force_[c].lane[k] = list.weight_of(c) * carried_force_[h].lane[k];
+      if (moments) start_moment_[c].lane[k] = list.weight_of(c) * carried_moment_[h].lane[k];
     }
   }
+  if (hertzian) rescale_start(increment);
 }
 
 bool Sensitivity::solve(Increment& increment, double share, double start_share,
@@ -195,6 +208,11 @@ bool Sensitivity::solve(Increment& increment, double share, double start_share,
   resize_with_room(motion_, increment.unknowns());
   right_.assign(increment.unknowns(), Quad{});
   right_sides(loop, rotating, right_.data()->lane);
+  const bool moments = increment.problem->law->moments();
+  if (moments) {
+    find_moment_changes(increment, share, stiffness, {});
+    add_moments(stiffness);
+  }
   if (!space.identity) {
     for (std::size_t q = 0; q < increment.nodes(); ++q) {
       if (space.fixed[q]) right_[q * b] = right_[q * b + 1] = {};
@@ -204,6 +222,7 @@ bool Sensitivity::solve(Increment& increment, double share, double start_share,
 
   resize_with_room(changes_, touching.size());
   all_changes(loop, rotating, motion_.data()->lane, changes_.data());
+  if (moments) find_moment_changes(increment, share, stiffness, motion_);
   resize_with_room(place_, list.size());
   std::fill(place_.begin(), place_.end(), -1);
   for (std::size_t k = 0; k < touching.size(); ++k) {
@@ -214,14 +233,21 @@ bool Sensitivity::solve(Increment& increment, double share, double start_share,
 
 void Sensitivity::carry(const Increment& increment) {
   const auto& list = increment.contacts;
+  const bool moments = increment.problem->law->moments();
   carried_force_.clear();
+  carried_moment_.clear();
   for (std::size_t c = 0; c < list.size(); ++c) {
     if (!increment.carries(c)) continue;
     Quad force = changes(c).tangential_force;
     for (double& value : force.lane) value /= list.weight_of(c);
     carried_force_.push_back(force);
+    if (!moments) continue;
+    Quad moment = moment_changes_[static_cast<std::size_t>(place_[c])];
+    for (double& value : moment.lane) value /= list.weight_of(c);
+    carried_moment_.push_back(moment);
   }
   keep_room(carried_force_);
+  keep_room(carried_moment_);
   carried_motion_ = motion_;
   carried_ = true;
 }

@@ -44,6 +44,11 @@ class Sensitivity {
 
  private:
   void start_of_history(const Increment& increment, double start_share);
+  // What laws beyond linear springs with friction need, in sensitivity_composite.cpp.
+  void rescale_start(const Increment& increment);
+  void find_moment_changes(const Increment& increment, double share, const Stiffness& stiffness,
+                           std::span<const Quad> motion);
+  void add_moments(const Stiffness& stiffness);
 
   std::vector<Quad> motion_, right_;  // per node and component
   std::vector<Changes> changes_;      // per touching contact
@@ -52,6 +57,9 @@ class Sensitivity {
   std::vector<Quad> carried_motion_;            // at the start of the history
   std::vector<Quad> carried_force_;             // per contact of increment.history
   std::vector<Quad> start_turn_, start_force_;  // per listed contact
+  std::vector<Quad> start_overlap_;             // of Hertz-Mindlin: per listed contact
+  // Of laws with moments: per touching contact, per contact of the history, per listed contact.
+  std::vector<Quad> moment_changes_, carried_moment_, start_moment_, start_spin_;
 };
 
 }  // namespace grainlaw

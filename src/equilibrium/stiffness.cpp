@@ -139,11 +139,16 @@ void Stiffness::find_touching(const Increment& increment) {
     if (point.status == ContactStatus::open) continue;
     touching_.push_back({c, static_cast<std::size_t>(node[static_cast<std::size_t>(list.i[c])]),
                          static_cast<std::size_t>(node[static_cast<std::size_t>(list.j[c])]),
-                         list.lever_i[c], point,
-                         contact_stiffness(point, list.normal_stiffness[c],
-                                           list.tangential_stiffness[c], law.friction)});
+                         list.lever_i[c], point, contact_stiffness(list, c, point, law)});
   }
   keep_room(touching_);
+  moments_.clear();
+  if (!law.moments()) return;
+  for (const auto& contact : touching_) {
+    moments_.push_back(contact_moment(list, contact.index, contact.point, increment.coordinates,
+                                      increment.particles(), law));
+  }
+  keep_room(moments_);
 }
 
 // Whether the graph was made in this increment, from these contacts, and holds all that touch.
@@ -170,7 +175,7 @@ void Stiffness::find_graph(const Increment& increment) {
   resize_with_room(edge_of_contact_, list.size());
   std::fill(edge_of_contact_.begin(), edge_of_contact_.end(), not_in_graph);
   for (std::size_t c = 0; c < list.size(); ++c) {
-    if (increment.overlap(c) < -0.5 * graph_gap * list.reach[c]) continue;
+    if (increment.overlap(c) < -0.5 * graph_gap * list.reach[c] && !list.bonded(c)) continue;
     const auto [a, b] = std::minmax(node[static_cast<std::size_t>(list.i[c])],
                                     node[static_cast<std::size_t>(list.j[c])]);
     edge_of_contact_[c] = on_the_diagonal;
@@ -201,8 +206,33 @@ void Stiffness::assemble(const Increment& increment, double shift) {
   } else {
     add_contacts_2(touching_, edge_of_contact_.data(), matrix_);
   }
+  if (!moments_.empty()) add_moments();
   add_masses(increment, shift);
   if (!increment.problem->space->identity) hold_fixed_nodes(increment);
+}
+
+// -dr by the moments: m on j and -m on i, changed by the normal displacement and by theta_j - theta_i.
+void Stiffness::add_moments() {
+  const std::size_t edges = matrix_.edges.size();
+  for (std::size_t k = 0; k < touching_.size(); ++k) {
+    const auto& contact = touching_[k];
+    const auto& moment = moments_[k];
+    const std::size_t i = contact.node_i;
+    const std::size_t j = contact.node_j;
+    const std::int32_t edge = edge_of_contact_[contact.index];
+    const std::size_t upper = edge < 0 ? i : matrix_.nodes + static_cast<std::size_t>(edge);
+    const std::size_t lower = edge < 0 ? i : upper + edges;
+    const std::size_t ij = i < j ? upper : lower;
+    const std::size_t ji = i < j ? lower : upper;
+    const double by[] = {moment.by_normal * contact.point.normal_x,
+                         moment.by_normal * contact.point.normal_y, moment.by_spin};
+    for (std::size_t l = 0; l < 3; ++l) {
+      matrix_.block(i)[l].lane[2] -= by[l];
+      matrix_.block(ij)[l].lane[2] += by[l];
+      matrix_.block(ji)[l].lane[2] += by[l];
+      matrix_.block(j)[l].lane[2] -= by[l];
+    }
+  }
 }
 
 void Stiffness::hold_fixed_nodes(const Increment& increment) {

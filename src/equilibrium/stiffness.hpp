@@ -44,12 +44,14 @@ class Stiffness {
 
   // Of the last assemble(), ordered by index.
   [[nodiscard]] std::span<const TouchingContact> touching() const { return touching_; }
+  // The moments of these contacts; empty for laws without.
+  [[nodiscard]] std::span<const ContactMoment> moments() const { return moments_; }
 
  private:
   void find_touching(const Increment& increment);
   [[nodiscard]] bool graph_serves(const Increment& increment) const;
   void find_graph(const Increment& increment);
-  void add_contacts();
+  void add_moments();
   void hold_fixed_nodes(const Increment& increment);
   void add_masses(const Increment& increment, double factor);
   bool solve_four_by_factors(const Increment& increment, std::span<const Quad> b,
@@ -63,6 +65,7 @@ class Stiffness {
   BlockLU lu_;
   Factors factors_ = Factors::none;
   std::vector<TouchingContact> touching_;
+  std::vector<ContactMoment> moments_;
   std::vector<Edge> graph_;
   std::vector<std::int32_t> edge_of_contact_;
   std::vector<std::int32_t> listed_i_, listed_j_;  // the contacts that the graph was made from

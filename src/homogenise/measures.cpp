@@ -66,17 +66,19 @@ double half_difference(const std::array<double, 4>& phi) {
   return std::hypot(0.5 * (phi[0] - phi[3]), phi[1]);
 }
 
+// A contact that is not bonded carries no tension.
+double carried_overlap(const ContactView& c) {
+  return c.bonded ? c.overlap + c.bond_gap : std::max(c.overlap, 0.0);
+}
+
 double elastic_energy(const Problem& problem, const std::vector<ContactView>& contacts) {
   double energy = 0;
+  const auto& radius = problem.packing->radius;
   for (const auto& c : contacts) {
-    const auto& radius = problem.packing->radius;
-    const double kn = problem.law->stiffness(radius[static_cast<std::size_t>(c.i)],
-                                             radius[static_cast<std::size_t>(c.j)]);
-    energy += 0.5 * c.weight * c.normal_force * c.normal_force / kn;
-    if (c.tangential_force != 0) {
-      energy +=
-          0.5 * c.weight * c.tangential_force * c.tangential_force / (problem.law->ratio * kn);
-    }
+    energy += c.weight * problem.law->energy(radius[static_cast<std::size_t>(c.i)],
+                                             radius[static_cast<std::size_t>(c.j)],
+                                             carried_overlap(c), c.tangential_force, c.moment,
+                                             c.bonded);
   }
   return energy;
 }
@@ -121,8 +123,11 @@ std::vector<ContactView> contact_views(const Problem& problem, const Configurati
     view.branch_x = x[j] - x[i] + f[0] * sx + f[1] * sy;
     view.branch_y = x[n + j] - x[n + i] + f[2] * sx + f[3] * sy;
     view.overlap = packing.radius[i] + packing.radius[j] - std::hypot(view.branch_x, view.branch_y);
+    view.bonded = c.bonded;
+    view.bond_gap = at.bond_gaps.empty() ? 0 : at.bond_gaps[k];
+    view.moment = at.moments.empty() ? 0 : at.moments[k];
     view.normal_force =
-        std::max(0.0, problem.law->stiffness(packing.radius[i], packing.radius[j]) * view.overlap);
+        problem.law->normal_force(packing.radius[i], packing.radius[j], carried_overlap(view));
     view.tangential_force = c.tangential_force;
     view.weight = weights[k];
     views.push_back(view);
@@ -195,7 +200,7 @@ void measure(const Problem& problem, const Configuration& at, grainlaw_measure w
       *value = at.dissipated;
       return;
     case GRAINLAW_BROKEN_BONDS:
-      *value = 0;
+      *value = at.broken_bonds;
       return;
     case GRAINLAW_CONTACTS:
       *value = weighted_number(contacts);

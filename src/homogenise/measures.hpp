@@ -17,9 +17,12 @@ struct ContactView {
   std::array<int, 2> shift;
   double branch_x, branch_y;  // x_j - x_i + F H0 shift [m]
   double overlap;             // [m]
-  double normal_force;        // >= 0 [N]
+  double normal_force;        // negative in the tension of a bond [N]
   double tangential_force;    // on j, along the normal turned by +90 degrees [N]
   double weight;              // 1, or 1 / copies on a frame [-]
+  bool bonded;
+  double moment;    // of rolling or bending, on j [N m]
+  double bond_gap;  // stress-free branch of a bond - (R_i + R_j) [m]
 };
 std::vector<ContactView> contact_views(const Problem& problem, const Configuration& at);
 

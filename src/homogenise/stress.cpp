@@ -2,6 +2,8 @@
 
 #include "contact/frictional.hpp"
 
+#include <cmath>
+
 namespace grainlaw {
 
 namespace {
@@ -81,16 +83,20 @@ std::array<double, 16> elastic_tangent(const Increment& increment) {
   std::array<double, 16> tangent{};
   const double volume = increment.problem->space->reference_volume;
   const auto& list = increment.contacts;
+  const auto& law = *increment.problem->law;
   for_each_contact(increment, [&](std::size_t c, const ContactPoint& point, const auto& branch) {
+    // Both stiffnesses of a Hertz-Mindlin contact go with the square root of the overlap.
+    const double scale = law.hertzian() ? std::sqrt(list.reach[c] - point.distance) : 1;
+    const double kn = scale * list.normal_stiffness[c];
+    const double kt = scale * list.tangential_stiffness[c];
     const std::array<double, 2> n{point.normal_x, point.normal_y};
     const std::array<double, 2> t{-point.normal_y, point.normal_x};
     for (std::size_t i = 0; i < 2; ++i) {
       for (std::size_t j = 0; j < 2; ++j) {
         for (std::size_t k = 0; k < 2; ++k) {
           for (std::size_t l = 0; l < 2; ++l) {
-            tangent[((2 * i + j) * 2 + k) * 2 + l] += (list.normal_stiffness[c] * n[i] * n[k] +
-                                                       list.tangential_stiffness[c] * t[i] * t[k]) *
-                                                      branch[j] * branch[l] / volume;
+            tangent[((2 * i + j) * 2 + k) * 2 + l] +=
+                (kn * n[i] * n[k] + kt * t[i] * t[k]) * branch[j] * branch[l] / volume;
           }
         }
       }

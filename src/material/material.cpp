@@ -4,6 +4,7 @@
 #include "equilibrium/chain.hpp"
 #include "error.hpp"
 #include "homogenise/stress.hpp"
+#include "material/given_contacts.hpp"
 #include "packing/frame.hpp"
 
 #include <fmt/format.h>
@@ -52,6 +53,7 @@ Configuration given_configuration(const Material& material) {
   std::sort(given.contacts.begin(), given.contacts.end(), [](const auto& a, const auto& b) {
     return std::tie(a.i, a.j, a.shift) < std::tie(b.i, b.j, b.shift);
   });
+  if (material.law.moments() || material.law.bonds()) add_bonds_and_moments(material, given);
   return given;
 }
 
@@ -72,8 +74,9 @@ void check_given_forces(const Material& material) {
     const double lx = packing.position[j] - packing.position[i] + h[0] * s0 + h[1] * s1;
     const double ly = packing.position[n + j] - packing.position[n + i] + h[2] * s0 + h[3] * s1;
     const double overlap = packing.radius[i] + packing.radius[j] - std::hypot(lx, ly);
-    given += contact.normal_force;
-    found += std::max(overlap, 0.0) * material.law.stiffness(packing.radius[i], packing.radius[j]);
+    given += std::max(contact.normal_force, 0.0);
+    found += material.law.normal_force(packing.radius[i], packing.radius[j],
+                                       std::max(overlap + contact.bond_gap, 0.0));
   }
   if (given > 0 && std::abs(found - given) > tolerance * given) {
     throw Error(
@@ -93,9 +96,23 @@ std::uint64_t fingerprint_of(const Material& material) {
   const auto add_all = [&](const std::vector<double>& values) {
     add(values.data(), values.size() * sizeof(double));
   };
-  const double law[] = {
-      material.law.young,    material.law.normal_stiffness,     material.law.ratio,
-      material.law.friction, material.law.rotation ? 1.0 : 0.0, material.packing.thickness};
+  const auto& of = material.law;
+  const double law[] = {static_cast<double>(of.kind),
+                        of.young,
+                        of.normal_stiffness,
+                        of.ratio,
+                        of.friction,
+                        of.rotation ? 1.0 : 0.0,
+                        of.shear_modulus,
+                        of.poisson,
+                        of.rolling.ratio,
+                        of.rolling.friction,
+                        of.bond.normal_strength,
+                        of.bond.tangential_strength,
+                        of.bond.bending_strength,
+                        of.bond.bending_stiffness,
+                        of.bond.gap,
+                        material.packing.thickness};
   const int boundary[] = {static_cast<int>(material.space.options.type),
                           static_cast<int>(material.space.options.weight)};
   add(law, sizeof law);
@@ -127,6 +144,8 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
   material->fingerprint = fingerprint_of(*material);
   check_given_forces(*material);
 
+  if (material->law.hertzian()) material->law.typical_overlap = mean_overlap(*material);
+  const double least_force = least_force_scale(*material);
   // The servo and the published relaxation start from the same equilibrium as everything else.
   constexpr double tightest_needed = 1e-8;
   BoundarySpace direct = material->space;
@@ -134,7 +153,8 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
   SolverOptions options = material->solver;
   options.method = Method::chain;
   const double tolerance = std::min(options.tolerance, tightest_needed);
-  const Problem problem{&material->packing, &material->law, &direct, 0, tolerance};
+  const Problem problem{&material->packing, &material->law, &direct, 1e-3 * least_force,
+                        tolerance};
   const Configuration given = given_configuration(*material);
   Request request{&problem, &options, &given, {1, 0, 0, 1}};
   request.tolerance = tolerance;
@@ -157,7 +177,7 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
   workspace.increment.export_to(given, material->initial);
   std::copy_n(stress.begin(), 4, material->initial.stress.begin());
   material->initial.dissipated = 0;
-  material->initial_mean_force = workspace.increment.mean_force;
+  material->initial_mean_force = std::max(workspace.increment.mean_force, least_force);
   return material;
 }
 

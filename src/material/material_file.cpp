@@ -1,6 +1,7 @@
 #include "material/material_file.hpp"
 
 #include "error.hpp"
+#include "material/contact_keys.hpp"
 #include "material/packing_keys.hpp"
 #include "material/toml_table.hpp"
 #include "packing/packing_file.hpp"
@@ -14,19 +15,6 @@
 
 namespace grainlaw {
 namespace {
-
-ContactLaw read_contact(TomlTable table) {
-  ContactLaw law;
-  law.kind = table.required("law", one_of<LawKind>({{"frictional", LawKind::frictional}}));
-  table.require_either("young", "kn");
-  table.optional("young", number_above(0), law.young);
-  table.optional("kn", number_above(0), law.normal_stiffness);
-  law.ratio = table.required("ratio", number_at_least(0));
-  law.friction = table.required("friction", number_at_least(0));
-  table.optional("rotation", boolean(), law.rotation);
-  table.finish();
-  return law;
-}
 
 ServoOptions read_servo(TomlTable table) {
   ServoOptions servo;

@@ -16,6 +16,9 @@ struct InitialContact {
   std::array<int, 3> shift{};
   double normal_force = 0;
   std::array<double, 3> tangential_force{};
+  double moment = 0;             // of rolling or bending, on j [N m]
+  std::optional<bool> bonded{};  // when nothing is said, a law with bonds bonds what touches
+  double bond_gap = 0;           // stress-free branch of the bond - (R_i + R_j) [m]
 };
 
 // A packing cut out along chains of particles (Liu, Bosco & Suiker 2017, section 2.1). The boundary

@@ -24,7 +24,7 @@ constexpr std::int64_t largest_shift = 32767;
 using Ids = std::unordered_map<std::int64_t, int>;
 
 enum ParticleColumn : std::size_t { id, x, y, r, role, partner, frame_order };
-enum ContactColumn : std::size_t { i, j, shift_x, shift_y, fn, ftx, fty };
+enum ContactColumn : std::size_t { i, j, shift_x, shift_y, fn, ftx, fty, moment, bonded, bond_gap };
 enum CellColumn : std::size_t { h00, h01, h10, h11, thickness, rho };
 
 void read_cell(const std::string& path, Packing& packing) {
@@ -124,7 +124,8 @@ double branch_length(const Packing& packing, const InitialContact& contact) {
 }
 
 void read_contacts(const std::string& path, const Ids& ids, Packing& packing) {
-  CsvTable<7> table(path, {"i", "j", "shift_x", "shift_y", "fn", "ftx_on_j", "fty_on_j"});
+  CsvTable<10> table(path, {"i", "j", "shift_x", "shift_y", "fn", "ftx_on_j", "fty_on_j", "moment",
+                            "bonded", "bond_gap"});
   table.require(i, fty + 1);
   const auto particle = [&](std::size_t column) {
     const auto found = ids.find(table.integer(column));
@@ -145,12 +146,20 @@ void read_contacts(const std::string& path, const Ids& ids, Packing& packing) {
                            {shift(shift_x), shift(shift_y)},
                            table.real(fn),
                            {table.real(ftx), table.real(fty)}};
+    if (table.has(moment)) contact.moment = table.real(moment);
+    if (table.has(bonded)) {
+      if (const auto flag = table.integer(bonded); flag != 0 && flag != 1)
+        table.complain(bonded, "0 or 1");
+      contact.bonded = table.integer(bonded) == 1;
+    }
+    if (table.has(bond_gap)) contact.bond_gap = table.real(bond_gap);
     if (contact.i > contact.j ||
         (contact.i == contact.j &&
          std::pair(contact.shift[0], contact.shift[1]) < std::pair(0, 0))) {
       std::swap(contact.i, contact.j);
       contact.shift = {-contact.shift[0], -contact.shift[1]};
       contact.tangential_force = {-contact.tangential_force[0], -contact.tangential_force[1]};
+      contact.moment = -contact.moment;
     }
     if (contact.i == contact.j && contact.shift[0] == 0 && contact.shift[1] == 0)
       table.fail(fmt::format("a particle (id {}) in contact with itself", table.text(i)));
@@ -202,10 +211,20 @@ void write_packing(const std::string& prefix, const Packing& packing) {
   write_text(prefix + "_particles.csv", {text.data(), text.size()});
 
   text.clear();
-  fmt::format_to(out, "i,j,shift_x,shift_y,fn,ftx_on_j,fty_on_j\n");
-  for (const InitialContact& c : packing.contacts)
-    fmt::format_to(out, "{},{},{},{},{},{},{}\n", c.i, c.j, c.shift[0], c.shift[1], c.normal_force,
+  const auto& contacts = packing.contacts;
+  const bool moments = std::any_of(contacts.begin(), contacts.end(),
+                                   [](const auto& c) { return c.moment != 0; });
+  const bool bonds = std::any_of(contacts.begin(), contacts.end(),
+                                 [](const auto& c) { return c.bonded.has_value(); });
+  fmt::format_to(out, "i,j,shift_x,shift_y,fn,ftx_on_j,fty_on_j{}{}\n", moments ? ",moment" : "",
+                 bonds ? ",bonded,bond_gap" : "");
+  for (const InitialContact& c : contacts) {
+    fmt::format_to(out, "{},{},{},{},{},{},{}", c.i, c.j, c.shift[0], c.shift[1], c.normal_force,
                    c.tangential_force[0], c.tangential_force[1]);
+    if (moments) fmt::format_to(out, ",{}", c.moment);
+    if (bonds) fmt::format_to(out, ",{},{}", c.bonded.value_or(false) ? 1 : 0, c.bond_gap);
+    fmt::format_to(out, "\n");
+  }
   write_text(prefix + "_contacts.csv", {text.data(), text.size()});
 
   text.clear();

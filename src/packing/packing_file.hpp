@@ -6,6 +6,8 @@
 //                                                or -1, place along the boundary or -1
 //   contacts   i, j, shift_x, shift_y            branch x_j - x_i + H shift; the forces act on j
 //              fn, ftx_on_j, fty_on_j
+//              moment, bonded, bond_gap          when needed: on j [N m]; 0 or 1; stress-free branch
+//                                                of the bond - (R_i + R_j)
 //   cell       H00, H01, H10, H11, thickness     lattice vectors as columns of H; rho is optional
 #pragma once
 

@@ -67,7 +67,10 @@ void write_vtk(const std::string& path, std::span<const double> position,
               [&](std::size_t k) { return k < n ? 0.0 : contacts[k - n].normal_force; });
   print_array(text, "Float64", "tangential_force", 1, n + lines,
               [&](std::size_t k) { return k < n ? 0.0 : contacts[k - n].tangential_force; });
-
+  print_array(text, "Float64", "moment", 1, n + lines,
+              [&](std::size_t k) { return k < n ? 0.0 : contacts[k - n].moment; });
+  print_array(text, "UInt8", "bonded", 1, n + lines,
+              [&](std::size_t k) { return k >= n && contacts[k - n].bonded ? 1 : 0; });
   print(text, "</CellData>\n<Points>\n");
   print_array(text, "Float64", "points", 3, n + lines, [&](std::size_t k) {
     const auto p = k < n ? k : static_cast<std::size_t>(contacts[k - n].i);

@@ -15,11 +15,13 @@ struct VtkContact {
   std::array<double, 3> branch{};  // [m], third component 0 in 2D
   double normal_force = 0;         // [N]
   double tangential_force = 0;     // [N]
+  double moment = 0;               // of rolling or bending [N m]
+  bool bonded = false;
 };
 
 // One VTK XML PolyData file (.vtp, ascii). Particles are vertices with point data radius [m],
 // rotation [rad] and coordination [-]; contacts are lines with cell data normal_force and
-// tangential_force [N]. The far end of a line is a point of its own with radius 0, the vertices
+// tangential_force [N], moment [N m] and bonded (0 or 1). The far end of a line is a point of its own with radius 0, the vertices
 // carry no force.
 //   position  component-major, 2 or 3 components x radius.size() [m]
 //   rotation  [radius.size()], or empty for none [rad]

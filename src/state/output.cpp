@@ -15,7 +15,13 @@ void write_force_chains(const std::string& path, const Material& material,
   const std::size_t n = material.packing.size();
   std::vector<VtkContact> chains;
   for (const ContactView& c : contact_views(material.problem(), at))
-    chains.push_back({c.i, c.j, {c.branch_x, c.branch_y, 0}, c.normal_force, c.tangential_force});
+    chains.push_back({c.i,
+                      c.j,
+                      {c.branch_x, c.branch_y, 0},
+                      c.normal_force,
+                      c.tangential_force,
+                      c.moment,
+                      c.bonded});
   const std::span<const double> coordinates(at.coordinates);
   write_vtk(path, coordinates.first(2 * n), material.packing.radius, coordinates.subspan(2 * n),
             chains);
@@ -37,6 +43,10 @@ Packing as_packing(const Material& material, const Configuration& at) {
                                 {c.shift[0], c.shift[1]},
                                 c.normal_force,
                                 {-c.branch_y * per_length, c.branch_x * per_length}});
+    auto& contact = packing.contacts.back();
+    contact.moment = c.moment;
+    if (material.law.bonds()) contact.bonded = c.bonded;
+    contact.bond_gap = c.bond_gap;
   }
   if (packing.frame) complete_frame(packing);
   return packing;

@@ -1,7 +1,9 @@
 // Layout, little-endian:
 //   "GRAINLAW"  u32 version  u32 contacts  u64 material fingerprint
-//   F [dim*dim]  P [dim*dim]  dissipated  coordinates [as many as the material has] doubles
-//   contacts: i32 i  i32 j  i16 shift[2]  u8 sliding  double tangential force
+//   F [dim*dim]  P [dim*dim]  dissipated  [broken bonds]  coordinates [as many as the material has]
+//   contacts: i32 i  i32 j  i16 shift[2]  u8 1 sliding, 2 bonded  double tangential force  [moment]
+//   [gap of the bond]
+// Doubles; those in brackets only with a law that has bonds, and moments.
 //   u64 XXH3 of everything before
 // Every version begins with the first two and ends with the last, so that damage and another
 // version are told apart.
@@ -24,10 +26,10 @@ namespace grainlaw {
 namespace {
 
 constexpr std::array<char, 8> magic{'G', 'R', 'A', 'I', 'N', 'L', 'A', 'W'};
-constexpr std::uint32_t format_version = 1;
+constexpr std::uint32_t format_version = 2;
 constexpr std::size_t version_end = magic.size() + sizeof(std::uint32_t);
 constexpr std::size_t header_size = version_end + sizeof(std::uint32_t) + sizeof(std::uint64_t);
-constexpr std::size_t contact_size =
+constexpr std::size_t plain_contact_size =
     2 * sizeof(std::int32_t) + 2 * sizeof(std::int16_t) + sizeof(std::uint8_t) + sizeof(double);
 constexpr std::size_t checksum_size = sizeof(std::uint64_t);
 
@@ -82,7 +84,13 @@ std::size_t components(const Material& material) {
 
 std::size_t size_without_contacts(const Material& material) {
   return header_size + checksum_size +
-         sizeof(double) * (2 * components(material) + 1 + material.initial.coordinates.size());
+         sizeof(double) * (2 * components(material) + (material.law.bonds() ? 2 : 1) +
+                           material.initial.coordinates.size());
+}
+
+std::size_t contact_size(const Material& material) {
+  return plain_contact_size +
+         sizeof(double) * ((material.law.moments() ? 1U : 0U) + (material.law.bonds() ? 1U : 0U));
 }
 
 std::uint64_t checksum(std::span<const std::byte> bytes) {
@@ -116,7 +124,7 @@ void check_contacts(const std::vector<ContactHistory>& contacts, std::size_t par
   constexpr std::array<std::int16_t, 2> none{};
   const auto key = [](const ContactHistory& c) { return std::tie(c.i, c.j, c.shift); };
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const auto& [i, j, shift, sliding, force] = contacts[c];
+    const auto& [i, j, shift, sliding, bonded, force] = contacts[c];
     require(i >= 0 && i <= j && static_cast<std::size_t>(j) < particles, GRAINLAW_BAD_BYTES,
             "a contact of particles that do not exist");
     require(i != j || shift > none, GRAINLAW_BAD_BYTES, "a contact of a particle with itself");
@@ -128,7 +136,7 @@ void check_contacts(const std::vector<ContactHistory>& contacts, std::size_t par
 }  // namespace
 
 std::size_t saved_size(const Material& material, const Configuration& configuration) {
-  return size_without_contacts(material) + configuration.contacts.size() * contact_size;
+  return size_without_contacts(material) + configuration.contacts.size() * contact_size(material);
 }
 
 void save_configuration(const Material& material, const Configuration& configuration,
@@ -142,13 +150,19 @@ void save_configuration(const Material& material, const Configuration& configura
   for (std::size_t k = 0; k < square; ++k) out.put(configuration.deformation[k]);
   for (std::size_t k = 0; k < square; ++k) out.put(configuration.stress[k]);
   out.put(configuration.dissipated);
+  if (material.law.bonds()) out.put(configuration.broken_bonds);
   for (const double coordinate : configuration.coordinates) out.put(coordinate);
-  for (const ContactHistory& contact : configuration.contacts) {
+  for (std::size_t c = 0; c < configuration.contacts.size(); ++c) {
+    const ContactHistory& contact = configuration.contacts[c];
     out.put(contact.i);
     out.put(contact.j);
     for (const std::int16_t shift : contact.shift) out.put(shift);
-    out.put(static_cast<std::uint8_t>(contact.sliding));
+    out.put(static_cast<std::uint8_t>((contact.sliding ? 1 : 0) + (contact.bonded ? 2 : 0)));
     out.put(contact.tangential_force);
+    if (material.law.moments()) out.put(configuration.moments[c]);
+    if (material.law.bonds()) {
+      out.put(configuration.bond_gaps.empty() ? 0.0 : configuration.bond_gaps[c]);
+    }
   }
   out.put(checksum(bytes.first(bytes.size() - checksum_size)));
 }
@@ -161,7 +175,7 @@ Configuration load_configuration(const Material& material, std::span<const std::
   require(in.get<std::uint64_t>() == material.fingerprint, GRAINLAW_WRONG_MATERIAL,
           "of another material");
   const std::size_t fixed_size = size_without_contacts(material);
-  require(bytes.size() >= fixed_size && bytes.size() - fixed_size == contacts * contact_size,
+  require(bytes.size() >= fixed_size && bytes.size() - fixed_size == contacts * contact_size(material),
           GRAINLAW_BAD_BYTES, "its length does not fit its content");
 
   Configuration found;
@@ -169,6 +183,7 @@ Configuration load_configuration(const Material& material, std::span<const std::
   for (std::size_t k = 0; k < square; ++k) found.deformation[k] = in.get_finite();
   for (std::size_t k = 0; k < square; ++k) found.stress[k] = in.get_finite();
   found.dissipated = in.get_finite();
+  if (material.law.bonds()) found.broken_bonds = in.get_finite();
   found.coordinates.resize(material.initial.coordinates.size());
   for (double& coordinate : found.coordinates) coordinate = in.get_finite();
   found.contacts.resize(contacts);
@@ -176,11 +191,17 @@ Configuration load_configuration(const Material& material, std::span<const std::
     contact.i = in.get<std::int32_t>();
     contact.j = in.get<std::int32_t>();
     for (std::int16_t& shift : contact.shift) shift = in.get<std::int16_t>();
-    const auto sliding = in.get<std::uint8_t>();
-    require(sliding <= 1, GRAINLAW_BAD_BYTES, "a contact neither sliding nor sticking");
-    contact.sliding = sliding == 1;
+    const auto status = in.get<std::uint8_t>();
+    require(status <= (material.law.bonds() ? 2 : 1), GRAINLAW_BAD_BYTES,
+            "a contact neither sliding nor sticking nor bonded");
+    contact.sliding = status == 1;
+    contact.bonded = status == 2;
     contact.tangential_force = in.get_finite();
+    if (material.law.moments()) found.moments.push_back(in.get_finite());
+    if (material.law.bonds()) found.bond_gaps.push_back(in.get_finite());
   }
+  const auto none = [](double gap) { return gap == 0; };
+  if (std::all_of(found.bond_gaps.begin(), found.bond_gaps.end(), none)) found.bond_gaps.clear();
   check_deformation(found, material.packing.dimension);
   check_contacts(found.contacts, material.packing.size());
   return found;

@@ -31,7 +31,7 @@ void describe(grainlaw_report& report, const char* text) {
   std::snprintf(report.message, sizeof report.message, "%s", text);
 }
 
-// Contacts that opened, closed, began or ceased to slide between two configurations.
+// Contacts that opened, closed, lost their bond, began or ceased to slide between two configurations.
 int status_changes(const Configuration& before, const Configuration& after) {
   const auto key = [](const ContactHistory& c) { return std::tie(c.i, c.j, c.shift); };
   auto a = before.contacts.begin();
@@ -39,7 +39,7 @@ int status_changes(const Configuration& before, const Configuration& after) {
   for (const auto& contact : after.contacts) {
     for (; a != before.contacts.end() && key(*a) < key(contact); ++a) ++changes;
     const bool known = a != before.contacts.end() && key(*a) == key(contact);
-    if (!known || a->sliding != contact.sliding) ++changes;
+    if (!known || a->sliding != contact.sliding || a->bonded != contact.bonded) ++changes;
     if (known) ++a;
   }
   return changes + static_cast<int>(before.contacts.end() - a);
@@ -190,6 +190,7 @@ grainlaw_status State::evaluate(const double* F, TangentKind kind, double* P, do
 
   w.increment.advance_history();
   w.increment.export_to(committed_, trial_);
+  report.broken_bonds = static_cast<int>(std::lround(w.increment.broken_bonds));
   report.contacts = static_cast<int>(trial_.contacts.size());
   report.sliding = static_cast<int>(std::count_if(trial_.contacts.begin(), trial_.contacts.end(),
                                                   [](const auto& c) { return c.sliding; }));

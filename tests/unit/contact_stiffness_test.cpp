@@ -35,7 +35,7 @@ struct Contact {
   Contact(double committed_force, double overlap, double turn) {
     const std::vector<double> start{0, 3.1, 0, 2.3, 0.2, -0.1};
     const std::vector<NeighbourPair> pairs{{0, 1, {}}};
-    const std::vector<ContactHistory> history{{0, 1, {}, false, committed_force}};
+    const std::vector<ContactHistory> history{{0, 1, {}, false, false, committed_force}};
     test::build(pairs, radius, law(), cell, {start, cell, history}, list);
     const double angle = std::atan2(2.3, 3.1) + turn;
     z = {0.1,   0.1 + (4 - overlap) * std::cos(angle),

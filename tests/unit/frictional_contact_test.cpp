@@ -1,7 +1,5 @@
 // The frictional contact of two or three discs against closed forms.
-#include "contact_support.hpp"
-
-#include "contact/law.hpp"
+#include "discs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,13 +10,12 @@
 #include <utility>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::test {
 namespace {
 
 constexpr double kn = 1000;
 constexpr double kt = 800;
 constexpr double friction = 0.5;
-constexpr std::array<double, 4> cell{10, 0, 0, 10};
 
 ContactLaw rough() {
   ContactLaw law;
@@ -28,52 +25,9 @@ ContactLaw rough() {
   return law;
 }
 
-// Discs whose contacts are listed once, all pairs in order; coordinates component-major.
-struct Discs {
-  ContactLaw law;
-  std::vector<double> radius;
-  std::vector<double> start;
-  std::vector<double> z;
-  ContactList list;
-  std::vector<double> force;
-
-  Discs(const ContactLaw& contact_law, std::vector<double> radii, std::vector<double> coordinates,
-        std::vector<ContactHistory> history = {}, std::vector<NeighbourPair> pairs = {{0, 1, {}}})
-      : law(contact_law), radius(std::move(radii)), start(std::move(coordinates)), z(start) {
-    test::build(pairs, radius, law, cell, {start, cell, history}, list);
-    force.resize(z.size());
-  }
-  [[nodiscard]] std::size_t size() const { return radius.size(); }
-  double& x(std::size_t p) { return z[p]; }
-  double& y(std::size_t p) { return z[size() + p]; }
-  double& turn(std::size_t p) { return z[2 * size() + p]; }
-
-  void evaluate() { force = test::forces(z, radius, law, list); }
-  double advance() {
-    std::vector<ForceRecord> sums(size());
-    return advance_contacts(test::records(z, radius), law, list, sums);
-  }
-  [[nodiscard]] ContactPoint point(std::size_t c = 0) const {
-    return contact_point(list, c, z, size(), law);
-  }
-};
-
 // Radii 1 and 3, overlap 0.1 along x, unturned.
 Discs pair(const ContactLaw& law = rough(), double committed = 0) {
-  return {law, {1, 3}, {0, 3.9, 0, 0, 0, 0}, {{0, 1, {}, false, committed}}};
-}
-
-// Turn everything about the origin.
-void rotate(Discs& discs, double angle) {
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  for (std::size_t p = 0; p < discs.size(); ++p) {
-    const double x = discs.x(p);
-    const double y = discs.y(p);
-    discs.x(p) = c * x - s * y;
-    discs.y(p) = s * x + c * y;
-    if (discs.law.rotating()) discs.turn(p) += angle;
-  }
+  return {law, {1, 3}, {0, 3.9, 0, 0, 0, 0}, {{0, 1, {}, false, false, committed}}};
 }
 
 TEST(frictional_contact, pushes_with_stiffness_times_overlap) {
@@ -300,4 +254,4 @@ TEST(frictional_contact, advanced_history_is_where_the_next_step_starts) {
 }
 
 }  // namespace
-}  // namespace grainlaw
+}  // namespace grainlaw::test

@@ -30,10 +30,10 @@ Configuration small_configuration() {
   configuration.deformation = {1, 0.25, 0, 1};
   configuration.stress = {-1, 2, 3, -4};
   configuration.coordinates = {0, 1, 2, 3, -4, 5, 6, 1e-300, -0.0};
-  configuration.contacts = {{0, 0, {0, 1}, false, 3.5},
-                            {0, 1, {-1, 0}, true, -2},
-                            {0, 1, {0, 0}, false, 0},
-                            {1, 2, {0, 0}, true, 1}};
+  configuration.contacts = {{0, 0, {0, 1}, false, false, 3.5},
+                            {0, 1, {-1, 0}, true, false, -2},
+                            {0, 1, {0, 0}, false, false, 0},
+                            {1, 2, {0, 0}, true, false, 1}};
   configuration.dissipated = 7;
   return configuration;
 }
@@ -82,13 +82,13 @@ TEST(serialise, round_trip_keeps_every_bit) {
 
 TEST(serialise, bytes_are_little_endian_on_every_machine) {
   const auto bytes = save(small_configuration());
-  EXPECT_EQ(std::memcmp(bytes.data(), "GRAINLAW\1\0\0\0\4\0\0\0\52\0\0\0\0\0\0\0", 24), 0);
+  EXPECT_EQ(std::memcmp(bytes.data(), "GRAINLAW\2\0\0\0\4\0\0\0\52\0\0\0\0\0\0\0", 24), 0);
   EXPECT_EQ(bytes.size(), 24U + 8 * (4 + 4 + 1 + 9) + 4 * 21 + 8);
 }
 
 TEST(serialise, another_version_is_told_from_damage) {
   auto bytes = save(small_configuration());
-  bytes[8] = std::byte{2};
+  bytes[8] = std::byte{3};
   EXPECT_EQ(status_of(bytes), GRAINLAW_BAD_BYTES);
   seal(bytes);
   EXPECT_EQ(status_of(bytes), GRAINLAW_WRONG_VERSION);

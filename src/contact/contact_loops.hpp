@@ -1,0 +1,423 @@
+// The loops over all contacts: one template over what a law has, for four and for eight lanes.
+#pragma once
+
+#include "contact/contact_list.hpp"
+#include "contact/frictional.hpp"
+#include "simd.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+namespace grainlaw::contact_loops {
+
+using namespace simd;
+
+static_assert(sizeof(ParticleRecord) == sizeof(Record) && sizeof(ForceRecord) == sizeof(Record));
+
+constexpr double tiny = std::numeric_limits<double>::min();
+constexpr double hertz_share = 2.0 / 3;  // fn / (kn overlap)
+// Up to this tangent the series of an angle is exact to round-off: 11 degrees, more than touching
+// contacts usually turn by in an increment of a host's size.
+constexpr double short_series = 0.2;
+
+// The arc tangent of t by its series, without a trigonometric call; to round-off for |t| <= 0.2.
+// Summed in pairs: one long chain of multiplications would set the pace of the whole loop.
+template <class Vector>
+GRAINLAW_INLINE Vector arc_tangent(const Vector& t) {
+  const Vector u = t * t;
+  const Vector u2 = u * u;
+  const Vector u4 = u2 * u2;
+  const Vector a = (1.0 - u * (1.0 / 3)) + u2 * (1.0 / 5 - u * (1.0 / 7));
+  const Vector b = (1.0 / 9 - u * (1.0 / 11)) + u2 * (1.0 / 13 - u * (1.0 / 15));
+  const Vector c = (1.0 / 17 - u * (1.0 / 19)) + u2 * (1.0 / 21);
+  return t * (a + u4 * (b + u4 * c));
+}
+
+struct Loop {
+  const ParticleRecord* particles;
+  double friction;
+  ContactList* list;
+};
+
+// The records of four (or twice four) particles, one a row.
+template <std::size_t width>
+GRAINLAW_INLINE Lanes<width> record(const double* records, const std::int32_t* index,
+                                    std::size_t k) {
+  const auto at = [&](std::size_t lane) {
+    return load<4>(records + 4 * static_cast<std::size_t>(index[lane]));
+  };
+  if constexpr (width == 4) {
+    return at(k);
+  } else {
+    return beside(at(k), at(k + 4));
+  }
+}
+
+// What is known of a block of contacts. The loops go over a block in steps, each with short chains of
+// operations that depend on each other, so that the processor finds others to do meanwhile.
+constexpr std::size_t block = 4 * ContactList::group;
+struct alignas(64) Block {
+  double x[block], y[block];  // branch [m]
+  double reach[block];        // R_i + R_j [m]
+  double roll[block];         // R_i theta_i + R_j theta_j [m]
+  double distance[block], inverse[block], tangent[block], normal_force[block];
+  double root[block];  // of the overlap, Hertz-Mindlin alone [m^0.5]
+};
+
+// Branches: the particles' records subtracted and transposed.
+template <std::size_t width>
+GRAINLAW_INLINE void find_branches(const double* particles, const ContactList& list,
+                                   std::size_t first, std::size_t size, Block& at) {
+  using V = Lanes<width>;
+  V sign;  // p_j - sign p_i = (l_x, l_y, rolls, radii)
+  for (std::size_t k = 0; k < width; ++k) sign[k] = k % 4 < 2 ? 1 : -1;
+  const std::int32_t* i = list.i.data() + first;
+  const std::int32_t* j = list.j.data() + first;
+  const double* offset_x = list.offset_x.data() + first;
+  const double* offset_y = list.offset_y.data() + first;
+  for (std::size_t c = 0; c < size; c += width) {
+    V a = record<width>(particles, j + c, 0) - sign * record<width>(particles, i + c, 0);
+    V b = record<width>(particles, j + c, 1) - sign * record<width>(particles, i + c, 1);
+    V e = record<width>(particles, j + c, 2) - sign * record<width>(particles, i + c, 2);
+    V d = record<width>(particles, j + c, 3) - sign * record<width>(particles, i + c, 3);
+    transpose(a, b, e, d);
+    store(at.x + c, a + load<width>(offset_x + c));
+    store(at.y + c, b + load<width>(offset_y + c));
+    store(at.roll + c, e);
+    store(at.reach + c, d);
+  }
+}
+
+// The columns (x, y, roll, unused) of some contacts as records.
+template <std::size_t width>
+GRAINLAW_INLINE void put_records(const Lanes<width>& columns_x, const Lanes<width>& columns_y,
+                                 const Lanes<width>& columns_roll,
+                                 const Lanes<width>& columns_unused, double* to) {
+  Lanes<width> x = columns_x;
+  Lanes<width> y = columns_y;
+  Lanes<width> roll = columns_roll;
+  Lanes<width> unused = columns_unused;
+  transpose(x, y, roll, unused);
+  if constexpr (width == 4) {
+    store(to, x);
+    store(to + 4, y);
+    store(to + 8, roll);
+    store(to + 12, unused);
+  } else {
+    store(to, first(x));
+    store(to + 4, first(y));
+    store(to + 8, first(roll));
+    store(to + 12, first(unused));
+    store(to + 16, second(x));
+    store(to + 20, second(y));
+    store(to + 24, second(roll));
+    store(to + 28, second(unused));
+  }
+}
+
+// A sum over contacts by their places in a group, so that it has the same bits for any width.
+template <std::size_t width>
+struct GroupSum {
+  static constexpr std::size_t parts = ContactList::group / width;
+  Lanes<width> part[parts] = {};
+
+  GRAINLAW_INLINE void add(std::size_t c, const Lanes<width>& value) {
+    part[c / width % parts] += value;
+  }
+  GRAINLAW_INLINE double total() const {
+    double sum = 0;
+    for (const auto& lanes : part) {
+      for (std::size_t k = 0; k < width; ++k) sum += lanes[k];
+    }
+    return sum;
+  }
+};
+
+enum class Kinematics { frictionless, locked, rotating };
+
+// What a law has. What it has not is not in its loop.
+struct Features {
+  Kinematics kinematics;
+  bool hertz = false;
+  bool bonds = false;
+  bool moments = false;
+};
+
+struct LoopResult {
+  double beyond;      // > 0: a touching branch turned beyond the short series
+  double dissipated;  // when advancing [J]
+};
+
+// Overlap of contacts, negative across a gap; and down to which they carry.
+template <std::size_t width, Features law>
+GRAINLAW_INLINE Lanes<width> overlap_of(const ContactList& list, std::size_t c,
+                                        const Lanes<width>& reach, const Lanes<width>& distance) {
+  if constexpr (law.bonds) {
+    return load<width>(&list.rest[c]) - distance;
+  } else {
+    return reach - distance;
+  }
+}
+template <std::size_t width, Features law>
+GRAINLAW_INLINE Lanes<width> least_overlap(const ContactList& list, std::size_t c) {
+  if constexpr (law.bonds) {
+    return -load<width>(&list.hold[c]);
+  } else {
+    return Lanes<width>{};
+  }
+}
+
+// theta_j - theta_i
+template <std::size_t width>
+GRAINLAW_INLINE Lanes<width> spin_of(const ParticleRecord* particles, const ContactList& list,
+                                     std::size_t c) {
+  Lanes<width> roll_i, roll_j;
+  for (std::size_t k = 0; k < width; ++k) {
+    roll_i[k] = particles[static_cast<std::size_t>(list.i[c + k])].roll;
+    roll_j[k] = particles[static_cast<std::size_t>(list.j[c + k])].roll;
+  }
+  return roll_j * load<width>(&list.inverse_radius_j[c]) -
+         roll_i * load<width>(&list.inverse_radius_i[c]);
+}
+
+// Normal forces, and the tangent of the turning since the start of the increment. Returns by how
+// much a touching branch has turned beyond the short series.
+template <std::size_t width, Features law>
+GRAINLAW_INLINE Lanes<width> find_normals(const ContactList& list, std::size_t first,
+                                          std::size_t size, Block& at) {
+  using V = Lanes<width>;
+  const V zero{};
+  V beyond{};
+  const double* kn = list.normal_stiffness.data() + first;
+  const double* start_x = list.start_x.data() + first;
+  const double* start_y = list.start_y.data() + first;
+  for (std::size_t c = 0; c < size; c += width) {
+    const V x = load<width>(at.x + c);
+    const V y = load<width>(at.y + c);
+    const V nx = load<width>(start_x + c);
+    const V ny = load<width>(start_y + c);
+    const V square = x * x + y * y + tiny;
+    const V distance = square_root(square);
+    const V overlap =
+        overlap_of<width, law>(list, first + c, load<width>(at.reach + c), distance);
+    const V least = least_overlap<width, law>(list, first + c);
+    const V dot = nx * x + ny * y;
+    const V cross = nx * y - ny * x;
+    // One division for 1/d and 1/dot, beside the square root, not after it.
+    const V ahead = dot > zero ? dot : square;
+    const V quotient = 1 / (square * ahead);
+    const V excess = magnitude(cross) - short_series * dot;
+    beyond = largest(beyond, overlap > least ? excess : zero);
+    store(at.distance + c, distance);
+    store(at.inverse + c, distance * (ahead * quotient));
+    store(at.tangent + c, cross * (square * quotient));
+    const V depth = largest(overlap, least);
+    if constexpr (law.hertz) {
+      const V root = square_root(depth);
+      store(at.root + c, root);
+      store(at.normal_force + c, hertz_share * load<width>(kn + c) * root * depth);
+    } else {
+      store(at.normal_force + c, load<width>(kn + c) * depth);
+    }
+  }
+  return beyond;
+}
+
+// Sliding (rolling) at the force, and what the spring gives up when the bound falls below its force.
+template <std::size_t width>
+GRAINLAW_INLINE Lanes<width> lost_by(const Lanes<width>& start, const Lanes<width>& trial,
+                                     const Lanes<width>& force, const Lanes<width>& bound,
+                                     const Lanes<width>& stiffness) {
+  const Lanes<width> excess = largest(magnitude(start) - bound, Lanes<width>{});
+  return (magnitude(force * (trial - force)) + 0.5 * excess * excess) / stiffness;
+}
+
+// `far` takes any turn by halving the angle, to round-off below 90 degrees and to 1e-7 at 180;
+// `advance` moves the start of the history here
+// and adds up what was dissipated.
+template <std::size_t width, Features law, bool far, bool advance>
+GRAINLAW_INLINE void find_forces(const Loop& loop, std::size_t first, std::size_t size,
+                                 const Block& at, GroupSum<width>& dissipated) {
+  using V = Lanes<width>;
+  constexpr bool rotating = law.kinematics == Kinematics::rotating;
+  ContactList& list = *loop.list;
+  const V zero{};
+  const double* inverse_reach = list.inverse_reach.data() + first;
+  const double* stiffness = list.tangential_stiffness.data() + first;
+  double* start_x = list.start_x.data() + first;
+  double* start_y = list.start_y.data() + first;
+  double* start_roll = list.start_roll.data() + first;
+  double* start_force = list.start_force.data() + first;
+  double* forces = &list.forces[first].x;
+  for (std::size_t c = 0; c < size; c += width) {
+    const V x = load<width>(at.x + c);
+    const V y = load<width>(at.y + c);
+    const V distance = load<width>(at.distance + c);
+    const V inverse = load<width>(at.inverse + c);
+    const V fn = load<width>(at.normal_force + c);
+    V turn;
+    if constexpr (far) {
+      const V dot = load<width>(start_x + c) * x + load<width>(start_y + c) * y;
+      const V cross = load<width>(start_x + c) * y - load<width>(start_y + c) * x;
+      const V half = cross / largest(distance + dot, 1e-12 * distance);
+      const V quarter = half / (1 + square_root(1 + half * half));
+      turn = 8 * arc_tangent(quarter / (1 + square_root(1 + quarter * quarter)));
+    } else {
+      turn = arc_tangent(load<width>(at.tangent + c));
+    }
+    V slip = distance * turn;
+    const V stretch = distance * load<width>(inverse_reach + c);
+    const V roll = load<width>(at.roll + c);
+    if constexpr (rotating) slip += stretch * (load<width>(start_roll + c) - roll);
+    V kt = load<width>(stiffness + c);
+    V start = load<width>(start_force + c);
+    V root{}, fourth{};
+    if constexpr (law.hertz) {
+      root = load<width>(at.root + c);
+      fourth = square_root(root);
+      kt *= root;
+      start *= fourth;
+    }
+    const V trial = start - kt * slip;
+    V bound = loop.friction * fn;
+    if constexpr (law.bonds) bound += load<width>(&list.hold[first + c]);
+    const V ft = smallest(largest(trial, -bound), bound);
+    V moment{};
+    if constexpr (law.moments) {
+      const V spin = spin_of<width>(loop.particles, list, first + c);
+      V kr = load<width>(&list.bending_stiffness[first + c]);
+      V start_moment = load<width>(&list.start_moment[first + c]);
+      if constexpr (law.hertz) {
+        kr *= root;
+        start_moment *= fourth;
+      }
+      const V trial_moment = start_moment - kr * (spin - load<width>(&list.start_spin[first + c]));
+      V largest_moment = load<width>(&list.rolling_length[first + c]) * fn;
+      if constexpr (law.bonds) largest_moment += load<width>(&list.hold[first + c]);
+      moment = smallest(largest(trial_moment, -largest_moment), largest_moment);
+      if constexpr (advance) {
+        const V lost = lost_by<width>(start_moment, trial_moment, moment, largest_moment, kr);
+        if constexpr (law.hertz) {
+          const V held = load<width>(&list.start_moment[first + c]);
+          const V all = load<width>(&list.bending_stiffness[first + c]);
+          dissipated.add(c, kr > zero ? lost : (all > zero ? 0.5 * held * held / all : zero));
+          moment = kr > zero ? moment : zero;
+          store(&list.start_moment[first + c], kr > zero ? moment / fourth : zero);
+        } else {
+          dissipated.add(c, kr > zero ? lost : zero);
+          store(&list.start_moment[first + c], moment);
+        }
+        store(&list.start_spin[first + c], spin);
+      }
+    }
+    put_records<width>((fn * x - ft * y) * inverse, (fn * y + ft * x) * inverse,
+                       rotating ? -stretch * ft : zero, moment, forces + 4 * c);
+    if constexpr (advance) {
+      const V lost = lost_by<width>(start, trial, ft, bound, kt);
+      store(start_x + c, x * inverse);
+      store(start_y + c, y * inverse);
+      if constexpr (rotating) store(start_roll + c, roll);
+      if constexpr (law.hertz) {
+        // Nothing is left of an open contact's overlap, nor of its spring.
+        const V held = load<width>(start_force + c);
+        const V all = load<width>(stiffness + c);
+        dissipated.add(c, kt > zero ? lost : (all > zero ? 0.5 * held * held / all : zero));
+        store(start_force + c, kt > zero ? ft / fourth : zero);
+      } else {
+        dissipated.add(c, kt > zero ? lost : zero);
+        store(start_force + c, ft);
+      }
+    }
+  }
+}
+
+template <std::size_t width, Features law, bool far, bool advance>
+GRAINLAW_INLINE LoopResult contact_loop(const Loop& loop) {
+  using V = Lanes<width>;
+  ContactList& list = *loop.list;
+  V beyond{};
+  GroupSum<width> dissipated;
+  Block at;
+  for (std::size_t first = 0; first < list.i.size(); first += block) {
+    const std::size_t size = std::min(block, list.i.size() - first);
+    find_branches<width>(&loop.particles->x, list, first, size, at);
+    if constexpr (law.kinematics == Kinematics::frictionless) {
+      for (std::size_t c = 0; c < size; c += width) {
+        const V x = load<width>(at.x + c);
+        const V y = load<width>(at.y + c);
+        const V distance = square_root(x * x + y * y + tiny);
+        const V overlap = load<width>(at.reach + c) - distance;
+        V fn = load<width>(&list.normal_stiffness[first + c]) * largest(overlap, V{});
+        if constexpr (law.hertz) fn *= hertz_share * square_root(largest(overlap, V{}));
+        const V f = fn / distance;
+        put_records<width>(f * x, f * y, V{}, V{}, &list.forces[first + c].x);
+      }
+    } else {
+      beyond = largest(beyond, find_normals<width, law>(list, first, size, at));
+      find_forces<width, law, far, advance>(loop, first, size, at, dissipated);
+    }
+  }
+  return {most(beyond), dissipated.total()};
+}
+
+// Records (kn, kn, kt d^2 / (R_i + R_j), kr or 1) of the touching contacts.
+template <std::size_t width, Features law>
+GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
+  using V = Lanes<width>;
+  ContactList& list = *loop.list;
+  const V zero{};
+  const V one = zero + 1.0;
+  GroupSum<width> force, weight, touching;
+  const bool weighted = !list.weight.empty();
+  Block at;
+  for (std::size_t first = 0; first < list.i.size(); first += block) {
+    const std::size_t size = std::min(block, list.i.size() - first);
+    find_branches<width>(&loop.particles->x, list, first, size, at);
+    for (std::size_t c = 0; c < size; c += width) {
+      const V x = load<width>(at.x + c);
+      const V y = load<width>(at.y + c);
+      const V square = x * x + y * y + tiny;
+      const V overlap = overlap_of<width, law>(list, first + c, load<width>(at.reach + c),
+                                               square_root(square));
+      const auto here = overlap > least_overlap<width, law>(list, first + c);
+      V kn = here ? load<width>(&list.normal_stiffness[first + c]) : zero;
+      V kt = here ? load<width>(&list.tangential_stiffness[first + c]) : zero;
+      const V touches = here ? one : zero;
+      V last = touches;
+      if constexpr (law.moments) {
+        last = here ? load<width>(&list.bending_stiffness[first + c]) : zero;
+      }
+      if constexpr (law.hertz) {
+        const V root = square_root(largest(overlap, zero));
+        kn *= root;
+        kt *= root;
+        if constexpr (law.moments) last *= root;
+        force.add(c, hertz_share * kn * overlap);
+      } else if constexpr (law.bonds) {
+        force.add(c, kn * magnitude(overlap));
+      } else {
+        force.add(c, kn * overlap);
+      }
+      touching.add(c, touches);
+      if (weighted) weight.add(c, here ? load<width>(&list.weight[first + c]) : zero);
+      put_records<width>(kn, kn, kt * square * load<width>(&list.inverse_reach[first + c]),
+                         last, &list.forces[first + c].x);
+    }
+  }
+  return {force.total(), weighted ? weight.total() : touching.total(),
+          static_cast<int>(touching.total())};
+}
+
+#define GRAINLAW_LOOP(Result, name, loop_of, ...)                                  \
+  GRAINLAW_CLONES_OF_FOUR Result name##_of_four(const Loop& loop) {                \
+    return loop_of<4 __VA_OPT__(, ) __VA_ARGS__>(loop);                            \
+  }                                                                                \
+  GRAINLAW_OF_EIGHT Result name##_of_eight(const Loop& loop) {                     \
+    return loop_of<8 __VA_OPT__(, ) __VA_ARGS__>(loop);                            \
+  }                                                                                \
+  Result name(const Loop& loop) {                                                  \
+    return eight_lanes() ? name##_of_eight(loop) : name##_of_four(loop);           \
+  }
+
+}  // namespace grainlaw::contact_loops

@@ -1,0 +1,41 @@
+// The exact tangent of every contact law is the derivative of its stress.
+#include "law_support.hpp"
+#include "tangent_support.hpp"
+
+namespace grainlaw::test {
+namespace {
+
+TEST(law_tangent, matches_central_differences) {
+  for (const auto& [name, law] : composite_laws()) {
+    SCOPED_TRACE(name);
+    expect_derivative_along(describe_law(small_packing(), law));
+  }
+}
+
+TEST(law_tangent, of_a_frame_matches_central_differences) {
+  for (const auto& [name, law] : composite_laws()) {
+    SCOPED_TRACE(name);
+    expect_derivative_along(describe_law(small_packing(), law, BoundaryType::frame_p));
+  }
+}
+
+TEST(law_tangent, without_tangential_forces_matches_central_differences) {
+  expect_derivative_along(describe_law(reference_packing(), compressive_law()));
+  expect_derivative_along(describe_law(reference_packing(), smooth_hertz_law()));
+}
+
+TEST(law_tangent, through_sub_increments_matches_central_differences) {
+  for (const auto& [name, law] : composite_laws()) {
+    SCOPED_TRACE(name);
+    MaterialDescription description = describe_law(small_packing(), law);
+    // Away from where the number of parts changes: P jumps there.
+    description.solver.increment_limit = law.bonds() ? 2.3 / law.bond.normal_strength : 0.053;
+    State state(make_material(description));
+    const Evaluation at = evaluate(state, paths[0].next);
+    EXPECT_GE(at.report.subincrements, 3);
+    expect_derivative_along(description);
+  }
+}
+
+}  // namespace
+}  // namespace grainlaw::test
