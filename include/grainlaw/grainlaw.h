@@ -42,6 +42,7 @@ extern "C" {
   X(GRAINLAW_CONTACTS_LOST, 2, "the packing lost its contacts; it carries no stress")              \
   X(GRAINLAW_INVERTED, 3, "det F <= 0; the element is inverted, retry with a smaller step")        \
   X(GRAINLAW_STEP_TOO_LARGE, 4, "F is too far from the committed one; retry with a smaller step")  \
+  X(GRAINLAW_COLLAPSED, 5, "the packing no longer carries a uniform stress on its boundary")       \
   X(GRAINLAW_NULL_POINTER, -1, "a required pointer is null")                                       \
   X(GRAINLAW_BAD_HANDLE, -2, "the handle is not a live handle of this kind")                       \
   X(GRAINLAW_NOT_FINITE, -3, "F holds a NaN or an infinity")                                       \
@@ -82,7 +83,7 @@ typedef struct grainlaw_state grainlaw_state;
  * message (may be NULL) gets a zero-terminated text that names file, line, key and expectation when
  * something is wrong, truncated to message_size bytes; it is set to "" on success.
  * Errors: NULL_POINTER, FILE_ERROR, BAD_MATERIAL, BAD_PACKING, NOT_CONVERGED (no equilibrium at
- * F = I), CONTACTS_LOST, OUT_OF_MEMORY. On any error *out is NULL. */
+ * F = I, or under the prescribed stresses), CONTACTS_LOST, COLLAPSED, OUT_OF_MEMORY. On any error *out is NULL. */
 GRAINLAW_API grainlaw_status grainlaw_material_load(const char* path, grainlaw_material** out,
                                                     char* message, size_t message_size);
 
@@ -101,8 +102,8 @@ GRAINLAW_API void grainlaw_material_destroy(grainlaw_material*);
 
 /* ---- state ---------------------------------------------------------------------------------- */
 
-/* A new state at F = I, in equilibrium, with no trial. Errors: NULL_POINTER, BAD_HANDLE,
- * OUT_OF_MEMORY. */
+/* A new state at F = I (at the F found for it where stresses are prescribed), in equilibrium, with
+ * no trial. Errors: NULL_POINTER, BAD_HANDLE, OUT_OF_MEMORY. */
 GRAINLAW_API grainlaw_status grainlaw_state_create(const grainlaw_material*, grainlaw_state** out);
 
 /* An independent copy, committed and trial. Errors as for create. */
@@ -147,9 +148,13 @@ GRAINLAW_API grainlaw_report grainlaw_report_default(void);
  * want). The result becomes the trial state. With solver.start = "committed" it is a function of
  * (committed state, F) alone: same bits however often it is called. Errors: NULL_POINTER,
  * BAD_HANDLE, NOT_FINITE, BAD_REPORT, BAD_ARGUMENT, OUT_OF_MEMORY; recoverable: NOT_CONVERGED,
- * CONTACTS_LOST, INVERTED, STEP_TOO_LARGE. On any of them P and A are untouched and the committed
- * state keeps its bits. F that is refused or leads nowhere also drops the trial, so that an ignored
- * failure cannot commit an older one. */
+ * CONTACTS_LOST, INVERTED, STEP_TOO_LARGE, COLLAPSED. On any of them P and A are untouched and the committed
+ * state keeps its bits. A frame under uniform stress may also end COLLAPSED (recoverable): next to
+ * no force is left, or a boundary particle has no contact. With prescribed stress components
+ * (boundary "mixed") the given components of F that belong to them are ignored and found instead
+ * (measure DEFORMATION_GRADIENT); A has zero rows and columns there.
+ * F that is refused or leads nowhere also drops the trial, so that an ignored failure cannot commit
+ * an older one. */
 GRAINLAW_API grainlaw_status grainlaw_evaluate(grainlaw_state*, const double* F, unsigned want,
                                                double* P, double* A, grainlaw_report* report);
 
@@ -201,7 +206,8 @@ GRAINLAW_API grainlaw_status grainlaw_state_load(grainlaw_state*, const void* by
   X(GRAINLAW_CONTACTS, 13, 1, "number of touching contacts [-]")                                  \
   X(GRAINLAW_PARTICLES, 14, 1, "number of particles, images of a frame counted once [-]")         \
   X(GRAINLAW_REFERENCE_VOLUME, 15, 1, "volume at F = I [m3]")                                     \
-  X(GRAINLAW_DEFORMATION_GRADIENT, 16, -2, "F of this state [-]")
+  X(GRAINLAW_DEFORMATION_GRADIENT, 16, -2, "F of this state, found components included [-]")      \
+  X(GRAINLAW_ESCAPED_PARTICLES, 17, 1, "inner particles outside the polygon of the frame [-]")
 
 typedef enum grainlaw_measure {
 #define GRAINLAW_X(name, value, count, text) name = (value),

@@ -60,7 +60,8 @@ class Material {
   static Material create(Call&& call) {
     std::array<char, 1024> message{};
     grainlaw_material* handle = nullptr;
-    check(call(&handle, message.data(), message.size()), message.data());
+    const grainlaw_status status = call(&handle, message.data(), message.size());
+    check(status, message.data());
     Material material;
     material.handle_.reset(handle);
     return material;

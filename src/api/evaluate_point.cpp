@@ -58,7 +58,8 @@ grainlaw_status evaluate_point(grainlaw_state& handle, const double* F, unsigned
   const MessageBuffer message{full.message, sizeof full.message};
   const grainlaw_status status = guarded(
       [&] {
-        check_deformation(F, handle.state.material().packing.dimension);
+        const auto effective = handle.state.effective(F);
+        check_deformation(effective.data(), handle.state.material().packing.dimension);
         const TangentKind kind = A == nullptr ? TangentKind::none : tangent_kind(want);
         const grainlaw_status found = handle.state.evaluate(F, kind, P, A, full);
         handle.last_cost = full.relaxation_steps + steps_per_factorisation * full.factorisations;

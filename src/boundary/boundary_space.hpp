@@ -6,31 +6,73 @@
 #include "packing/neighbours.hpp"
 #include "packing/packing.hpp"
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace grainlaw {
 
+// Bits of BoundarySpace::fixed.
+enum Fixed : unsigned char {
+  fixed_x = 1,
+  fixed_y = 2,
+  fixed_translation = 3,
+  fixed_rotation = 4
+};
+
+// sum_q w_q A_q = 0 over the boundary, of the fluctuations in one direction (Liu, Bosco & Suiker
+// 2017, eq. 15), as one or two orthonormal rows over the nodes that take part; none where nothing
+// is free. The multiplier of it is the stress: a_q = P A_q (eq. 21).
+struct AverageConstraint {
+  std::vector<std::int32_t> node;
+  std::vector<std::array<double, 2>> row;  // of each of these nodes; second 0 when there is one
+  std::size_t rows = 0;
+};
+
 // periodic-cell: one node per particle, nothing fixed. frame-p (Liu, Bosco & Suiker 2017, eqs.
 // 19-20): one node per particle of the periodic packing that was cut, so that opposite edge
-// particles share theirs, and the four corners share one whose translation is prescribed.
+// particles share theirs, and the four corners share one whose translation is prescribed. frame-d
+// (eq. 17): a node per particle, those of the boundary fixed. frame-t (eqs. 15, 21-22): a node per
+// particle, the boundary's under the average constraint. mixed (section 5): each side by its rules.
 struct BoundarySpace {
   BoundaryOptions options;
   std::size_t nodes = 0;
-  bool identity = true;         // node p is particle p and nothing is fixed
-  std::vector<int> node;        // [particles]
-  std::vector<char> fixed;      // [nodes] 1: the translation is prescribed
-  std::vector<char> boundary;   // [nodes] 1: on the frame
+  bool identity = true;              // node p is particle p, nothing is fixed or constrained
+  std::vector<int> node;             // [particles]
+  std::vector<unsigned char> fixed;  // [nodes] bits of Fixed: prescribed
+  std::vector<char> boundary;        // [nodes] 1: on the frame, 2: and turns freely
+  std::array<AverageConstraint, 2> average;  // in x and in y
   double reference_volume = 0;  // V at F = I, thickness included [m3]
   double solid_volume = 0;      // of the particles, copies counted once [m3]
+  std::vector<int> source;      // [particles] the particle that it is, copies being the same one
+  std::size_t sources = 0;
+
+  // A condition whose directions are those of space, as a layer between plates has them: it does
+  // not turn with the increment, and fluctuations keep their components. Empty for all others.
+  std::vector<double> reference;  // X' of x = F X' + offset + w, component-major [m]
+  std::vector<double> offset;     // of discs from their rigid row, component-major [m]
+  // Components of F that are found, so that those of P are the prescribed ones.
+  bool finds_deformation = false;
+  std::array<bool, 4> found{};
+  std::array<double, 4> stress{};  // [Pa]
+
+  [[nodiscard]] bool bound_to_axes() const { return !reference.empty(); }
+  [[nodiscard]] bool averages() const { return average[0].rows + average[1].rows > 0; }
+
+  // Contacts that are left out: those within a row.
+  void drop(std::vector<NeighbourPair>& pairs) const;
 
   // 1 / (number of copies) of each pair on the frame, or 1 when the option says so.
   void weigh(const Packing& packing, std::span<const NeighbourPair> pairs,
              std::vector<double>& weights) const;
+
+  std::array<bool, 2> copied{};  // between left and right, bottom and top: the sides are the same
+  std::vector<unsigned char> rows;  // [particles] bit k: in the row of side k; empty: none
 };
 
-// Throws Error (BAD_PACKING) when a frame condition lacks its frame.
+// Throws Error (BAD_PACKING) when a frame condition lacks its frame, or the frame what it needs.
 BoundarySpace make_boundary_space(const Packing& packing, const BoundaryOptions& options);
 
 }  // namespace grainlaw

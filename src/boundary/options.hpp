@@ -1,28 +1,72 @@
 // What a material file says about the boundary of the representative volume.
 #pragma once
 
+#include <array>
+#include <optional>
+
 namespace grainlaw {
 
-enum class BoundaryType { periodic_cell, frame_p };
+enum class BoundaryType { periodic_cell, frame_p, frame_d, frame_t, mixed };
 enum class BoundaryMethod { direct, servo };
 enum class ContactWeight { copies, one };
 
-// The published servo, Liu, Bosco & Suiker (2017) Tables 2-4. The gains are per particle and scale
+// What holds the boundary particles of one side in one direction (Liu, Bosco & Suiker 2017, section
+// 2.3): D no fluctuation, P that of the opposite side, T free under a uniform stress.
+enum class SideRule { d, p, t };
+enum class SideRotation { fixed, periodic, free };
+// discs: as any others; without_contacts: contacts within the row are left out; rigid: as well, and
+// the row follows F as a straight line of discs.
+enum class SideRow { discs, without_contacts, rigid };
+
+struct Side {
+  SideRule x = SideRule::p;
+  SideRule y = SideRule::p;
+  SideRotation rotation = SideRotation::periodic;
+  SideRow row = SideRow::discs;
+
+  [[nodiscard]] SideRule rule(int direction) const { return direction == 0 ? x : y; }
+  [[nodiscard]] bool shared() const {
+    return x == SideRule::p || y == SideRule::p || rotation == SideRotation::periodic;
+  }
+};
+
+// In the order of the frame: anticlockwise from corner 0.
+enum SideName { bottom_side, right_side, top_side, left_side };
+using Sides = std::array<Side, 4>;
+
+// The published servo, Liu, Bosco & Suiker (2017) Tables 2-5. The gains are per particle and scale
 // with 1/M, as there; here they are dimensionless, stated for the lightest boundary particle:
 // g_a = gain_force / kn, g_m = gain_moment / (kn R^2). Table 4 means about 0.25 and 0.5.
 struct ServoOptions {
-  double gain_force = 0.2;      // stable below 0.3 [-]
-  double gain_moment = 0.4;     // [-]
-  double inheritance = 1;       // n_f; 0 is the algorithm without prediction (Table 3) [-]
-  double tolerance = 1e-6;      // eps_a on the residual r_a (Table 2, 1.5.A) [-]
-  int max_corrections = 20000;  // per increment [-]
+  double gain_force = 0.2;        // stable below 0.3 [-]
+  double gain_moment = 0.4;       // [-]
+  double gain_deformation = 0.5;  // T: of the correction that would bring F back at once [-]
+  double inheritance = 1;         // n_f; 0 is the algorithm without prediction (Table 3) [-]
+  double tolerance = 1e-6;        // eps_a on the residual r_a (Table 2, 1.5) [-]
+  double tolerance_deformation = 1e-6;  // T: eps_F on |F - (1/V) sum x (x) A| [-]
+  int max_corrections = 20000;          // per increment [-]
 };
 
 struct BoundaryOptions {
   BoundaryType type = BoundaryType::periodic_cell;
   BoundaryMethod method = BoundaryMethod::direct;
   ContactWeight weight = ContactWeight::copies;  // 1 / copies of a contact on a side, or 1
+  Sides sides;                                   // of a mixed boundary
+  std::array<std::optional<double>, 4> stress;   // components of P that are prescribed there [Pa]
   ServoOptions servo;
 };
+
+// Of any frame boundary.
+inline Sides sides_of(const BoundaryOptions& options) {
+  Sides sides = options.sides;
+  if (options.type == BoundaryType::frame_d) {
+    sides.fill({SideRule::d, SideRule::d, SideRotation::fixed});
+  } else if (options.type == BoundaryType::frame_t) {
+    sides.fill({SideRule::t, SideRule::t, SideRotation::free});
+  } else if (options.type == BoundaryType::frame_p) {
+    sides.fill({});
+  }
+  return sides;
+}
 
 }  // namespace grainlaw

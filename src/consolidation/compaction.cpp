@@ -1,5 +1,6 @@
 #include "consolidation/compaction.hpp"
 
+#include "consolidation/anisotropic.hpp"
 #include "consolidation/compression.hpp"
 #include "consolidation/stress_control.hpp"
 #include "error.hpp"
@@ -40,6 +41,15 @@ double solid_area(const Packing& packing) {
   double sum = 0;
   for (const double r : packing.radius) sum += std::numbers::pi * r * r;
   return sum;
+}
+
+// Overlap / radius of Hertz-Mindlin contacts at a pressure: with 2 n contacts of branches 2 R, p V =
+// sum fn 2 R / 2.
+double overlap_at(double pressure, const Packing& packing, const ContactLaw& law) {
+  const double radius = mean_radius(packing);
+  const double force = pressure * packing.thickness * solid_area(packing) /
+                       (2 * static_cast<double>(packing.size()) * radius);
+  return std::pow(1.5 * force / law.coefficient(radius, radius), 2.0 / 3) / radius;
 }
 
 double cell_area(const Packing& packing) {
@@ -102,11 +112,8 @@ Packing make_random(const GeneratorOptions& options, const ContactLaw& material_
   const Packing loose =
       options.kind == GeneratorKind::lubachevsky_stillinger ? grow(options) : scatter(options);
   const double radius = mean_radius(loose);
-  if (law.hertzian() && !(options.void_ratio > 0)) {
-    // With 2 n contacts of branches 2 R: p V = sum fn 2 R / 2.
-    const double force = options.pressure * options.thickness * solid_area(loose) /
-                         (2 * static_cast<double>(loose.size()) * radius);
-    law.typical_overlap = std::pow(1.5 * force / law.coefficient(radius, radius), 2.0 / 3) / radius;
+  if (law.hertzian() && options.pressure > 0) {
+    law.typical_overlap = overlap_at(options.pressure, loose, law);
   }
   const double line_stiffness = law.stiffness(radius, radius) / options.thickness;  // [Pa]
   const bool to_pressure = !(options.void_ratio > 0);
@@ -128,18 +135,22 @@ Packing make_random(const GeneratorOptions& options, const ContactLaw& material_
   const double pressure = to_pressure ? options.pressure : soft.pressure;
   const double mean_force = pressure * options.thickness * solid_area(loose) /
                             (2 * static_cast<double>(loose.size()) * radius);
-  if (unload) {
+  const bool anisotropic = options.anisotropy >= 0;
+  if (unload || anisotropic) {
     StressControl control(loose, law, *std::move(compressed), faded_force * mean_force);
-    IsotropicTarget target;
+    StressTarget target;
     target.pressure = options.pressure;
     if (!to_pressure)
       target.volume = (1 + options.void_ratio) * solid_area(loose) / cell_area(loose);
-    if (!control.reach(target))
+    if (unload && !control.reach(target))
       throw Error(GRAINLAW_NOT_CONVERGED,
                   fmt::format("generator: no packing at rest was found on unloading; pressure "
                               "{:.6g} Pa, void ratio {:.6g}; try another seed",
                               control.pressure(),
                               control.volume() * cell_area(loose) / solid_area(loose) - 1));
+    if (anisotropic)
+      consolidate_anisotropically(control, target, options.anisotropy,
+                                  options.anisotropy_direction);
     return packing_of(control.problem(), control.configuration());
   }
   const BoundarySpace space = make_boundary_space(loose, {});

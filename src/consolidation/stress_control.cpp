@@ -96,19 +96,17 @@ bool StressControl::accept(const Tensor& deformation, double least_pressure) {
 }
 
 // The largest residual, relative to the target.
-double StressControl::misfit(const IsotropicTarget& target) const {
+double StressControl::misfit(const StressTarget& target) const {
   const Tensor sigma = cauchy();
-  const double shear = target.free_shear ? 0 : std::abs(sigma[1]);
-  if (target.volume > 0)
-    return std::max({std::abs(volume() / target.volume - 1),
-                     std::abs(sigma[0] - sigma[3]) / pressure(), shear / pressure()});
-  return std::max({std::abs(sigma[0] + target.pressure), std::abs(sigma[3] + target.pressure),
-                   shear}) /
-         target.pressure;
+  const double p = target.volume > 0 ? pressure() : target.pressure;
+  const auto [q, r] = target.deviator;
+  const double volume_error = target.volume > 0 ? std::abs(volume() / target.volume - 1) : 0;
+  return std::max({volume_error, std::abs(sigma[0] / p + 1 + q), std::abs(sigma[3] / p + 1 - q),
+                   target.free_shear ? 0 : std::abs(sigma[1] / p + r)});
 }
 
-// The enthalpy W + p det F, whose minimum has the wanted stress, seen from where the packing stands:
-// by volume, and by shape (F11 / F22 and F12).
+// The enthalpy W - (work of the wanted Cauchy stress), at whose minimum it is the stress, seen from
+// where the packing stands: by volume, and by shape (F11 / F22 and F12).
 struct StressControl::Descent {
   Eigen::Matrix3d basis;     // columns: F11, F12, F22 of volume and shapes
   Eigen::Vector3d gradient;  // [Pa]
@@ -130,7 +128,7 @@ struct StressControl::Descent {
   }
 };
 
-StressControl::Descent StressControl::descent(const IsotropicTarget& target) const {
+StressControl::Descent StressControl::descent(const StressTarget& target) const {
   const auto& f = at_.deformation;
   const auto& a = tangent_;
   const double p = target.volume > 0 ? pressure() : target.pressure;
@@ -138,11 +136,15 @@ StressControl::Descent StressControl::descent(const IsotropicTarget& target) con
   Descent descent;
   descent.basis << Eigen::Vector3d(f[3], 0, f[0]) / length,
       Eigen::Vector3d(f[0], 0, -f[3]) / length, Eigen::Vector3d::UnitY();
-  // F21 = 0, so that F12 does not change det F.
-  const Eigen::Vector3d gradient(at_.stress[0] + p * f[3], at_.stress[1],
-                                 at_.stress[3] + p * f[0]);
+  // P - sigma cof F for F21 = 0, and its derivative.
+  const double s11 = -p * (1 + target.deviator[0]);
+  const double s22 = -p * (1 - target.deviator[0]);
+  const double s12 = -p * target.deviator[1];
+  const auto& stress = at_.stress;
+  const Eigen::Vector3d gradient(stress[0] - s11 * f[3] + s12 * f[1], stress[1] - s12 * f[0],
+                                 stress[3] - s22 * f[0]);
   Eigen::Matrix3d slope;
-  slope << a[0], a[1], a[3] + p, a[4], a[5], a[7], a[12] + p, a[13], a[15];
+  slope << a[0], a[1] + s12, a[3] - s11, a[4] - s12, a[5], a[7], a[12] - s22, a[13], a[15];
   descent.gradient = descent.basis.transpose() * gradient;
   descent.slope = descent.basis.transpose() * slope * descent.basis;
   if (target.free_shear) {
@@ -154,7 +156,7 @@ StressControl::Descent StressControl::descent(const IsotropicTarget& target) con
   return descent;
 }
 
-bool StressControl::reach(const IsotropicTarget& target) {
+bool StressControl::reach(const StressTarget& target) {
   const Packing& packing = *problem_.packing;
   double radius = 0;
   for (const double r : packing.radius) radius += r / static_cast<double>(packing.size());
@@ -206,21 +208,6 @@ bool StressControl::reach(const IsotropicTarget& target) {
     }
   }
   return false;
-}
-
-bool StressControl::deform_to(const std::array<double, 4>& deformation, double largest) {
-  const auto start = at_.deformation;
-  double strain = 0;
-  for (std::size_t k = 0; k < 4; ++k)
-    strain = std::max(strain, std::abs(deformation[k] - start[k]));
-  const int increments = std::max(1, static_cast<int>(std::ceil(strain / largest)));
-  for (int n = 1; n <= increments; ++n) {
-    Tensor next{};
-    const double share = static_cast<double>(n) / increments;
-    for (std::size_t k = 0; k < 4; ++k) next[k] = start[k] + share * (deformation[k] - start[k]);
-    if (!accept(next, 0)) return false;
-  }
-  return true;
 }
 
 Packing packing_of(const Problem& problem, const Configuration& at) {

@@ -8,11 +8,12 @@
 
 namespace grainlaw {
 
-// What to reach: an isotropic Cauchy stress, at a pressure or at a volume.
-struct IsotropicTarget {
-  double pressure = 0;     // [Pa]; unused when volume > 0
-  double volume = 0;       // det F, both normal stresses equal
-  bool free_shear = true;  // F12 stays, whatever the shear stress; else the shear stress vanishes
+// Cauchy stress sigma11 = -p (1 + q), sigma22 = -p (1 - q), sigma12 = -p r.
+struct StressTarget {
+  double pressure = 0;               // p [Pa]; unused when volume > 0
+  double volume = 0;                 // det F instead of the pressure, 0: none [-]
+  std::array<double, 2> deviator{};  // q, r [-]
+  bool free_shear = true;            // F12 stays, whatever sigma12
 };
 
 // Newton's method on the exact tangent with F upper triangular, in increments each of which ends in
@@ -27,10 +28,7 @@ class StressControl {
 
   // To 1e-7 of the pressure, or of the volume. False when no equilibrium was found on the way; the
   // configuration is then the last one found.
-  bool reach(const IsotropicTarget& target);
-
-  // To a given F in equal increments of at most `largest` [-]. Same return value.
-  bool deform_to(const std::array<double, 4>& deformation, double largest);
+  bool reach(const StressTarget& target);
 
   [[nodiscard]] const Configuration& configuration() const { return at_; }
   [[nodiscard]] const Problem& problem() const { return problem_; }
@@ -41,9 +39,9 @@ class StressControl {
   using Tensor = std::array<double, 4>;
 
   [[nodiscard]] Tensor cauchy() const;
-  [[nodiscard]] double misfit(const IsotropicTarget& target) const;
+  [[nodiscard]] double misfit(const StressTarget& target) const;
   struct Descent;
-  [[nodiscard]] Descent descent(const IsotropicTarget& target) const;
+  [[nodiscard]] Descent descent(const StressTarget& target) const;
   [[nodiscard]] bool accept(const Tensor& deformation, double least_pressure);
 
   ContactLaw law_;

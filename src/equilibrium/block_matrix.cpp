@@ -1,7 +1,7 @@
 #include "equilibrium/block_matrix.hpp"
 
+#include "equilibrium/quad.hpp"
 #include "room.hpp"
-#include "simd.hpp"
 
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
@@ -10,10 +10,7 @@
 
 namespace grainlaw {
 
-using simd::store;
-using Lanes = simd::Lanes<4>;  // of a quad
-constexpr std::size_t width = 4;
-GRAINLAW_INLINE Lanes load(const double* from) { return simd::load<4>(from); }
+using namespace quad;
 
 namespace {
 

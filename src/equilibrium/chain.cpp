@@ -78,7 +78,7 @@ bool solve_part(const Request& request, Workspace& w) {
     const double tolerance = std::max(hand_over, target);
     const long limit = (round < 5 ? 1 : 2) * relaxation_limit(increment.nodes());
     const bool relaxed = relax(increment, tolerance, limit, History::committed, w.relaxation);
-    if (increment.touching == 0) return false;
+    if (increment.touching == 0 || increment.collapsed()) return false;
     if (relaxed && tolerance == target) return true;
     const int factorisations = round == 0 ? first_factorisations : most_factorisations;
     if (flow_newton(increment, target, factorisations, w.newton)) return true;
@@ -175,6 +175,7 @@ Outcome solve(const Request& request, Workspace& w) {
   };
   const auto attempt = [&](bool done) {
     count();
+    done = done && !w.increment.collapsed();
     if (done) outcome.status = GRAINLAW_OK;
     return done;
   };
@@ -190,12 +191,14 @@ Outcome solve(const Request& request, Workspace& w) {
     for (const int refinement : {1, 2, 4, 8}) {
       if (parts * refinement > most_subincrements) break;
       if (attempt(solve_parts(request, parts * refinement, w, outcome))) return true;
-      if (w.increment.touching == 0) return false;
+      if (w.increment.touching == 0 || w.increment.collapsed()) return false;
     }
     return attempt(solve_advancing(request, Method::advancing, w, outcome));
   };
   if (!chain()) {
-    outcome.status = w.increment.touching == 0 ? GRAINLAW_CONTACTS_LOST : GRAINLAW_NOT_CONVERGED;
+    outcome.status = w.increment.collapsed()       ? GRAINLAW_COLLAPSED
+                     : w.increment.touching == 0 ? GRAINLAW_CONTACTS_LOST
+                                                 : GRAINLAW_NOT_CONVERGED;
     outcome.step_ratio = 0.5;
   }
   w.increment.relaxation_steps = steps;

@@ -28,6 +28,17 @@ std::array<double, 4> inverse(const std::array<double, 4>& a) {
   return {a[3] / det, -a[1] / det, -a[2] / det, a[0] / det};
 }
 
+// Affine motion of reference positions, added to x.
+void move_with(const double* reference, const std::array<double, 4>& change, std::size_t n,
+               double* x) {
+  for (std::size_t p = 0; p < n; ++p) {
+    const double a = reference[p];
+    const double b = reference[n + p];
+    x[p] += change[0] * a + change[1] * b;
+    x[n + p] += change[2] * a + change[3] * b;
+  }
+}
+
 std::array<double, 4> cell_at(const Problem& problem, const std::array<double, 4>& f) {
   if (problem.packing->frame) return {};
   return product(f, problem.packing->cell.data());
@@ -54,8 +65,9 @@ void Increment::begin(const Problem& p, const Configuration& from,
   cell = cell_at(p, deformation);
   records.resize(n);
   for (std::size_t q = 0; q < n; ++q) records[q] = {0, 0, 0, p.packing->radius[q]};
-  forces.resize(nodes());
-  mass_records.resize(nodes());
+  const std::size_t rows = p.space->finds_deformation ? 2 : 0;
+  forces.resize(nodes() + rows);
+  mass_records.resize(nodes() + rows);
   least_masses_.resize(nodes());
   node_residual.resize(unknowns());
   mass.resize(unknowns());
@@ -84,10 +96,27 @@ void Increment::begin(const Problem& p, const Configuration& from,
   broken_bonds = 0;
   relaxation_steps = servo_corrections = 0;
   factorisations = 0;
+  mean_branch_ = 2 * mean_radius;
+  deformation_scale_ = p.space->reference_volume / (p.packing->thickness * mean_branch_);
+  if (!p.space->identity) {
+    std::copy(least_masses_.begin(), least_masses_.end(), mass_records.begin());
+    find_average_masses();
+  }
   deform(target);
 }
 
 void Increment::deform(const std::array<double, 4>& target) {
+  const auto& space = *problem->space;
+  if (space.bound_to_axes()) {
+    // Fluctuations keep their components, and what is found of F stays until it is found.
+    std::array<double, 4> change{};
+    for (std::size_t k = 0; k < 4; ++k) change[k] = space.found[k] ? 0 : target[k] - deformation[k];
+    for (std::size_t k = 0; k < 4; ++k) deformation[k] += change[k];
+    move_with(space.reference.data(), change, particles(), coordinates.data());
+    place_fixed();
+    list_neighbours();
+    return;
+  }
   const auto g = product(target, inverse(deformation).data());
   const auto n = particles();
   double* x = coordinates.data();
@@ -101,7 +130,27 @@ void Increment::deform(const std::array<double, 4>& target) {
   deformation = target;
   after_break_ = false;
   cell = cell_at(*problem, deformation);
+  if (!space.identity) place_fixed();
   list_neighbours();
+}
+
+// No rounding adds up from increment to increment: prescribed particles are where F puts them, and
+// boundary particles average to F.
+void Increment::place_fixed() {
+  const auto& space = *problem->space;
+  const auto n = particles();
+  const auto& f = deformation;
+  const double* reference =
+      space.bound_to_axes() ? space.reference.data() : problem->packing->position.data();
+  const auto at = [&](std::size_t p, std::size_t k) {
+    const double offset = space.bound_to_axes() ? space.offset[k * n + p] : 0;
+    return f[2 * k] * reference[p] + f[2 * k + 1] * reference[n + p] + offset;
+  };
+  for (std::size_t p = 0; p < n; ++p) {
+    const unsigned char fixed = space.fixed[static_cast<std::size_t>(space.node[p])];
+    if ((fixed & fixed_x) != 0) coordinates[p] = at(p, 0);
+    if ((fixed & fixed_y) != 0) coordinates[n + p] = at(p, 1);
+  }
 }
 
 void Increment::list_neighbours() {
@@ -112,6 +161,7 @@ void Increment::list_neighbours() {
                packing.frame ? nullptr : cell.data(), gap_, pairs);
   if (problem->law->bonds()) list_bonded_pairs();
   keep_room(pairs);
+  problem->space->drop(pairs);
   pair_weights.clear();
   if (packing.frame) problem->space->weigh(packing, pairs, pair_weights);
   build_list();
@@ -191,22 +241,21 @@ void Increment::update_forces_advancing() {
 
 void Increment::project() {
   const auto m = nodes();
-  hold_fixed(forces);
+  reduce(forces);
   double* r = node_residual.data();
   for (std::size_t q = 0; q < m; ++q) {
     r[q] = forces[q].x;
     r[m + q] = forces[q].y;
   }
+  if (problem->space->finds_deformation) {
+    double* of_rows = r + node_unknowns();
+    for (std::size_t i = 0; i < 2; ++i) {
+      of_rows[2 * i] = forces[m + i].x;
+      of_rows[2 * i + 1] = forces[m + i].y;
+    }
+  }
   if (!problem->law->rotating()) return;
   for (std::size_t q = 0; q < m; ++q) r[2 * m + q] = forces[q].roll * node_radius[q];
-}
-
-void Increment::hold_fixed(std::span<ForceRecord> residual) const {
-  const auto& space = *problem->space;
-  if (space.identity) return;
-  for (std::size_t q = 0; q < nodes(); ++q) {
-    if (space.fixed[q]) residual[q].x = residual[q].y = 0;
-  }
 }
 
 double Increment::overlap(std::size_t c) const {
@@ -246,6 +295,11 @@ void Increment::refresh_masses() {
     mass[q] = mass[m + q] = mass_records[q].x;
     if (rotating) mass[2 * m + q] = mass_records[q].roll * r * r;
   }
+  if (!problem->space->finds_deformation) return;
+  for (std::size_t i = 0; i < 2; ++i) {
+    mass[node_unknowns() + 2 * i] = mass_records[m + i].x;
+    mass[node_unknowns() + 2 * i + 1] = mass_records[m + i].y;
+  }
 }
 
 void Increment::sum_masses() {
@@ -260,6 +314,9 @@ void Increment::sum_masses() {
     mass_of.roll = factor * std::max(mass_of.roll * least.unused, least.roll);
     mass_of.unused = 1;
   }
+  if (problem->space->identity) return;
+  find_average_masses();
+  find_deformation_masses();
 }
 
 double Increment::relative_scale() const { return std::max(mean_force, problem->force_floor); }
@@ -291,6 +348,15 @@ double Increment::residual_norm() const {
       sum += force;
     }
   }
+  if (problem->space->finds_deformation) {
+    for (std::size_t k = node_unknowns(); k < unknowns(); ++k) {
+      largest = std::max(largest, std::abs(r[k]));
+      sum += r[k];
+    }
+    if (!(deformation[0] * deformation[3] - deformation[1] * deformation[2] > 0)) {
+      return std::numeric_limits<double>::infinity();
+    }
+  }
   if (!std::isfinite(sum)) return std::numeric_limits<double>::infinity();
   return largest / relative_scale();
 }
@@ -305,11 +371,18 @@ void Increment::move(std::span<const double> step, double factor) {
   }
   const auto n = particles();
   const auto m = nodes();
-  for (std::size_t k = 0; k < step.size() / m; ++k) {
+  for (std::size_t k = 0; k < node_unknowns() / m; ++k) {
     const double* dz = step.data() + k * m;
     double* z = coordinates.data() + k * n;
     for (std::size_t p = 0; p < n; ++p) z[p] += factor * dz[space.node[p]];
   }
+  if (!space.finds_deformation) return;
+  std::array<double, 4> change{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (space.found[k]) change[k] = factor * step[node_unknowns() + k] / deformation_scale_;
+    deformation[k] += change[k];
+  }
+  move_with(space.reference.data(), change, n, coordinates.data());
 }
 
 void Increment::advance_history() {

@@ -81,8 +81,33 @@ class Increment {
   // Relist neighbours when a particle may have come near one that is not listed.
   void keep_neighbours();
 
-  // No force on prescribed translations.
-  void hold_fixed(std::span<ForceRecord> residual) const;
+  // From forces on nodes to the residual, in place: nothing on what is prescribed, nothing that the
+  // average constraint carries (with the present masses), and behind the nodes two records for what
+  // the prescribed stresses leave to move the rows of F.
+  void reduce(std::span<ForceRecord> residual) const;
+
+  // Of that the average constraint alone: again for other masses.
+  void take_averages(std::span<ForceRecord> residual) const;
+
+  // Change F by the record behind the nodes for every row, times scale(), and the records of
+  // particles with it.
+  void change_deformation(const double* rows, std::vector<ParticleRecord>& moved);
+
+  // Take out of velocities (component-major, of these masses) what changes the average constraint.
+  void hold_average(std::span<double> velocity, std::span<const double> mass_of) const;
+
+  // Components of F that are found count as lengths: F times this [m], so that their residual is a
+  // force, the missing stress on the cross section of one particle.
+  [[nodiscard]] double deformation_scale() const { return deformation_scale_; }
+
+  [[nodiscard]] double mean_branch() const { return mean_branch_; }  // 2 R [m]
+
+  // Reference branch of a listed contact for a space bound to axes: X'_j - X'_i [m].
+  [[nodiscard]] std::array<double, 2> fixed_branch(std::size_t c) const;
+
+  // Whether the boundary lost what it is to carry a uniform stress with: next to no force is left,
+  // or a boundary particle has no contact.
+  [[nodiscard]] bool collapsed();
 
   // Coordinates to the records that contacts read, and back.
   void load_records();
@@ -91,7 +116,11 @@ class Increment {
   [[nodiscard]] std::span<const double> residual() const { return node_residual; }
   [[nodiscard]] std::size_t particles() const { return problem->packing->size(); }
   [[nodiscard]] std::size_t nodes() const { return problem->space->nodes; }
+  // Components of nodes, and after them those of F where some are found.
   [[nodiscard]] std::size_t unknowns() const {
+    return node_unknowns() + (problem->space->finds_deformation ? 4 : 0);
+  }
+  [[nodiscard]] std::size_t node_unknowns() const {
     return nodes() * static_cast<std::size_t>(problem->components());
   }
   [[nodiscard]] double relative_scale() const;
@@ -107,9 +136,9 @@ class Increment {
   std::vector<ContactHistory> history;        // touching contacts there
   std::vector<double> history_moments, history_gaps;  // of them, as in Configuration
   std::vector<ParticleRecord> records;        // the coordinates as contacts read them
-  std::vector<ForceRecord> forces;            // on nodes
+  std::vector<ForceRecord> forces;            // on nodes, and two for F where some of it is found
   std::vector<double> node_residual;          // reduced, component-major [N, N m]
-  std::vector<double> mass;                   // nodes, component-major
+  std::vector<double> mass;                   // of the unknowns
   std::vector<ForceRecord> mass_records;      // the same as records
   std::vector<double> node_radius;            // [m]
   ContactList contacts;
@@ -130,6 +159,9 @@ class Increment {
   [[nodiscard]] double worst_bond() const;
   void build_list();
   void project();
+  void place_fixed();
+  void find_average_masses();
+  void find_deformation_masses();
 
   std::vector<NeighbourPair> merged_pairs_;
   // Of the state in which bonds broke last: what is lost until the next is what the energy falls by.
@@ -139,6 +171,10 @@ class Increment {
   std::vector<double> listed_;  // positions when the neighbours were listed
   double gap_ = 0;
   double rounding_force_ = 0;  // [N]
+  double deformation_scale_ = 1;
+  double mean_branch_ = 0;                              // 2 R [m]
+  std::array<std::array<double, 3>, 2> average_mass_{};  // inverse of sum row row / m
+  std::vector<char> held_;                               // nodes with a contact
   NeighbourSearch search_;
 };
 

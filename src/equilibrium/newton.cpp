@@ -19,11 +19,15 @@ double defect_norm(const Increment& increment, std::span<const double> step, dou
   return std::sqrt(sum);
 }
 
-// Largest move of a particle's surface under the step [m].
+// Largest move of a particle's surface under the step, against its neighbours where F moves [m].
 double largest_move(const Increment& increment, std::span<const double> step) {
   const auto nodes = increment.nodes();
   double largest = 0;
-  for (std::size_t k = 0; k < step.size(); ++k) {
+  for (std::size_t k = increment.node_unknowns(); k < step.size(); ++k) {
+    const double lever = increment.mean_branch() / increment.deformation_scale();
+    largest = std::max(largest, std::abs(step[k]) * lever);
+  }
+  for (std::size_t k = 0; k < increment.node_unknowns(); ++k) {
     const double lever = k < 2 * nodes ? 1.0 : increment.node_radius[k % nodes];
     largest = std::max(largest, std::abs(step[k]) * lever);
   }
@@ -51,7 +55,7 @@ class FlowNewton {
       memory_.residual.assign(r.begin(), r.end());
       memory_.stiffness.assemble(increment_, shift_);
       memory_.stiffness.factorise(increment_);
-      if (!memory_.stiffness.solve(increment_, memory_.residual, memory_.step)) {
+      if (!solve()) {
         if (!raise_shift()) return false;
       } else if (full_steps_) {
         full_step();
@@ -65,14 +69,24 @@ class FlowNewton {
  private:
   [[nodiscard]] double defect() const { return defect_norm(increment_, memory_.step, 0); }
 
+  bool solve() {
+    auto& [stiffness, border, step, residual, coordinates, best] = memory_;
+    if (Border::needed(*increment_.problem->space)) {
+      return border.solve(increment_, stiffness, shift_, residual, step);
+    }
+    return stiffness.solve(increment_, residual, step);
+  }
+
   void keep_best() {
     norm_ = best_ = defect();
     memory_.best = increment_.coordinates;
+    best_deformation_ = increment_.deformation;
     without_gain_ = 0;
   }
 
-  void go_to(const std::vector<double>& coordinates) {
+  void go_to(const std::vector<double>& coordinates, const std::array<double, 4>& deformation) {
     increment_.coordinates = coordinates;
+    increment_.deformation = deformation;
     increment_.keep_neighbours();
     increment_.update_forces();
   }
@@ -98,7 +112,7 @@ class FlowNewton {
       keep_best();
       shift_ = shift_ / 16 < least_shift ? 0 : shift_ / 16;
     } else if (++without_gain_ == patience || !(norm_ < largest_rise * best_)) {
-      go_to(memory_.best);
+      go_to(memory_.best, best_deformation_);
       increment_.refresh_masses();
       norm_ = best_;
       full_steps_ = false;
@@ -113,11 +127,13 @@ class FlowNewton {
     const double smallest =
         *std::min_element(increment_.node_radius.begin(), increment_.node_radius.end());
     memory_.coordinates = increment_.coordinates;
+    const auto deformation = increment_.deformation;
     const double cap =
         std::min(1.0, move_limit * smallest / largest_move(increment_, memory_.step));
     double fraction = cap;
     for (int shortening = 0; shortening < 3; ++shortening, fraction *= 0.3) {
       increment_.coordinates = memory_.coordinates;
+      increment_.deformation = deformation;
       increment_.move(memory_.step, fraction);
       increment_.keep_neighbours();
       increment_.update_forces();
@@ -136,7 +152,7 @@ class FlowNewton {
         return true;
       }
     }
-    go_to(memory_.coordinates);
+    go_to(memory_.coordinates, deformation);
     return raise_shift();
   }
 
@@ -145,6 +161,7 @@ class FlowNewton {
   double shift_ = first_shift;
   double norm_ = 0;  // of the residual at the present coordinates
   double best_ = 0;  // the least so far, at memory.best
+  std::array<double, 4> best_deformation_{};
   int without_gain_ = 0;
   bool full_steps_ = true;
 };

@@ -2,6 +2,7 @@
 // stick and slide; and implicit Euler steps of the overdamped flow m dz/dt = r where those lead away.
 #pragma once
 
+#include "equilibrium/border.hpp"
 #include "equilibrium/increment.hpp"
 #include "equilibrium/stiffness.hpp"
 
@@ -11,6 +12,7 @@ namespace grainlaw {
 
 struct NewtonMemory {
   Stiffness stiffness;
+  Border border;
   std::vector<double> step, residual, coordinates, best;
 };
 

@@ -25,6 +25,13 @@ void physical_masses(const Increment& increment, std::vector<double>& mass) {
   }
 }
 
+// Found components of F as stable with the time step as they are with the relaxation's unit step.
+void mass_of_deformation(const Increment& increment, double dt, std::vector<double>& mass) {
+  for (std::size_t k = increment.node_unknowns(); k < increment.unknowns(); ++k) {
+    mass[k] = dt * dt * increment.mass[k];
+  }
+}
+
 // Critical step of the lightest particle on its stiffest contact, min sqrt(m / kn) [s].
 double critical_step(const Increment& increment) {
   const auto& packing = *increment.problem->packing;
@@ -51,10 +58,15 @@ double energy_ratio(const Increment& increment, const std::vector<double>& mass,
 }  // namespace
 
 bool relax_published(Increment& increment, double tolerance, const PublishedOptions& options,
-                     std::span<const char> frozen, RelaxationMemory& memory) {
+                     std::span<const unsigned char> frozen, RelaxationMemory& memory) {
   constexpr long check_interval = 20;
+  const auto& space = *increment.problem->space;
   const std::size_t size = increment.unknowns();
   const std::size_t nodes = increment.nodes();
+  const auto is_frozen = [&](std::size_t k) {
+    if (frozen.empty()) return false;
+    return k >= increment.node_unknowns() || (frozen[k % nodes] >> (k / nodes) & 1U) != 0;
+  };
   auto& mass = memory.previous;
   physical_masses(increment, mass);
   memory.velocity.assign(size, 0.0);
@@ -71,10 +83,12 @@ bool relax_published(Increment& increment, double tolerance, const PublishedOpti
       increment.keep_neighbours();
       increment.refresh_masses();
       increment.update_forces_advancing();
+      if (space.finds_deformation) mass_of_deformation(increment, dt, mass);
       double largest = 0;
       for (std::size_t k = 0; k < size; ++k) {
-        if (!frozen.empty() && frozen[k % nodes]) continue;
-        const double lever = k < 2 * nodes ? 1.0 : increment.node_radius[k % nodes];
+        if (is_frozen(k)) continue;
+        const bool rotation = k >= 2 * nodes && k < increment.node_unknowns();
+        const double lever = !rotation ? 1.0 : increment.node_radius[k % nodes];
         largest = std::max(largest, std::abs(r[k]) / lever);
       }
       if (increment.touching == 0 || !std::isfinite(largest)) return false;
@@ -92,8 +106,10 @@ bool relax_published(Increment& increment, double tolerance, const PublishedOpti
     }
     if (!frozen.empty()) {
       for (std::size_t k = 0; k < size; ++k) {
-        if (frozen[k % nodes]) v[k] = 0;
+        if (is_frozen(k)) v[k] = 0;
       }
+    } else if (space.averages()) {
+      increment.hold_average(memory.velocity, mass);
     }
     increment.move(memory.velocity, dt);
     ++increment.relaxation_steps;

@@ -63,7 +63,7 @@ GRAINLAW_CLONES void find_gains(const double* mass, double* gain, std::size_t do
 Relaxation::Relaxation(Increment& increment, History history, RelaxationMemory& memory)
     : increment_(increment), history_(history), memory_(memory) {
   for (auto* column : {&memory.velocity, &memory.previous, &memory.gain}) {
-    column->assign(width * increment.nodes(), 0.0);
+    column->assign(width * increment.forces.size(), 0.0);
   }
 }
 
@@ -75,8 +75,15 @@ void Relaxation::refresh() {
   find_gains(&increment_.mass_records[0].x, memory_.gain.data(), memory_.gain.size());
   const auto& space = *increment_.problem->space;
   if (space.identity) return;
-  for (std::size_t q = 0; q < increment_.nodes(); ++q) {
-    if (space.fixed[q]) memory_.gain[width * q] = memory_.gain[width * q + 1] = 0;
+  double* gain = memory_.gain.data();
+  for (std::size_t q = 0; q < increment_.nodes(); ++q, gain += width) {
+    if ((space.fixed[q] & fixed_x) != 0) gain[0] = 0;
+    if ((space.fixed[q] & fixed_y) != 0) gain[1] = 0;
+    if ((space.fixed[q] & fixed_rotation) != 0) gain[2] = 0;
+  }
+  if (!space.finds_deformation) return;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (!space.found[k]) gain[width * (k / 2) + k % 2] = 0;
   }
 }
 
@@ -89,7 +96,7 @@ void Relaxation::update() {
   } else {
     evaluate_contacts(increment_.records, law, increment_.contacts, forces);
   }
-  increment_.hold_fixed(forces);
+  increment_.reduce(forces);
 }
 
 // A high floor keeps flutter down, a low one lets soft modes move.
@@ -124,10 +131,20 @@ void Relaxation::step() {
   ++steps_;
   ++increment_.relaxation_steps;
   if (space.identity) return;
+  if (space.finds_deformation) step_deformation();
   for (std::size_t p = 0; p < increment_.particles(); ++p) {
     const double* v = memory_.velocity.data() + width * static_cast<std::size_t>(space.node[p]);
     store(z + width * p, load<4>(z + width * p) + load<4>(v));
   }
+}
+
+// Found components of F move on with the nodes, never far in one step.
+void Relaxation::step_deformation() {
+  constexpr double largest_change = 1e-3;
+  const double limit = largest_change * increment_.deformation_scale();
+  double* v = memory_.velocity.data() + width * increment_.nodes();
+  for (std::size_t k = 0; k < 2 * width; ++k) v[k] = std::clamp(v[k], -limit, limit);
+  increment_.change_deformation(v, increment_.records);
 }
 
 bool Relaxation::run(double tolerance, long steps) {
@@ -143,6 +160,7 @@ bool Relaxation::run(double tolerance, long steps) {
     if (over || steps_ % mass_interval == 0) {
       increment_.store_records();
       refresh();
+      if (increment_.problem->space->averages()) increment_.take_averages(increment_.forces);
     }
     if (over) {
       increment_.update_forces();

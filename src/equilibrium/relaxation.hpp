@@ -15,6 +15,8 @@ enum class History { committed, advancing };
 // Memory of the relaxations, reused from call to call.
 struct RelaxationMemory {
   std::vector<double> velocity, previous, gain, correction;
+  std::vector<unsigned char> frozen;
+  std::vector<ForceRecord> raw;
 };
 
 // Viscous relaxation: the damping follows the lowest active frequency, and its floor adapts to
@@ -33,6 +35,7 @@ class Relaxation {
   void update();
   void review_floor();
   void step();
+  void step_deformation();
 
   Increment& increment_;
   History history_;
@@ -54,8 +57,8 @@ bool relax(Increment& increment, double tolerance, long max_steps, History histo
 // The papers' dynamic relaxation: physical masses, local damping -alpha |f| sign(v) (Liu, Bosco &
 // Suiker 2017 eq. 10), explicit steps, history advanced at every step. Ends at the residual
 // tolerance or, when energy_tolerance > 0, at Ek/Ep <= tolE (eq. 11) once Ek has fallen. `frozen`
-// marks nodes that do not move (may be empty).
+// has the bits of Fixed of nodes that do not move (may be empty: all do, and F where it is found).
 bool relax_published(Increment& increment, double tolerance, const PublishedOptions& options,
-                     std::span<const char> frozen, RelaxationMemory& memory);
+                     std::span<const unsigned char> frozen, RelaxationMemory& memory);
 
 }  // namespace grainlaw

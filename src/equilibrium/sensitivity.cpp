@@ -1,7 +1,8 @@
 #include "equilibrium/sensitivity.hpp"
 
+#include "equilibrium/pull_back.hpp"
+#include "equilibrium/quad.hpp"
 #include "room.hpp"
-#include "simd.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,122 +10,22 @@
 
 namespace grainlaw {
 
-using simd::store;
-using Lanes = simd::Lanes<4>;  // of a quad
-constexpr std::size_t width = 4;
-GRAINLAW_INLINE Lanes load(const double* from) { return simd::load<4>(from); }
+using namespace quad;
 
 namespace {
 
-struct PullBack {
-  double a, b, c, d;
-  explicit PullBack(const std::array<double, 4>& f) {
-    const double det = f[0] * f[3] - f[1] * f[2];
-    a = f[3] / det;
-    b = -f[1] / det;
-    c = -f[2] / det;
-    d = f[0] / det;
-  }
-  [[nodiscard]] GRAINLAW_INLINE std::array<double, 2> operator()(double x, double y) const {
-    return {a * x + b * y, c * x + d * y};
-  }
-};
-
-// What all contacts share, and the arrays they write to.
-struct ContactLoop {
-  std::span<const TouchingContact> touching;
-  PullBack pull_back;
-  double share;
-  const Quad* start_turn;  // per listed contact, null before the first history
-  const Quad* start_force;
-  const double* tangential_stiffness;
-};
-
-// The change of one contact; `motion` null: under the affine motion and the history alone. Returns
-// that of the couple d ft.
-template <bool rotating>
-GRAINLAW_INLINE Lanes change_of(const ContactLoop& loop, const TouchingContact& contact,
-                                const double* motion, Lanes& force_x, Lanes& force_y,
-                                Lanes& branch_x, Lanes& branch_y, Lanes& tangential_force) {
-  constexpr std::size_t b = rotating ? 3 : 2;
-  const auto& point = contact.point;
-  const auto reference = loop.pull_back(point.branch_x, point.branch_y);
-  const double rx = loop.share * reference[0];
-  const double ry = loop.share * reference[1];
-  branch_x = Lanes{rx, ry, 0, 0};
-  branch_y = Lanes{0, 0, rx, ry};
-  Lanes rotation{};
-  if (motion != nullptr) {
-    const double* zi = motion + contact.node_i * b * width;
-    const double* zj = motion + contact.node_j * b * width;
-    branch_x += load(zj) - load(zi);
-    branch_y += load(zj + width) - load(zi + width);
-    if constexpr (rotating) {
-      rotation =
-          contact.lever_i * load(zi + 2 * width) + (1 - contact.lever_i) * load(zj + 2 * width);
+// Change of F at a share of the way; found components are those of `found`.
+DeformationChange change_at(double share, const BoundarySpace& space,
+                            const DeformationChange& found) {
+  DeformationChange change{};
+  for (std::size_t k = 0; k < width; ++k) {
+    if (space.found[k]) {
+      change[k] = found[k];
+    } else {
+      change[k].lane[k] = share;
     }
   }
-  const double nx = point.normal_x;
-  const double ny = point.normal_y;
-  const auto& s = contact.stiffness;
-  const Lanes normal = nx * branch_x + ny * branch_y;
-  const Lanes tangential = nx * branch_y - ny * branch_x;
-  const Lanes along_n = s[0] * normal + s[1] * tangential + s[2] * rotation;
-  Lanes along_t = s[3] * normal + s[4] * tangential + s[5] * rotation;
-  Lanes couple = s[6] * normal + s[7] * tangential + s[8] * rotation;
-  if (loop.start_turn != nullptr && point.status != ContactStatus::sliding) {
-    const Lanes by_history = load(loop.start_force[contact.index].lane) -
-                             loop.tangential_stiffness[contact.index] * point.distance *
-                                 load(loop.start_turn[contact.index].lane);
-    along_t += by_history;
-    couple += point.distance * by_history;
-  }
-  force_x = nx * along_n - ny * along_t;
-  force_y = ny * along_n + nx * along_t;
-  tangential_force = (couple - point.tangential_force * normal) / point.distance;
-  return couple;
-}
-
-template <bool rotating>
-GRAINLAW_INLINE void sum_right_sides(const ContactLoop& loop, double* right) {
-  constexpr std::size_t b = rotating ? 3 : 2;
-  Lanes fx{}, fy{}, bx{}, by{}, ft{};
-  for (const auto& contact : loop.touching) {
-    const Lanes couple = change_of<rotating>(loop, contact, nullptr, fx, fy, bx, by, ft);
-    double* ri = right + contact.node_i * b * width;
-    double* rj = right + contact.node_j * b * width;
-    store(ri, load(ri) - fx);
-    store(ri + width, load(ri + width) - fy);
-    store(rj, load(rj) + fx);
-    store(rj + width, load(rj + width) + fy);
-    if constexpr (rotating) {
-      store(ri + 2 * width, load(ri + 2 * width) - contact.lever_i * couple);
-      store(rj + 2 * width, load(rj + 2 * width) - (1 - contact.lever_i) * couple);
-    }
-  }
-}
-
-template <bool rotating>
-GRAINLAW_INLINE void find_changes(const ContactLoop& loop, const double* motion,
-                                  Sensitivity::Changes* changes) {
-  for (const auto& contact : loop.touching) {
-    Lanes fx{}, fy{}, bx{}, by{}, ft{};
-    change_of<rotating>(loop, contact, motion, fx, fy, bx, by, ft);
-    store(changes->force_x.lane, fx);
-    store(changes->force_y.lane, fy);
-    store(changes->branch_x.lane, bx);
-    store(changes->branch_y.lane, by);
-    store(changes->tangential_force.lane, ft);
-    ++changes;
-  }
-}
-
-GRAINLAW_CLONES void right_sides(const ContactLoop& loop, bool rotating, double* right) {
-  rotating ? sum_right_sides<true>(loop, right) : sum_right_sides<false>(loop, right);
-}
-GRAINLAW_CLONES void all_changes(const ContactLoop& loop, bool rotating, const double* motion,
-                                 Sensitivity::Changes* changes) {
-  rotating ? find_changes<true>(loop, motion, changes) : find_changes<false>(loop, motion, changes);
+  return change;
 }
 
 }  // namespace
@@ -143,6 +44,8 @@ void Sensitivity::start_of_history(const Increment& increment, double start_shar
   const auto& f = increment.start_deformation;
   const PullBack pull_back(f);
   const double* x = increment.start.data();
+  const auto start_change = change_at(start_share, *increment.problem->space, carried_change_);
+  const bool bound_to_axes = increment.problem->space->bound_to_axes();
   resize_with_room(start_turn_, list.size());
   resize_with_room(start_force_, list.size());
   if (hertzian) resize_with_room(start_overlap_, list.size());
@@ -159,13 +62,14 @@ void Sensitivity::start_of_history(const Increment& increment, double start_shar
     const double lx = x[j] - x[i] + f[0] * ax + f[1] * ay;
     const double ly = x[n + j] - x[n + i] + f[2] * ax + f[3] * ay;
     const double d2 = lx * lx + ly * ly;
-    const auto reference = pull_back(lx, ly);
+    const auto reference = bound_to_axes ? increment.fixed_branch(c) : pull_back(lx, ly);
     const Quad* zi = &carried_motion_[static_cast<std::size_t>(node[i]) * b];
     const Quad* zj = &carried_motion_[static_cast<std::size_t>(node[j]) * b];
     for (std::size_t k = 0; k < width; ++k) {
-      double dx = zj[0].lane[k] - zi[0].lane[k];
-      double dy = zj[1].lane[k] - zi[1].lane[k];
-      (k < 2 ? dx : dy) += start_share * reference[k % 2];
+      const double dx = zj[0].lane[k] - zi[0].lane[k] + start_change[0].lane[k] * reference[0] +
+                        start_change[1].lane[k] * reference[1];
+      const double dy = zj[1].lane[k] - zi[1].lane[k] + start_change[2].lane[k] * reference[0] +
+                        start_change[3].lane[k] * reference[1];
       start_turn_[c].lane[k] = -(lx * dy - ly * dx) / d2;
       if (hertzian) start_overlap_[c].lane[k] = -(lx * dx + ly * dy) / std::sqrt(d2);
       if (moments) start_spin_[c].lane[k] = zj[2].lane[k] - zi[2].lane[k];
@@ -189,6 +93,24 @@ void Sensitivity::start_of_history(const Increment& increment, double start_shar
   if (hertzian) rescale_start(increment);
 }
 
+bool Sensitivity::springs_start_determined(const Increment& increment,
+                                           std::span<const TouchingContact> touching) {
+  if (!increment.problem->law->tangential()) return true;
+  const auto& node = increment.problem->space->node;
+  resize_with_room(held_, increment.nodes());
+  std::fill(held_.begin(), held_.end(), 0);
+  for (const auto& contact : increment.history) {
+    held_[static_cast<std::size_t>(node[static_cast<std::size_t>(contact.i)])] = 1;
+    held_[static_cast<std::size_t>(node[static_cast<std::size_t>(contact.j)])] = 1;
+  }
+  for (const auto& contact : touching) {
+    if (contact.point.status != ContactStatus::sticking) continue;
+    if (held_[contact.node_i] == 1 && held_[contact.node_j] == 1) continue;
+    if (increment.carries(contact.index)) return false;
+  }
+  return true;
+}
+
 bool Sensitivity::solve(Increment& increment, double share, double start_share,
                         Stiffness& stiffness) {
   if (carried_) start_of_history(increment, start_share);
@@ -197,38 +119,53 @@ bool Sensitivity::solve(Increment& increment, double share, double start_share,
   const bool rotating = increment.problem->law->rotating();
   stiffness.assemble(increment, 0);
   const auto touching = stiffness.touching();
-  const ContactLoop loop{touching,
-                         PullBack(increment.deformation),
-                         share,
-                         carried_ ? start_turn_.data() : nullptr,
-                         carried_ ? start_force_.data() : nullptr,
-                         list.tangential_stiffness.data()};
+  if (carried_ && !springs_start_determined(increment, touching)) determined_ = false;
+  const bool moments = increment.problem->law->moments();
+  HistoryChange history;
+  if (carried_) history = {start_turn_.data(), start_force_.data()};
+  if (carried_ && moments) {
+    history.moment = start_moment_.data();
+    history.spin = start_spin_.data();
+  }
+  change_ = change_at(share, space, {});
 
   const std::size_t b = rotating ? 3 : 2;
-  resize_with_room(motion_, increment.unknowns());
-  right_.assign(increment.unknowns(), Quad{});
-  right_sides(loop, rotating, right_.data()->lane);
-  const bool moments = increment.problem->law->moments();
-  if (moments) {
-    find_moment_changes(increment, share, stiffness, {});
-    add_moments(stiffness);
-  }
+  resize_with_room(motion_, increment.node_unknowns());
+  right_.assign(increment.node_unknowns(), Quad{});
+  add_residual_changes(increment, stiffness, change_, history, right_);
   if (!space.identity) {
     for (std::size_t q = 0; q < increment.nodes(); ++q) {
-      if (space.fixed[q]) right_[q * b] = right_[q * b + 1] = {};
+      for (std::size_t k = 0; k < b; ++k) {
+        if ((space.fixed[q] >> k & 1U) != 0) right_[q * b + k] = {};
+      }
     }
   }
   if (!stiffness.solve_four(increment, right_, motion_)) return false;
 
   resize_with_room(changes_, touching.size());
-  all_changes(loop, rotating, motion_.data()->lane, changes_.data());
-  if (moments) find_moment_changes(increment, share, stiffness, motion_);
+  if (Border::needed(space) && !complete(increment, history, stiffness)) return false;
+  find_contact_changes(increment, touching, change_, history, motion_, changes_);
+  if (moments) {
+    resize_with_room(moment_changes_, touching.size());
+    find_moment_changes(increment, stiffness, change_, history, motion_, moment_changes_);
+  }
   resize_with_room(place_, list.size());
   std::fill(place_.begin(), place_.end(), -1);
   for (std::size_t k = 0; k < touching.size(); ++k) {
     place_[touching[k].index] = static_cast<std::int32_t>(k);
   }
   return true;
+}
+
+// What the border adds.
+bool Sensitivity::complete(Increment& increment, const HistoryChange& history,
+                           Stiffness& stiffness) {
+  const auto touching = stiffness.touching();
+  if (increment.problem->space->finds_deformation) {
+    find_contact_changes(increment, touching, change_, history, motion_, changes_);
+  }
+  return border_.prepare(increment, stiffness) &&
+         border_.complete(increment, touching, changes_, motion_, change_);
 }
 
 void Sensitivity::carry(const Increment& increment) {
@@ -249,6 +186,7 @@ void Sensitivity::carry(const Increment& increment) {
   keep_room(carried_force_);
   keep_room(carried_moment_);
   carried_motion_ = motion_;
+  carried_change_ = change_;
   carried_ = true;
 }
 

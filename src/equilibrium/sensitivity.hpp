@@ -2,6 +2,8 @@
 #pragma once
 
 #include "contact/frictional.hpp"
+#include "equilibrium/border.hpp"
+#include "equilibrium/contact_change.hpp"
 #include "equilibrium/increment.hpp"
 #include "equilibrium/stiffness.hpp"
 
@@ -14,20 +16,25 @@ namespace grainlaw {
 // at the end of the increment; a sub-increment ends at a share of the way, linear in F.
 class Sensitivity {
  public:
-  void reset() { carried_ = false; }
+  void reset() {
+    carried_ = false;
+    determined_ = true;
+  }
 
   // Solve K dz = dr/dF at a converged sub-increment that ends at `share` and began at
   // `start_share`. False when the stiffness is singular.
   bool solve(Increment& increment, double share, double start_share, Stiffness& stiffness);
 
+  // False when a spring started where a rattler had been left by an earlier sub-increment:
+  // equilibrium does not tell where that is, nor how it changes with F.
+  [[nodiscard]] bool determined() const { return determined_; }
+
   // Keep what the next sub-increment's history depends on; call before
   // Increment::advance_history().
   void carry(const Increment& increment);
 
-  // Change of the force on j (x, y) and of the branch (x, y) of a contact that touches.
-  struct Changes {
-    Quad force_x, force_y, branch_x, branch_y, tangential_force;
-  };
+  // Of a contact that touches.
+  using Changes = ContactChange;
   [[nodiscard]] const Changes& changes(std::size_t c) const {
     return changes_[static_cast<std::size_t>(place_[c])];
   }
@@ -44,19 +51,23 @@ class Sensitivity {
 
  private:
   void start_of_history(const Increment& increment, double start_share);
-  // What laws beyond linear springs with friction need, in sensitivity_composite.cpp.
+  bool complete(Increment& increment, const HistoryChange& history, Stiffness& stiffness);
+  [[nodiscard]] bool springs_start_determined(const Increment& increment,
+                                              std::span<const TouchingContact> touching);
+  // Hertz-Mindlin: the springs follow the overlap.
   void rescale_start(const Increment& increment);
-  void find_moment_changes(const Increment& increment, double share, const Stiffness& stiffness,
-                           std::span<const Quad> motion);
-  void add_moments(const Stiffness& stiffness);
 
+  DeformationChange change_{}, carried_change_{};  // of F; found components depend on the others
+  Border border_;
   std::vector<Quad> motion_, right_;  // per node and component
   std::vector<Changes> changes_;      // per touching contact
   std::vector<std::int32_t> place_;   // of a listed contact among them, -1 when open
   bool carried_ = false;
+  bool determined_ = true;
   std::vector<Quad> carried_motion_;            // at the start of the history
   std::vector<Quad> carried_force_;             // per contact of increment.history
   std::vector<Quad> start_turn_, start_force_;  // per listed contact
+  std::vector<char> held_;                      // per node, at the start of the history
   std::vector<Quad> start_overlap_;             // of Hertz-Mindlin: per listed contact
   // Of laws with moments: per touching contact, per contact of the history, per listed contact.
   std::vector<Quad> moment_changes_, carried_moment_, start_moment_, start_spin_;

@@ -1,5 +1,7 @@
 #include "equilibrium/chain.hpp"
 
+#include "contact/frictional.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,83 +10,261 @@ namespace grainlaw {
 
 namespace {
 
-// Boundary particles to F X + n_f (x - F X at the start), rotations kept (Table 2, 2.1.A; with n_f
-// = 0 Table 3, 1.1.A). Keeping rotations instead of Q = I, and rotating with F, is what makes it
-// objective.
-void predict_boundary(Increment& increment, double inheritance) {
-  const auto& packing = *increment.problem->packing;
-  const auto n = packing.size();
-  const auto& f = increment.deformation;
-  const auto& f0 = increment.start_deformation;
-  for (const int q : packing.frame->boundary) {
-    const auto p = static_cast<std::size_t>(q);
-    const double x = packing.position[p];
-    const double y = packing.position[n + p];
-    const double wx = increment.start[p] - f0[0] * x - f0[1] * y;
-    const double wy = increment.start[n + p] - f0[2] * x - f0[3] * y;
-    increment.coordinates[p] = f[0] * x + f[1] * y + inheritance * wx;
-    increment.coordinates[n + p] = f[2] * x + f[3] * y + inheritance * wy;
+// Corrections of the boundary between relaxations of the inner particles.
+class Servo {
+ public:
+  Servo(Increment& increment, const SolverOptions& options, double tolerance,
+        RelaxationMemory& memory)
+      : increment_(increment),
+        space_(*increment.problem->space),
+        packing_(*increment.problem->packing),
+        options_(options),
+        servo_(space_.options.servo),
+        tolerance_(tolerance),
+        memory_(memory),
+        nodes_(increment.nodes()) {
+    smallest_ = 1e300;
+    for (std::size_t q = 0; q < nodes_; ++q) {
+      if (space_.boundary[q]) smallest_ = std::min(smallest_, increment.node_radius[q]);
+    }
+    dt_ = options.published.time_step_ratio *
+          std::sqrt(mass_of(smallest_) / increment.problem->law->stiffness(smallest_, smallest_));
+    // The relaxations move what is not of the boundary, and what turns freely there.
+    memory.frozen.assign(nodes_, 0);
+    for (std::size_t q = 0; q < nodes_; ++q) {
+      if (!space_.boundary[q]) continue;
+      memory.frozen[q] = space_.boundary[q] == turns_freely
+                             ? fixed_translation
+                             : fixed_translation | fixed_rotation;
+    }
   }
-}
+
+  bool run() {
+    predict();
+    increment_.keep_neighbours();
+    for (int correction = 0; correction <= servo_.max_corrections; ++correction) {
+      if (!relax_published(increment_, tolerance_, options_.published, memory_.frozen, memory_)) {
+        return false;
+      }
+      memory_.correction.assign(increment_.unknowns(), 0.0);
+      const double residual = std::sqrt(correct_shared() + correct_averaged());
+      if (residual <= servo_.tolerance && off_average() <= servo_.tolerance_deformation) {
+        return true;
+      }
+      increment_.move(memory_.correction);
+      increment_.advance_history();
+      increment_.keep_neighbours();
+      ++increment_.servo_corrections;
+    }
+    return false;
+  }
+
+ private:
+  [[nodiscard]] double mass_of(double radius) const {
+    return packing_.density * std::numbers::pi * radius * radius * packing_.thickness;
+  }
+
+  // Of the forces on a boundary particle, eq. 37.
+  [[nodiscard]] double force_scale(double radius) const {
+    return mass_of(radius) * radius / (dt_ * dt_);
+  }
+
+  // Displacement by force; gains scale with 1/M.
+  [[nodiscard]] double compliance(double radius) const {
+    return smallest_ * smallest_ / (radius * radius) /
+           increment_.problem->law->stiffness(radius, radius);
+  }
+
+  [[nodiscard]] const double* reference() const {
+    return space_.bound_to_axes() ? space_.reference.data() : packing_.position.data();
+  }
+
+  // F X, where the particle would be without a fluctuation.
+  [[nodiscard]] double place(std::size_t p, std::size_t i, const std::array<double, 4>& f) const {
+    const auto n = packing_.size();
+    const double offset = space_.bound_to_axes() ? space_.offset[i * n + p] : 0;
+    return f[2 * i] * reference()[p] + f[2 * i + 1] * reference()[n + p] + offset;
+  }
+
+  // Boundary particles to F X + n_f (x - F X at the start), rotations kept (Table 2, 2.1; with n_f
+  // = 0 Table 3, 1.1). Keeping rotations instead of Q = I, and rotating with F, is what makes it
+  // objective.
+  void predict() {
+    const auto n = packing_.size();
+    for (const int q : packing_.frame->boundary) {
+      const auto p = static_cast<std::size_t>(q);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const double w = increment_.start[i * n + p] - place(p, i, increment_.start_deformation);
+        increment_.coordinates[i * n + p] =
+            place(p, i, increment_.deformation) + servo_.inheritance * w;
+      }
+    }
+  }
+
+  [[nodiscard]] bool averaged(std::size_t q, std::size_t direction) const {
+    const auto& node = space_.average[direction].node;
+    return std::binary_search(node.begin(), node.end(), static_cast<std::int32_t>(q));
+  }
+
+  // Boundary nodes under no average (P): eqs. 32-34. Returns the sum of squares of 1.5.A.
+  double correct_shared() {
+    const auto r = increment_.residual();
+    double sum = 0;
+    for (std::size_t q = 0; q < nodes_; ++q) {
+      if (!space_.boundary[q]) continue;
+      const double radius = increment_.node_radius[q];
+      for (std::size_t k = 0; k < 2; ++k) {
+        if ((space_.fixed[q] >> k & 1U) != 0 || averaged(q, k)) continue;
+        // The boundary force a balances the contact forces, so a+ + a- = -r and du = -g (a+ + a-).
+        const double force = r[k * nodes_ + q];
+        memory_.correction[k * nodes_ + q] = servo_.gain_force * compliance(radius) * force;
+        sum += std::pow(force / force_scale(radius), 2);
+      }
+      const bool turned = space_.boundary[q] != turns_freely && (space_.fixed[q] & fixed_rotation) == 0;
+      if (!increment_.problem->law->rotating() || !turned) continue;
+      const double moment = r[2 * nodes_ + q];
+      memory_.correction[2 * nodes_ + q] =
+          servo_.gain_moment * compliance(radius) / (radius * radius) * moment;
+      sum += std::pow(moment / (force_scale(radius) * radius), 2);
+    }
+    return sum;
+  }
+
+  // V P of the contacts, by reference branches; prescribed components are those (eq. 48).
+  std::array<double, 4> stress_times_volume() {
+    const auto n = packing_.size();
+    const double* x = reference();
+    std::array<double, 4> p{};
+    const auto& list = increment_.contacts;
+    for (std::size_t c = 0; c < list.size(); ++c) {
+      const auto i = static_cast<std::size_t>(list.i[c]);
+      const auto j = static_cast<std::size_t>(list.j[c]);
+      const double branch[2] = {x[j] - x[i], x[n + j] - x[n + i]};
+      for (std::size_t k = 0; k < 4; ++k) {
+        p[k] -= (k < 2 ? list.forces[c].x : list.forces[c].y) * branch[k % 2];
+      }
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (space_.found[k]) p[k] = space_.stress[k] * space_.reference_volume;
+    }
+    return p;
+  }
+
+  // Boundary nodes under uniform stress: P A - a, and back to the average (eqs. 35, 36 with V F A
+  // once). Components of F that are found follow the nodes. Returns the sum of squares of 1.5.B.
+  double correct_averaged() {
+    if (!space_.averages()) return 0;
+    auto& raw = memory_.raw;
+    raw.resize(increment_.forces.size());
+    evaluate_contacts(increment_.records, *increment_.problem->law, increment_.contacts, raw);
+    const auto vp = stress_times_volume();
+    find_areas();
+    double sum = 0;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto& average = space_.average[i];
+      std::array<double, 2> off{};
+      for (std::size_t k = 0; k < average.node.size(); ++k) {
+        const auto q = static_cast<std::size_t>(average.node[k]);
+        const double w = fluctuation(q, i);
+        for (std::size_t r = 0; r < average.rows; ++r) off[r] += average.row[k][r] * w;
+      }
+      for (std::size_t k = 0; k < average.node.size(); ++k) {
+        const auto q = static_cast<std::size_t>(average.node[k]);
+        const double radius = increment_.node_radius[q];
+        const double a = -(i == 0 ? raw[q].x : raw[q].y);
+        const double missing =
+            (vp[2 * i] * area_[q][0] + vp[2 * i + 1] * area_[q][1]) / space_.reference_volume - a;
+        sum += std::pow(missing / force_scale(radius), 2);
+        memory_.correction[i * nodes_ + q] =
+            servo_.gain_force * compliance(radius) * missing -
+            servo_.gain_deformation *
+                (average.row[k][0] * off[0] + average.row[k][1] * off[1]);
+      }
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (space_.found[k]) follow(k);
+    }
+    return sum;
+  }
+
+  // A_q t of every node under uniform stress, and a particle of it.
+  void find_areas() {
+    if (!area_.empty()) return;
+    area_.assign(nodes_, {0, 0});
+    particle_.assign(nodes_, 0);
+    const auto& frame = *packing_.frame;
+    for (std::size_t q = 0; q < frame.boundary.size(); ++q) {
+      const auto p = static_cast<std::size_t>(frame.boundary[q]);
+      const auto node = static_cast<std::size_t>(space_.node[p]);
+      particle_[node] = p;
+      for (std::size_t k = 0; k < 2; ++k) area_[node][k] += frame.area[q][k] * packing_.thickness;
+    }
+  }
+
+  [[nodiscard]] double fluctuation(std::size_t node, std::size_t i) const {
+    const auto p = particle_[node];
+    return increment_.coordinates[i * packing_.size() + p] - place(p, i, increment_.deformation);
+  }
+
+  // The component of F takes over what the correction changes of the average; the nodes stay where
+  // the correction puts them.
+  void follow(std::size_t component) {
+    const std::size_t i = component / 2;
+    const std::size_t j = component % 2;
+    const auto n = packing_.size();
+    double moved = 0;
+    double span = 0;
+    for (const auto node : space_.average[i].node) {
+      const auto q = static_cast<std::size_t>(node);
+      moved += area_[q][j] * memory_.correction[i * nodes_ + q];
+      span += area_[q][j] * reference()[j * n + particle_[q]];
+    }
+    if (span == 0) return;
+    const double change = moved / span;
+    for (const auto node : space_.average[i].node) {
+      const auto q = static_cast<std::size_t>(node);
+      memory_.correction[i * nodes_ + q] -= change * reference()[j * n + particle_[q]];
+    }
+    memory_.correction[increment_.node_unknowns() + component] =
+        change * increment_.deformation_scale();
+  }
+
+  // |F - (1/V) sum x (x) A| over the components that are given.
+  [[nodiscard]] double off_average() const {
+    double sum = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (space_.found[k]) continue;
+      double off = 0;
+      for (const auto node : space_.average[k / 2].node) {
+        const auto q = static_cast<std::size_t>(node);
+        off += area_[q][k % 2] * fluctuation(q, k / 2) / space_.reference_volume;
+      }
+      sum += off * off;
+    }
+    return std::sqrt(sum);
+  }
+
+  static constexpr char turns_freely = 2;
+
+  Increment& increment_;
+  const BoundarySpace& space_;
+  const Packing& packing_;
+  const SolverOptions& options_;
+  const ServoOptions& servo_;
+  double tolerance_;
+  RelaxationMemory& memory_;
+  std::size_t nodes_;
+  double smallest_ = 0;  // radius on the boundary [m]
+  double dt_ = 0;        // [s]
+  std::vector<std::array<double, 2>> area_;
+  std::vector<std::size_t> particle_;
+};
 
 }  // namespace
 
 bool solve_servo(Increment& increment, const SolverOptions& options, double tolerance,
                  RelaxationMemory& memory) {
-  const auto& space = *increment.problem->space;
-  const auto& packing = *increment.problem->packing;
-  const auto& law = *increment.problem->law;
-  const auto& servo = space.options.servo;
-  const auto nodes = increment.nodes();
-  const bool rotating = law.rotating();
-
-  double smallest = 1e300;
-  for (std::size_t q = 0; q < nodes; ++q) {
-    if (space.boundary[q]) smallest = std::min(smallest, increment.node_radius[q]);
-  }
-  const double lightest =
-      packing.density * std::numbers::pi * smallest * smallest * packing.thickness;
-  const double dt =
-      options.published.time_step_ratio * std::sqrt(lightest / law.stiffness(smallest, smallest));
-
-  predict_boundary(increment, servo.inheritance);
-  increment.keep_neighbours();
-  auto& step = memory.correction;
-  step.assign(increment.unknowns(), 0.0);
-  for (int correction = 0; correction <= servo.max_corrections; ++correction) {
-    if (!relax_published(increment, tolerance, options.published, space.boundary, memory)) {
-      return false;
-    }
-    const auto r = increment.residual();
-    double sum = 0;
-    for (std::size_t q = 0; q < nodes; ++q) {
-      if (!space.boundary[q]) continue;
-      const double radius = increment.node_radius[q];
-      const double kn = law.stiffness(radius, radius);
-      const double share = smallest * smallest / (radius * radius);  // gains scale with 1/M
-      const double m = packing.density * std::numbers::pi * radius * radius * packing.thickness;
-      const double force_scale = m * radius / (dt * dt);  // eq. 37
-      if (!space.fixed[q]) {
-        for (std::size_t k = 0; k < 2; ++k) {
-          // The boundary force a balances the contact forces, so a+ + a- = -r and du = -g (a+ +
-          // a-).
-          step[k * nodes + q] = servo.gain_force / kn * share * r[k * nodes + q];
-          sum += std::pow(r[k * nodes + q] / force_scale, 2);
-        }
-      }
-      if (rotating) {
-        const double moment = r[2 * nodes + q];
-        step[2 * nodes + q] = servo.gain_moment / (kn * radius * radius) * share * moment;
-        sum += std::pow(moment / (force_scale * radius), 2);
-      }
-    }
-    if (std::sqrt(sum) <= servo.tolerance) return true;
-    increment.move(step);
-    increment.advance_history();
-    increment.keep_neighbours();
-    ++increment.servo_corrections;
-  }
-  return false;
+  return Servo(increment, options, tolerance, memory).run();
 }
 
 }  // namespace grainlaw

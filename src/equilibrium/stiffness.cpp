@@ -1,7 +1,7 @@
 #include "equilibrium/stiffness.hpp"
 
+#include "equilibrium/quad.hpp"
 #include "room.hpp"
-#include "simd.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,7 @@
 
 namespace grainlaw {
 
-using simd::store;
-using Lanes = simd::Lanes<4>;  // of a quad
-constexpr std::size_t width = 4;
-GRAINLAW_INLINE Lanes load(const double* from) { return simd::load<4>(from); }
+using namespace quad;
 
 namespace {
 
@@ -181,12 +178,18 @@ void Stiffness::find_graph(const Increment& increment) {
     edge_of_contact_[c] = on_the_diagonal;
     if (a != b) pairs_.push_back({{a, b}, static_cast<std::int32_t>(c)});
   }
+  if (increment.problem->space->averages()) link_averaged_nodes(increment);
   keep_room(pairs_);
   if (!std::is_sorted(pairs_.begin(), pairs_.end())) std::sort(pairs_.begin(), pairs_.end());
   graph_.clear();
   for (const auto& [edge, c] : pairs_) {
     if (graph_.empty() || graph_.back() != edge) graph_.push_back(edge);
-    edge_of_contact_[static_cast<std::size_t>(c)] = static_cast<std::int32_t>(graph_.size()) - 1;
+    const auto place = static_cast<std::int32_t>(graph_.size()) - 1;
+    if (c >= 0) {
+      edge_of_contact_[static_cast<std::size_t>(c)] = place;
+    } else {
+      edge_of_link_[static_cast<std::size_t>(-c - 1)] = place;
+    }
   }
   keep_room(graph_);
 }
@@ -208,7 +211,55 @@ void Stiffness::assemble(const Increment& increment, double shift) {
   }
   if (!moments_.empty()) add_moments();
   add_masses(increment, shift);
-  if (!increment.problem->space->identity) hold_fixed_nodes(increment);
+  if (increment.problem->space->identity) return;
+  if (increment.problem->space->averages()) add_averages(increment);
+  hold_fixed_nodes(increment);
+}
+
+// Calls visit(number of the link, place of the one node, of the other) for all pairs of nodes that
+// are averaged in a direction.
+template <class Visit>
+void for_each_link(const BoundarySpace& space, Visit&& visit) {
+  std::size_t link = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& node = space.average[i].node;
+    for (std::size_t a = 0; a < node.size(); ++a) {
+      for (std::size_t b = a + 1; b < node.size(); ++b) visit(link++, i, a, b);
+    }
+  }
+}
+
+// A negative number stands for a link where others have that of a contact.
+void Stiffness::link_averaged_nodes(const Increment& increment) {
+  const auto& space = *increment.problem->space;
+  std::size_t links = 0;
+  for_each_link(space, [&](std::size_t link, std::size_t i, std::size_t a, std::size_t b) {
+    const auto& node = space.average[i].node;
+    pairs_.push_back({std::minmax(node[a], node[b]), -static_cast<std::int32_t>(link) - 1});
+    ++links;
+  });
+  resize_with_room(edge_of_link_, links);
+}
+
+void Stiffness::add_averages(const Increment& increment) {
+  const auto& space = *increment.problem->space;
+  const double kn = increment.mean_stiffness();
+  const auto product = [kn](const auto& r, const auto& s) {
+    return kn * (r[0] * s[0] + r[1] * s[1]);
+  };
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& [node, row, rows] = space.average[i];
+    for (std::size_t a = 0; a < node.size(); ++a) {
+      matrix_.block(static_cast<std::size_t>(node[a]))[i].lane[i] += product(row[a], row[a]);
+    }
+  }
+  for_each_link(space, [&](std::size_t link, std::size_t i, std::size_t a, std::size_t b) {
+    const auto& row = space.average[i].row;
+    const auto edge = static_cast<std::size_t>(edge_of_link_[link]);
+    const double value = product(row[a], row[b]);
+    matrix_.block(matrix_.upper(edge))[i].lane[i] += value;
+    matrix_.block(matrix_.lower(edge))[i].lane[i] += value;
+  });
 }
 
 // -dr by the moments: m on j and -m on i, changed by the normal displacement and by theta_j - theta_i.
@@ -238,25 +289,28 @@ void Stiffness::add_moments() {
 void Stiffness::hold_fixed_nodes(const Increment& increment) {
   const auto& fixed = increment.problem->space->fixed;
   const auto b = static_cast<std::size_t>(matrix_.components);
-  const auto clear = [&](std::size_t index, bool rows) {
+  const auto clear = [&](std::size_t index, unsigned char bits, bool rows) {
     Quad* block = matrix_.block(index);
-    for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t k = 0; k < b; ++k) {
+      if ((bits >> k & 1U) == 0) continue;
       for (std::size_t l = 0; l < b; ++l) (rows ? block[l].lane[k] : block[k].lane[l]) = 0;
     }
   };
   for (std::size_t q = 0; q < matrix_.nodes; ++q) {
-    if (!fixed[q]) continue;
-    clear(q, true);
-    clear(q, false);
-    matrix_.block(q)[0].lane[0] = matrix_.block(q)[1].lane[1] = 1;
+    if (fixed[q] == 0) continue;
+    clear(q, fixed[q], true);
+    clear(q, fixed[q], false);
+    for (std::size_t k = 0; k < b; ++k) {
+      if ((fixed[q] >> k & 1U) != 0) matrix_.block(q)[k].lane[k] = 1;
+    }
   }
   for (std::size_t e = 0; e < graph_.size(); ++e) {
-    const bool first = fixed[static_cast<std::size_t>(graph_[e].first)] != 0;
-    const bool second = fixed[static_cast<std::size_t>(graph_[e].second)] != 0;
-    if (first) clear(matrix_.upper(e), true);
-    if (first) clear(matrix_.lower(e), false);
-    if (second) clear(matrix_.upper(e), false);
-    if (second) clear(matrix_.lower(e), true);
+    const unsigned char first = fixed[static_cast<std::size_t>(graph_[e].first)];
+    const unsigned char second = fixed[static_cast<std::size_t>(graph_[e].second)];
+    if (first != 0) clear(matrix_.upper(e), first, true);
+    if (first != 0) clear(matrix_.lower(e), first, false);
+    if (second != 0) clear(matrix_.upper(e), second, false);
+    if (second != 0) clear(matrix_.lower(e), second, true);
   }
 }
 

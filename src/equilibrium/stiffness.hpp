@@ -25,8 +25,10 @@ struct TouchingContact {
 // next that could change a bit there: Increment::factorisations is zero when one begins.
 class Stiffness {
  public:
-  // K of the present coordinates plus shift x mass on the diagonal; rows of prescribed translations
-  // are the identity. The factors are no longer those of K.
+  // K of the present coordinates plus shift x mass on the diagonal; rows of what is prescribed are
+  // the identity. Where fluctuations are constrained on average, kn row row^T is added for every
+  // row of the constraint: it changes no solution within (Border), and holds what is not in it. The
+  // factors are no longer those of K.
   void assemble(const Increment& increment, double shift);
 
   // Factorise what was assembled.
@@ -53,6 +55,8 @@ class Stiffness {
   void find_graph(const Increment& increment);
   void add_moments();
   void hold_fixed_nodes(const Increment& increment);
+  void link_averaged_nodes(const Increment& increment);
+  void add_averages(const Increment& increment);
   void add_masses(const Increment& increment, double factor);
   bool solve_four_by_factors(const Increment& increment, std::span<const Quad> b,
                              std::span<Quad> x);
@@ -68,6 +72,7 @@ class Stiffness {
   std::vector<ContactMoment> moments_;
   std::vector<Edge> graph_;
   std::vector<std::int32_t> edge_of_contact_;
+  std::vector<std::int32_t> edge_of_link_;         // between averaged nodes, as add_averages() goes
   std::vector<std::int32_t> listed_i_, listed_j_;  // the contacts that the graph was made from
   std::vector<std::pair<Edge, std::int32_t>> pairs_;
   std::vector<Quad> ground_;

@@ -1,5 +1,7 @@
 #include "homogenise/measures.hpp"
 
+#include "packing/frame_geometry.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,13 +17,14 @@ std::array<double, 4> cauchy_stress(const Configuration& at) {
           (p[2] * f[0] + p[3] * f[1]) / det, (p[2] * f[2] + p[3] * f[3]) / det};
 }
 
-// Weighted number of contacts of every node.
-std::vector<double> contacts_of_nodes(const Problem& problem,
+// Weighted number of contacts of every particle, copies being one.
+std::vector<double> contacts_of_sources(const Problem& problem,
                                       const std::vector<ContactView>& contacts) {
-  std::vector<double> count(problem.space->nodes, 0.0);
+  std::vector<double> count(problem.space->sources, 0.0);
+  const auto& source = problem.space->source;
   for (const auto& c : contacts) {
-    count[static_cast<std::size_t>(problem.space->node[static_cast<std::size_t>(c.i)])] += c.weight;
-    count[static_cast<std::size_t>(problem.space->node[static_cast<std::size_t>(c.j)])] += c.weight;
+    count[static_cast<std::size_t>(source[static_cast<std::size_t>(c.i)])] += c.weight;
+    count[static_cast<std::size_t>(source[static_cast<std::size_t>(c.j)])] += c.weight;
   }
   return count;
 }
@@ -35,15 +38,15 @@ double weighted_number(const std::vector<ContactView>& contacts) {
 double coordination(const Problem& problem, const std::vector<ContactView>& contacts,
                     bool rattlers) {
   const double number = weighted_number(contacts);
-  const auto nodes = static_cast<double>(problem.space->nodes);
-  if (rattlers) return 2 * number / nodes;
+  const auto particles = static_cast<double>(problem.space->sources);
+  if (rattlers) return 2 * number / particles;
   double none = 0;
   double one = 0;
-  for (const double count : contacts_of_nodes(problem, contacts)) {
+  for (const double count : contacts_of_sources(problem, contacts)) {
     none += count < 0.5 ? 1 : 0;
     one += count >= 0.5 && count < 1.5 ? 1 : 0;
   }
-  const double bearing = nodes - none - one;
+  const double bearing = particles - none - one;
   return bearing > 0 ? (2 * number - one) / bearing : 0;
 }
 
@@ -94,6 +97,21 @@ double mean_rotation(const Problem& problem, const Configuration& at) {
   double sum = 0;
   for (const double value : rotation) sum += value;
   return sum / static_cast<double>(rotation.size());
+}
+
+double escaped_particles(const Problem& problem, const Configuration& at) {
+  const auto& packing = *problem.packing;
+  if (!packing.frame) return 0;
+  const auto n = packing.size();
+  const auto centre = [&](std::size_t p) { return Point{at.coordinates[p], at.coordinates[n + p]}; };
+  std::vector<Point> polygon;
+  for (const int q : packing.frame->boundary) polygon.push_back(centre(static_cast<std::size_t>(q)));
+  double escaped = 0;
+  for (std::size_t p = 0; p < n; ++p) {
+    const auto node = static_cast<std::size_t>(problem.space->node[p]);
+    if (!problem.space->boundary[node] && !is_inside(polygon, centre(p))) ++escaped;
+  }
+  return escaped;
 }
 
 }  // namespace
@@ -206,13 +224,16 @@ void measure(const Problem& problem, const Configuration& at, grainlaw_measure w
       *value = weighted_number(contacts);
       return;
     case GRAINLAW_PARTICLES:
-      *value = static_cast<double>(problem.space->nodes);
+      *value = static_cast<double>(problem.space->sources);
       return;
     case GRAINLAW_REFERENCE_VOLUME:
       *value = problem.space->reference_volume;
       return;
     case GRAINLAW_DEFORMATION_GRADIENT:
       return copy({f[0], f[1], f[2], f[3]});
+    case GRAINLAW_ESCAPED_PARTICLES:
+      *value = escaped_particles(problem, at);
+      return;
   }
 }
 

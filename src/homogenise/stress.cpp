@@ -1,26 +1,13 @@
 #include "homogenise/stress.hpp"
 
 #include "contact/frictional.hpp"
+#include "equilibrium/pull_back.hpp"
 
 #include <cmath>
 
 namespace grainlaw {
 
 namespace {
-
-struct PullBack {
-  double a, b, c, d;
-  explicit PullBack(const std::array<double, 4>& f) {
-    const double det = f[0] * f[3] - f[1] * f[2];
-    a = f[3] / det;
-    b = -f[1] / det;
-    c = -f[2] / det;
-    d = f[0] / det;
-  }
-  [[nodiscard]] std::array<double, 2> operator()(double x, double y) const {
-    return {a * x + b * y, c * x + d * y};
-  }
-};
 
 // Calls visit(contact, point, L) for every touching contact.
 template <class Visit>
@@ -31,13 +18,39 @@ void for_each_contact(const Increment& increment, Visit&& visit) {
         contact_point(increment.contacts, c, increment.coordinates, increment.particles(),
                       *increment.problem->law);
     if (point.status == ContactStatus::open) continue;
-    visit(c, point, pull_back(point.branch_x, point.branch_y));
+    visit(c, point,
+          increment.problem->space->bound_to_axes() ? increment.fixed_branch(c)
+                                                    : pull_back(point.branch_x, point.branch_y));
   }
 }
 
 std::array<double, 2> force_on_j(const ContactPoint& point) {
   return {point.normal_force * point.normal_x - point.tangential_force * point.normal_y,
           point.normal_force * point.normal_y + point.tangential_force * point.normal_x};
+}
+
+// Prescribed stresses stay, and the F that is given for them counts for nothing.
+void clear_found(const BoundarySpace& space, std::array<double, 16>& tangent) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (!space.found[k]) continue;
+    for (std::size_t m = 0; m < 4; ++m) tangent[4 * k + m] = tangent[4 * m + k] = 0;
+  }
+}
+
+// The same of a tangent at fixed F: the found components follow so that those stresses stay.
+void condense_found(const BoundarySpace& space, std::array<double, 16>& tangent) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (!space.found[k]) continue;
+    const double pivot = tangent[5 * k];
+    if (pivot != 0) {
+      for (std::size_t m = 0; m < 4; ++m) {
+        if (m == k) continue;
+        const double factor = tangent[4 * m + k] / pivot;
+        for (std::size_t l = 0; l < 4; ++l) tangent[4 * m + l] -= factor * tangent[4 * k + l];
+      }
+    }
+    for (std::size_t m = 0; m < 4; ++m) tangent[4 * k + m] = tangent[4 * m + k] = 0;
+  }
 }
 
 }  // namespace
@@ -59,15 +72,18 @@ std::array<double, 16> condensed_tangent(const Increment& increment,
   std::array<double, 16> tangent{};
   const double volume = increment.problem->space->reference_volume;
   const PullBack pull_back(increment.deformation);
+  const bool bound = increment.problem->space->bound_to_axes();
   for_each_contact(increment, [&](std::size_t c, const ContactPoint& point, const auto& branch) {
     const auto force = force_on_j(point);
     for (std::size_t k = 0; k < 4; ++k) {
       const auto change = sensitivity.change(increment, c, point, k);
       const std::array<double, 2> force_change{change.force_x, change.force_y};
       // d(F^-1 l) = F^-1 (dl - dF L); the change of the branch holds both parts.
+      // A space bound to axes has fixed branches.
       std::array<double, 2> fluctuation{change.branch_x, change.branch_y};
       fluctuation[k / 2] -= branch[k % 2];
-      const auto branch_change = pull_back(fluctuation[0], fluctuation[1]);
+      const auto branch_change =
+          bound ? std::array{0.0, 0.0} : pull_back(fluctuation[0], fluctuation[1]);
       for (std::size_t i = 0; i < 2; ++i) {
         for (std::size_t j = 0; j < 2; ++j) {
           tangent[(2 * i + j) * 4 + k] -=
@@ -76,6 +92,7 @@ std::array<double, 16> condensed_tangent(const Increment& increment,
       }
     }
   });
+  clear_found(*increment.problem->space, tangent);
   return tangent;
 }
 
@@ -102,6 +119,7 @@ std::array<double, 16> elastic_tangent(const Increment& increment) {
       }
     }
   });
+  condense_found(*increment.problem->space, tangent);
   return tangent;
 }
 

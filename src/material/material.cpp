@@ -5,6 +5,7 @@
 #include "error.hpp"
 #include "homogenise/stress.hpp"
 #include "material/given_contacts.hpp"
+#include "material/initial_stress.hpp"
 #include "packing/frame.hpp"
 
 #include <fmt/format.h>
@@ -87,6 +88,14 @@ void check_given_forces(const Material& material) {
   }
 }
 
+// Mean normal force of the packing as it is given: without it, a boundary under uniform stress could
+// begin without any.
+double force_as_given(const Problem& problem, const Configuration& given, Workspace& workspace) {
+  workspace.increment.begin(problem, given, {1, 0, 0, 1});
+  workspace.increment.refresh_masses();
+  return workspace.increment.mean_force;
+}
+
 std::uint64_t fingerprint_of(const Material& material) {
   XXH3_state_t state;
   XXH3_64bits_reset(&state);
@@ -117,6 +126,18 @@ std::uint64_t fingerprint_of(const Material& material) {
                           static_cast<int>(material.space.options.weight)};
   add(law, sizeof law);
   add(boundary, sizeof boundary);
+  if (material.space.options.type == BoundaryType::mixed) {
+    for (const Side& side : material.space.options.sides) {
+      const int rules[] = {static_cast<int>(side.x), static_cast<int>(side.y),
+                           static_cast<int>(side.rotation), static_cast<int>(side.row)};
+      add(rules, sizeof rules);
+    }
+    const auto& space = material.space;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double prescribed[] = {space.found[k] ? 1.0 : 0.0, space.stress[k]};
+      add(prescribed, sizeof prescribed);
+    }
+  }
   add(material.packing.cell.data(), sizeof material.packing.cell);
   add_all(material.packing.radius);
   add_all(material.packing.position);
@@ -133,12 +154,14 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
   material->packing = std::move(description.packing);
   material->law = description.law;
   material->solver = description.solver;
-  if (description.boundary.type == BoundaryType::frame_p && !material->packing.frame) {
+  if (description.boundary.type == BoundaryType::periodic_cell) {
+    if (material->packing.frame) {
+      throw Error(GRAINLAW_BAD_PACKING,
+                  "the packing is a frame; expected a periodic packing, or boundary.type = "
+                  "\"frame-p\", \"frame-d\", \"frame-t\" or \"mixed\"");
+    }
+  } else if (!material->packing.frame) {
     material->packing = cut_frame(material->packing);
-  } else if (description.boundary.type == BoundaryType::periodic_cell && material->packing.frame) {
-    throw Error(
-        GRAINLAW_BAD_PACKING,
-        "the packing is a frame; expected a periodic packing, or boundary.type = \"frame-p\"");
   }
   material->space = make_boundary_space(material->packing, description.boundary);
   material->fingerprint = fingerprint_of(*material);
@@ -150,15 +173,20 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
   constexpr double tightest_needed = 1e-8;
   BoundarySpace direct = material->space;
   direct.options.method = BoundaryMethod::direct;
+  direct.finds_deformation = false;
+  direct.found = {};
   SolverOptions options = material->solver;
   options.method = Method::chain;
   const double tolerance = std::min(options.tolerance, tightest_needed);
-  const Problem problem{&material->packing, &material->law, &direct, 1e-3 * least_force,
-                        tolerance};
+  Problem problem{&material->packing, &material->law, &direct, 1e-3 * least_force, tolerance};
   const Configuration given = given_configuration(*material);
   Request request{&problem, &options, &given, {1, 0, 0, 1}};
   request.tolerance = tolerance;
   Workspace workspace;
+  if (direct.averages()) {
+    problem.force_floor =
+        std::max(problem.force_floor, 1e-3 * force_as_given(problem, given, workspace));
+  }
   const auto outcome = solve(request, workspace);
   if (outcome.status == GRAINLAW_CONTACTS_LOST ||
       (outcome.status == GRAINLAW_OK && !workspace.increment.bears())) {
@@ -178,6 +206,11 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
   std::copy_n(stress.begin(), 4, material->initial.stress.begin());
   material->initial.dissipated = 0;
   material->initial_mean_force = std::max(workspace.increment.mean_force, least_force);
+  if (material->space.finds_deformation) {
+    problem.force_floor = 1e-3 * material->initial_mean_force;
+    load_to_stress(material->space, request, workspace, material->initial);
+    material->initial_mean_force = std::max(workspace.increment.mean_force, least_force);
+  }
   return material;
 }
 

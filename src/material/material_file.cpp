@@ -1,6 +1,7 @@
 #include "material/material_file.hpp"
 
 #include "error.hpp"
+#include "material/boundary_keys.hpp"
 #include "material/contact_keys.hpp"
 #include "material/packing_keys.hpp"
 #include "material/toml_table.hpp"
@@ -15,38 +16,6 @@
 
 namespace grainlaw {
 namespace {
-
-ServoOptions read_servo(TomlTable table) {
-  ServoOptions servo;
-  table.optional("gain_force", number_above(0), servo.gain_force);
-  table.optional("gain_moment", number_above(0), servo.gain_moment);
-  table.optional("inheritance", number_between(0, 1), servo.inheritance);
-  table.optional("tolerance", number_above(0), servo.tolerance);
-  table.optional("max_corrections", integer_between(1, 1000000000), servo.max_corrections);
-  table.finish();
-  return servo;
-}
-
-BoundaryOptions read_boundary(TomlTable table) {
-  BoundaryOptions boundary;
-  table.optional("type",
-                 one_of<BoundaryType>({{"periodic-cell", BoundaryType::periodic_cell},
-                                       {"frame-p", BoundaryType::frame_p}}),
-                 boundary.type);
-  table.optional("method",
-                 one_of<BoundaryMethod>(
-                     {{"direct", BoundaryMethod::direct}, {"servo", BoundaryMethod::servo}}),
-                 boundary.method);
-  table.optional(
-      "contact_weight",
-      one_of<ContactWeight>({{"copies", ContactWeight::copies}, {"one", ContactWeight::one}}),
-      boundary.weight);
-  boundary.servo = read_servo(table.optional_table("servo"));
-  table.finish();
-  if (boundary.method == BoundaryMethod::servo && boundary.type != BoundaryType::frame_p)
-    table.fail("method", "\"servo\" on a periodic cell", "type = \"frame-p\" with it");
-  return boundary;
-}
 
 PublishedOptions read_published(TomlTable table) {
   PublishedOptions published;

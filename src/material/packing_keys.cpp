@@ -28,7 +28,7 @@ void read_anisotropy(TomlTable& table, GeneratorOptions& generator) {
   if (table.has("anisotropy_direction") && !table.has("anisotropy"))
     table.fail("anisotropy", "nothing", "a number with anisotropy_direction");
   if (table.has("anisotropy") && !(generator.friction > 0))
-    table.fail("friction", "none", "a number > 0, since without it no anisotropy stays");
+    table.fail("friction", "none", "a number > 0, since anisotropy needs shear strength");
 }
 
 void read_random(TomlTable& table, GeneratorOptions& generator) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -24,17 +25,6 @@ Point centre(const Packing& packing, int particle) {
   return {packing.position[p], packing.position[packing.size() + p]};
 }
 
-// Where the corners stand in the boundary.
-std::array<std::size_t, 4> corner_places(const Frame& frame) {
-  std::array<std::size_t, 4> place{};
-  std::size_t k = 0;
-  for (std::size_t q = 0; q < frame.boundary.size() && k < 4; ++q)
-    if (frame.boundary[q] == frame.corner[k]) place[k++] = q;
-  if (k < 4 || place[0] != 0)
-    wrong("the boundary must start at corner 0 and pass the others in order");
-  return place;
-}
-
 // The boundary particle at place `upper` must be that at `lower`, shifted by lattice vector k.
 void check_copy(const Packing& packing, std::size_t lower, std::size_t upper, std::size_t k) {
   const int a = packing.frame->boundary[lower];
@@ -51,10 +41,12 @@ void check_copy(const Packing& packing, std::size_t lower, std::size_t upper, st
     wrong(fmt::format("particles {} and {} are copies but differ in radius", a, b));
 }
 
-// Liu, Bosco & Suiker (2017) eq. 2, per unit thickness.
+// Liu, Bosco & Suiker (2017) eq. 2, per unit thickness. Weighted by radii it averages to F only
+// when opposite sides are copies; halves do for any polygon.
 void set_areas(const Packing& packing, Frame& frame) {
   const std::size_t count = frame.boundary.size();
   const auto share = [&](int q, int neighbour) {
+    if (!frame.copies) return 0.5;
     const double own = packing.radius[static_cast<std::size_t>(q)];
     return own / (own + packing.radius[static_cast<std::size_t>(neighbour)]);
   };
@@ -96,12 +88,42 @@ void set_sources(std::size_t particles, Frame& frame) {
   }
 }
 
+void check_polygon(const Packing& packing) {
+  std::vector<Point> polygon;
+  for (const int q : packing.frame->boundary) polygon.push_back(centre(packing, q));
+  if (!is_simple(polygon)) wrong("the boundary crosses itself");
+}
+
+// A frame whose opposite sides have nothing to do with each other.
+void complete_chain(Packing& packing) {
+  Frame& frame = *packing.frame;
+  frame.partner.assign(frame.boundary.size(), -1);
+  frame.offset.assign(packing.size(), {0, 0});
+  frame.extent.assign(packing.size(), {0, 0});
+  if (!(polygon_area(packing) > 0)) wrong("the boundary must be numbered anticlockwise");
+  check_polygon(packing);
+  set_areas(packing, frame);
+  frame.source.resize(packing.size());
+  std::iota(frame.source.begin(), frame.source.end(), 0);
+}
+
 }  // namespace
+
+std::array<std::size_t, 4> corner_places(const Frame& frame) {
+  std::array<std::size_t, 4> place{};
+  std::size_t k = 0;
+  for (std::size_t q = 0; q < frame.boundary.size() && k < 4; ++q)
+    if (frame.boundary[q] == frame.corner[k]) place[k++] = q;
+  if (k < 4 || place[0] != 0)
+    wrong("the boundary must start at corner 0 and pass the others in order");
+  return place;
+}
 
 void complete_frame(Packing& packing) {
   if (packing.dimension != 2) wrong("only 2D packings have one");
   Frame& frame = *packing.frame;
   const auto [c0, c1, c2, c3] = corner_places(frame);
+  if (!frame.copies) return complete_chain(packing);
   const std::size_t count = frame.boundary.size();
   if (c1 - c0 != c3 - c2 || c2 - c1 != count - c3)
     wrong("opposite sides differ in their particles");

@@ -19,11 +19,14 @@ namespace grainlaw {
 // which no copy lies in the frame, an image inside it, a chain that crosses itself.
 Packing cut_frame(const Packing& periodic, double largest_gap = 0.35);
 
-// Fill partner, area, source, offset and extent of packing.frame from its boundary and corners.
-// Throws Error (BAD_PACKING) when these do not make a frame: anticlockwise from corner 0, opposite
-// sides copies shifted by the lattice vectors of `cell` (to 1e-9 of the frame's length) with equal
-// radii.
+// Fill partner, area, source, offset and extent of packing.frame from its boundary, corners and
+// whether its sides are copies. Throws Error (BAD_PACKING) when these do not make a frame:
+// anticlockwise from corner 0, a polygon that does not cross itself; and of copies, opposite sides
+// shifted by the lattice vectors of `cell` (to 1e-9 of the frame's length) with equal radii.
 void complete_frame(Packing& packing);
+
+// Where the corners stand in the boundary; the first is 0. Throws Error (BAD_PACKING).
+std::array<std::size_t, 4> corner_places(const Frame& frame);
 
 // In one lattice direction: copies of a pair whose particles fill 0..first and 0..second, the
 // second `apart` further than the first.
@@ -33,12 +36,12 @@ inline int copies_along(int first, int second, int apart) {
 
 // How many copies of the pair (i, j) the frame holds, itself included, 1 to 4: pairs of the same
 // two particles of the periodic packing, equally far apart. Only pairs along a side have more than
-// one.
-inline int contact_copies(const Frame& frame, int i, int j) {
+// one. Copies between left and right, bottom and top, count when asked for.
+inline int contact_copies(const Frame& frame, int i, int j, bool across = true, bool up = true) {
   const auto a = static_cast<std::size_t>(i);
   const auto b = static_cast<std::size_t>(j);
   int copies = 1;
-  for (std::size_t k = 0; k < 2; ++k)
+  for (std::size_t k = across ? 0 : 1; k < (up ? 2U : 1U); ++k)
     copies *= copies_along(frame.extent[a][k], frame.extent[b][k],
                            frame.offset[b][k] - frame.offset[a][k]);
   return copies;

@@ -26,8 +26,8 @@ struct GeneratorOptions {
   std::uint64_t seed = 1;
   double void_ratio = 0;  // target instead of the pressure [-]; 0: the pressure is the target
   double friction = 0;    // tan(phi) during consolidation [-]
-  // Wanted fabric anisotropy, and the angle of its major direction against axis 1 [rad]; below 0:
-  // as it comes.
+  // Wanted fabric anisotropy, largest / smallest eigenvalue - 1 (Liu et al. eq. 38), and the angle of
+  // its major direction against axis 1 [rad]; below 0: as it comes.
   double anisotropy = -1;
   double anisotropy_direction = 0;
   // Event-driven growth: of the mean radius, over the mean thermal speed [-]; and the volume

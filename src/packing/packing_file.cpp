@@ -20,6 +20,7 @@ namespace grainlaw {
 namespace {
 
 constexpr std::int64_t largest_shift = 32767;
+constexpr std::int64_t no_partner = -1;
 
 using Ids = std::unordered_map<std::int64_t, int>;
 
@@ -62,13 +63,41 @@ void read_frame_row(const Table& table, int particle, FrameRows& rows) {
   }
 }
 
+// A hole in the chain lets the smallest particle through.
+void check_holes(const Packing& packing) {
+  const auto& boundary = packing.frame->boundary;
+  const std::size_t n = packing.size();
+  const double smallest = *std::min_element(packing.radius.begin(), packing.radius.end());
+  for (std::size_t q = 0; q < boundary.size(); ++q) {
+    const auto a = static_cast<std::size_t>(boundary[q]);
+    const auto b = static_cast<std::size_t>(boundary[(q + 1) % boundary.size()]);
+    const double gap = std::hypot(packing.position[b] - packing.position[a],
+                                  packing.position[n + b] - packing.position[n + a]) -
+                       packing.radius[a] - packing.radius[b];
+    if (!(gap < 2 * smallest))
+      throw Error(GRAINLAW_BAD_PACKING,
+                  fmt::format("frame: the boundary has a hole of {} m after frame_order {}, which "
+                              "lets particles of radius {} m through; expected neighbours in the "
+                              "boundary to be near-contacts",
+                              gap, q, smallest));
+  }
+}
+
 void build_frame(const std::string& path, const FrameRows& rows, const Ids& ids, Packing& packing) {
   const auto wrong = [&](const std::string& message) {
     throw Error(GRAINLAW_BAD_PACKING, fmt::format("{}: {}", path, message));
   };
   if (rows.corners != 4)
     wrong(fmt::format("found {} particles of role 'corner', expected 4", rows.corners));
+  std::int64_t place = 0;
+  for (const auto& [order, particle] : rows.particle_at)
+    if (order != place++)
+      wrong(fmt::format("frame_order has no {}, expected 0 to {} without a gap", place - 1,
+                        rows.particle_at.size() - 1));
   Frame frame;
+  frame.copies = rows.partner_id.empty() || std::ranges::any_of(rows.partner_id, [](const auto& p) {
+                   return p.second != no_partner;
+                 });
   std::size_t corners = 0;
   for (const auto& [order, particle] : rows.particle_at) {
     frame.boundary.push_back(particle);
@@ -76,10 +105,12 @@ void build_frame(const std::string& path, const FrameRows& rows, const Ids& ids,
   }
   packing.frame = std::move(frame);
   try {
+    check_holes(packing);
     complete_frame(packing);
   } catch (const Error& error) {
     wrong(error.what());
   }
+  if (!packing.frame->copies) return;
   for (std::size_t q = 0; q < packing.frame->boundary.size(); ++q) {
     const auto given = rows.partner_id.find(packing.frame->boundary[q]);
     if (given == rows.partner_id.end()) continue;
@@ -182,9 +213,12 @@ void read_contacts(const std::string& path, const Ids& ids, Packing& packing) {
 std::vector<std::string> frame_columns(const Packing& packing) {
   std::vector<std::string> text(packing.size(), ",inner,-1,-1");
   const Frame& frame = *packing.frame;
-  for (std::size_t q = 0; q < frame.boundary.size(); ++q)
-    text[static_cast<std::size_t>(frame.boundary[q])] =
-        fmt::format(",{},{},{}", frame.partner[q] < 0 ? "corner" : "edge", frame.partner[q], q);
+  for (std::size_t q = 0; q < frame.boundary.size(); ++q) {
+    const int p = frame.boundary[q];
+    const bool corner = std::ranges::find(frame.corner, p) != frame.corner.end();
+    text[static_cast<std::size_t>(p)] =
+        fmt::format(",{},{},{}", corner ? "corner" : "edge", frame.partner[q], q);
+  }
   return text;
 }
 

@@ -48,7 +48,13 @@ Packing as_packing(const Material& material, const Configuration& at) {
     if (material.law.bonds()) contact.bonded = c.bonded;
     contact.bond_gap = c.bond_gap;
   }
-  if (packing.frame) complete_frame(packing);
+  if (packing.frame) {
+    // Sides that moved on their own are no copies any more.
+    const auto& copied = material.space.copied;
+    const bool alike = material.space.options.type == BoundaryType::frame_d;
+    packing.frame->copies = packing.frame->copies && (alike || (copied[0] && copied[1]));
+    complete_frame(packing);
+  }
   return packing;
 }
 

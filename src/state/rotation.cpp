@@ -38,6 +38,15 @@ Increment2 split_rotation(const double* F, const double* committed) {
   return increment;
 }
 
+Increment2 without_rotation(const double* F, const double* committed) {
+  Increment2 increment;
+  increment.target = {F[0], F[1], F[2], F[3]};
+  increment.rotation = {1, 0, 0, 1};
+  increment.stretch =
+      product(increment.target, inverse({committed[0], committed[1], committed[2], committed[3]}));
+  return increment;
+}
+
 Matrix rotate_stress(const Increment2& increment, const Matrix& p) {
   return product(increment.rotation, p);
 }

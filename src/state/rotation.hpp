@@ -16,6 +16,9 @@ struct Increment2 {
 // Polar decomposition of F F_n^-1 in two dimensions; both row-major, det > 0.
 Increment2 split_rotation(const double* F, const double* committed);
 
+// The same without a rotation, for boundary conditions bound to axes: U = F F_n^-1.
+Increment2 without_rotation(const double* F, const double* committed);
+
 std::array<double, 4> rotate_stress(const Increment2& increment, const std::array<double, 4>& p);
 
 // dP/dF from dP*/dF* (both A[((i*2+J)*2+k)*2+L]) with the derivatives of R and U.

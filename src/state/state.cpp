@@ -67,10 +67,15 @@ bool too_far(const Increment2& split) {
   return false;
 }
 
+Increment2 split(const BoundarySpace& space, const double* F, const double* committed) {
+  return space.bound_to_axes() ? without_rotation(F, committed) : split_rotation(F, committed);
+}
+
 // Start the iteration from the last trial, turned back to where `from` stands.
 void guess_from_trial(const Configuration& from, const Configuration& trial, std::size_t particles,
                       Workspace& w, Request& request) {
-  const auto last = split_rotation(trial.deformation.data(), from.deformation.data());
+  const auto last =
+      split(*request.problem->space, trial.deformation.data(), from.deformation.data());
   const auto& r = last.rotation;
   auto& z = w.guess;
   z = trial.coordinates;
@@ -108,10 +113,14 @@ grainlaw_status perturb(Request request, Workspace& w, std::array<double, 16>& t
   };
   std::array<double, 4> p0{};
   if (const auto status = stress_at(0, 0, p0); status != GRAINLAW_OK) return status;
+  const auto& found = request.problem->space->found;
   for (std::size_t k = 0; k < 4; ++k) {
+    if (found[k]) continue;
     std::array<double, 4> p{};
     if (const auto status = stress_at(k, perturbation, p); status != GRAINLAW_OK) return status;
-    for (std::size_t m = 0; m < 4; ++m) tangent[m * 4 + k] = (p[m] - p0[m]) / perturbation;
+    for (std::size_t m = 0; m < 4; ++m) {
+      if (!found[m]) tangent[m * 4 + k] = (p[m] - p0[m]) / perturbation;
+    }
   }
   return GRAINLAW_OK;
 }
@@ -139,12 +148,25 @@ void State::restore(Configuration committed) {
   has_trial_ = false;
 }
 
-grainlaw_status State::evaluate(const double* F, TangentKind kind, double* P, double* A,
+std::array<double, 9> State::effective(const double* F) const {
+  std::array<double, 9> f{};
+  const int dimension = material_->packing.dimension;
+  std::copy_n(F, dimension * dimension, f.begin());
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (material_->space.found[k]) f[k] = committed_.deformation[k];
+  }
+  return f;
+}
+
+grainlaw_status State::evaluate(const double* given, TangentKind kind, double* P, double* A,
                                 grainlaw_report& report) {
   const Material& material = *material_;
   const auto particles = material.packing.size();
   const double* committed = committed_.deformation.data();
-  const auto split = split_rotation(F, committed);
+  const auto to_reach = effective(given);
+  const double* F = to_reach.data();
+  const bool bound_to_axes = material.space.bound_to_axes();
+  const auto split = grainlaw::split(material.space, F, committed);
   const bool had_trial = std::exchange(has_trial_, false);
   if (too_far(split)) {
     report.step_ratio = 0.1;
@@ -180,7 +202,7 @@ grainlaw_status State::evaluate(const double* F, TangentKind kind, double* P, do
   std::array<double, 16> tangent{};
   if (kind == TangentKind::exact && outcome.sensitivities) {
     tangent = condensed_tangent(w.increment, w.sensitivity);
-    report.tangent_exact = outcome.history_advanced ? 0 : 1;
+    report.tangent_exact = !outcome.history_advanced && w.sensitivity.determined() ? 1 : 0;
   } else if (kind == TangentKind::exact || kind == TangentKind::elastic) {
     tangent = elastic_tangent(w.increment);
     if (kind == TangentKind::exact) {
@@ -203,11 +225,11 @@ grainlaw_status State::evaluate(const double* F, TangentKind kind, double* P, do
   }
 
   const auto rotated = rotate_stress(split, stress);
-  rotate_configuration(split, F, particles, trial_);
+  if (!bound_to_axes) rotate_configuration(split, F, particles, trial_);
   std::copy_n(rotated.begin(), 4, trial_.stress.begin());
   if (P != nullptr) std::copy_n(rotated.begin(), 4, P);
   if (A != nullptr && kind != TangentKind::none) {
-    const auto a = rotate_tangent(split, committed, stress, tangent);
+    const auto a = bound_to_axes ? tangent : rotate_tangent(split, committed, stress, tangent);
     std::copy_n(a.begin(), 16, A);
   }
   has_trial_ = true;

@@ -24,6 +24,9 @@ class State {
   grainlaw_status evaluate(const double* F, TangentKind kind, double* P, double* A,
                            grainlaw_report& report);
 
+  // F with the components that are found, not given, as they are committed.
+  [[nodiscard]] std::array<double, 9> effective(const double* F) const;
+
   bool commit();  // false: there is no trial
   void revert() { has_trial_ = false; }
   [[nodiscard]] bool has_trial() const { return has_trial_; }

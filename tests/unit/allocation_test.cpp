@@ -1,6 +1,6 @@
 // After warm-up an evaluation allocates nothing. A program of its own: it counts every operator
 // new.
-#include "support.hpp"
+#include "law_support.hpp"
 
 #include <cstdlib>
 #include <new>
@@ -97,6 +97,10 @@ std::vector<MaterialDescription> descriptions() {
       all.push_back(describe(reference_packing(), law, boundary, 1e-8));
     }
   }
+  for (const auto& [name, law] : composite_laws()) {
+    all.push_back(describe_law(reference_packing(), law, BoundaryType::periodic_cell, 1e-8));
+  }
+  all.push_back(describe_law(reference_packing(), compressive_law(), BoundaryType::periodic_cell, 1e-8));
   return all;
 }
 

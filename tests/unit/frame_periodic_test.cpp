@@ -18,20 +18,50 @@ Tensor stress_of(const State& state) {
   return {p[0], p[1], p[2], p[3]};
 }
 
+// The packing without its rattlers, discs that are in no contact. Where they end is not determined,
+// and cell and frame part once one of them comes to bear.
+Packing without_rattlers(const Packing& packing) {
+  std::vector<int> place(packing.size(), -1);
+  for (const auto& contact : packing.contacts) {
+    place[static_cast<std::size_t>(contact.i)] = place[static_cast<std::size_t>(contact.j)] = 0;
+  }
+  Packing held = packing;
+  held.radius.clear();
+  held.position.clear();
+  int count = 0;
+  for (std::size_t p = 0; p < packing.size(); ++p) {
+    if (place[p] < 0) continue;
+    place[p] = count++;
+    held.radius.push_back(packing.radius[p]);
+  }
+  for (std::size_t c = 0; c < 2; ++c) {
+    for (std::size_t p = 0; p < packing.size(); ++p) {
+      if (place[p] >= 0) held.position.push_back(packing.position[c * packing.size() + p]);
+    }
+  }
+  for (auto& contact : held.contacts) {
+    contact.i = place[static_cast<std::size_t>(contact.i)];
+    contact.j = place[static_cast<std::size_t>(contact.j)];
+  }
+  return held;
+}
+
 TEST(frame_periodic, stress_is_that_of_the_cell_along_a_path) {
-  // Where rattlers lie between the others is not determined: cell and frame agree as long as none
-  // of them comes to bear, as in this packing.
-  const auto& packing = small_packing(80, 2);
+  const Packing packing = without_rattlers(reference_packing());
+  EXPECT_EQ(packing.size(), 388);
   for (const auto& law : {rough_law(), locked_law(), smooth_law()}) {
     State cell(make_material(describe(packing, law, BoundaryType::periodic_cell, tolerance)));
     State frame(make_material(framed(packing, law, ContactWeight::copies)));
     EXPECT_LE(relative_difference(stress_of(frame), stress_of(cell)), 1e-10);
-    for (int step = 1; step <= 5; ++step) {
+    for (int step = 1; step <= 3; ++step) {
       const double strain = 1e-3 * step;
       const Tensor F{1 + 0.3 * strain, 0.5 * strain, 0, 1 - strain};
       const Evaluation in_cell = advance(cell, F);
       const Evaluation in_frame = advance(frame, F);
       EXPECT_LE(relative_difference(in_frame.stress, in_cell.stress), 1e-10) << step;
+    }
+    if (law.tangential()) {
+      EXPECT_GT(sliding_contacts(cell.committed()), 50);
     }
   }
 }

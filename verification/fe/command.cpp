@@ -13,6 +13,7 @@
 #include <ctime>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace verification {
 namespace {
@@ -62,6 +63,12 @@ void run_solve(const std::string& path, const std::string& directory) {
   History history(stem);
   CsvWriter newton(stem.string() + "_newton.csv",
                    {"step[-]", "iteration[-]", "relative_residual[-]"});
+  std::vector<std::string> force_columns{"step[-]"};
+  for (const PrescribedDisplacement& condition : scene.model.displacements) {
+    force_columns.push_back(condition.name + "_displacement[m]");
+    force_columns.push_back(condition.name + "_force[N/m]");
+  }
+  CsvWriter forces(stem.string() + "_force.csv", force_columns);
   Progress progress(scene.name);
   CostMeter cost;
   const auto observe = [&](const LoadStep& step, const PointField& points) {
@@ -70,6 +77,12 @@ void run_solve(const std::string& path, const std::string& directory) {
     history.add(step.record);
     for (std::size_t k = 0; k < step.residuals.size(); ++k)
       newton.row({static_cast<double>(number), static_cast<double>(k), step.residuals[k]});
+    std::vector<double> force_row{static_cast<double>(number)};
+    for (std::size_t k = 0; k < step.reactions.size(); ++k) {
+      force_row.push_back(step.displacements[k]);
+      force_row.push_back(step.reactions[k]);
+    }
+    forces.row(force_row);
     if (scene.vtk_every > 0 && number % scene.vtk_every == 0)
       write_vtk(points.state(0), stem, number);
     progress.update(static_cast<double>(number) / scene.steps,
@@ -83,7 +96,7 @@ void run_solve(const std::string& path, const std::string& directory) {
     throw ComputationError(fmt::format("{}: {}", path, error.what()));
   }
   history.draw_figure(scene.abscissa, scene.name);
-  fmt::print("{}: {}\n{}\nwrote {}.csv, _newton.csv, .svg, .png\n", scene.name, history.summary(),
+  fmt::print("{}: {}\n{}\nwrote {}.csv, _newton.csv, _force.csv, .svg, .png\n", scene.name, history.summary(),
              cost.summary(), stem.string());
 }
 

@@ -6,6 +6,7 @@
 #include <Eigen/Sparse>
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace verification {
@@ -30,6 +31,7 @@ struct PrescribedDisplacement {
   std::vector<int> nodes;
   int component = 0;
   double value = 0;  // at the end of the run, linear from 0 [m]
+  std::string name;  // for tables, e.g. "top_y"
 };
 
 // The nodes move by the same amount in this component, as if glued to a rigid smooth plate.
@@ -42,18 +44,20 @@ struct Tie {
 Dofs number_dofs(std::size_t nodes, const std::vector<PrescribedDisplacement>& displacements,
                  const std::vector<Tie>& ties);
 
-// Cauchy pressure that stays normal to the deformed sides [Pa], linear over the run.
-struct FollowerPressure {
+// Pressure on sides [Pa], linear over the run: as Cauchy pressure it stays normal to the deformed
+// sides and acts on their length; as a dead load it keeps the force it has on the undeformed ones.
+struct Pressure {
   std::vector<std::array<int, 2>> sides;  // the element on the left
   double start = 0;
   double end = 0;
+  bool follows = true;
 };
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-// Adds the nodal forces of the pressure on the displaced sides [N/m], and minus their derivative
-// with respect to the displacements (the load stiffness), which is exact for straight sides.
-void add_pressure(const FollowerPressure& pressure, double fraction, const Mesh& mesh,
+// Adds the nodal forces of the pressure [N/m], and minus their derivative with respect to the
+// displacements (the load stiffness), which is exact for straight sides.
+void add_pressure(const Pressure& pressure, double fraction, const Mesh& mesh,
                   const Eigen::VectorXd& displacement, Eigen::VectorXd& force, Triplets& stiffness);
 
 }  // namespace verification

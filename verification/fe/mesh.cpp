@@ -4,7 +4,8 @@
 
 namespace verification {
 
-Mesh rectangle_mesh(const std::array<double, 2>& size, const std::array<int, 2>& divisions) {
+Mesh rectangle_mesh(const std::array<double, 2>& size, const std::array<int, 2>& divisions,
+                    ElementKind kind) {
   const auto [columns, rows] = divisions;
   Mesh mesh;
   const auto node = [&](int i, int j) { return j * (columns + 1) + i; };
@@ -12,8 +13,15 @@ Mesh rectangle_mesh(const std::array<double, 2>& size, const std::array<int, 2>&
     for (int i = 0; i <= columns; ++i)
       mesh.nodes.emplace_back(size[0] * i / columns, size[1] * j / rows);
   for (int j = 0; j < rows; ++j)
-    for (int i = 0; i < columns; ++i)
-      mesh.elements.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
+    for (int i = 0; i < columns; ++i) {
+      const int a = node(i, j), b = node(i + 1, j), c = node(i + 1, j + 1), d = node(i, j + 1);
+      if (kind == ElementKind::q4) {
+        mesh.elements.push_back({a, b, c, d});
+      } else {
+        mesh.elements.push_back({a, b, c});
+        mesh.elements.push_back({a, c, d});
+      }
+    }
   for (int i = 0; i <= columns; ++i) {
     mesh.node_sets["bottom"].push_back(node(i, 0));
     mesh.node_sets["top"].push_back(node(i, rows));
@@ -31,9 +39,25 @@ Mesh rectangle_mesh(const std::array<double, 2>& size, const std::array<int, 2>&
   return mesh;
 }
 
-std::array<QuadPoint, 4> quad_points(const std::array<Eigen::Vector2d, 4>& corners) {
+namespace {
+
+QuadPoint triangle_point(const std::vector<Eigen::Vector2d>& corners) {
+  Eigen::Matrix2d edges;
+  edges << corners[1] - corners[0], corners[2] - corners[0];
+  QuadPoint point;
+  point.gradient.resize(3, 2);
+  point.gradient.bottomRows<2>() = edges.inverse();
+  point.gradient.row(0) = -point.gradient.row(1) - point.gradient.row(2);
+  point.weight = 0.5 * edges.determinant();
+  return point;
+}
+
+}  // namespace
+
+std::vector<QuadPoint> quad_points(const std::vector<Eigen::Vector2d>& corners) {
+  if (corners.size() == 3) return {triangle_point(corners)};
   constexpr std::array<std::array<double, 2>, 4> sign{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
-  std::array<QuadPoint, 4> points;
+  std::vector<QuadPoint> points(4);
   for (std::size_t q = 0; q < 4; ++q) {
     const double xi = sign[q][0] / std::sqrt(3.0);
     const double eta = sign[q][1] / std::sqrt(3.0);

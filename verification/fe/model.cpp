@@ -6,9 +6,8 @@ namespace verification {
 
 PointField::PointField(const Mesh& mesh, const Material& material) {
   for (const auto& element : mesh.elements) {
-    std::array<Eigen::Vector2d, 4> corners;
-    for (std::size_t a = 0; a < 4; ++a)
-      corners[a] = mesh.nodes[static_cast<std::size_t>(element[a])];
+    std::vector<Eigen::Vector2d> corners;
+    for (const int node : element) corners.push_back(mesh.nodes[static_cast<std::size_t>(node)]);
     for (const QuadPoint& geometry : quad_points(corners)) {
       points_.push_back({element, geometry, Tensor::Identity(), Tensor::Zero(), 0, {}});
       states_.push_back(make_state(material));
@@ -28,7 +27,7 @@ grainlaw_status PointField::evaluate(const Eigen::VectorXd& displacement, unsign
                                      int threads) {
   for (std::size_t p = 0; p < points_.size(); ++p) {
     deformation_[p].setIdentity();
-    for (std::size_t a = 0; a < 4; ++a)
+    for (std::size_t a = 0; a < points_[p].nodes.size(); ++a)
       deformation_[p] += displacement.segment<2>(2 * points_[p].nodes[a]) *
                          points_[p].geometry.gradient.row(static_cast<Eigen::Index>(a));
     reports_[p] = grainlaw_report_default();
@@ -61,7 +60,7 @@ Eigen::VectorXd PointField::internal_force() const {
     last = std::max(last, *std::max_element(point.nodes.begin(), point.nodes.end()));
   Eigen::VectorXd force = Eigen::VectorXd::Zero(2 * (last + 1));
   for (std::size_t p = 0; p < points_.size(); ++p)
-    for (std::size_t a = 0; a < 4; ++a) {
+    for (std::size_t a = 0; a < points_[p].nodes.size(); ++a) {
       const auto& [gradient, weight] = points_[p].geometry;
       force.segment<2>(2 * points_[p].nodes[a]) +=
           weight * stress_[p] * gradient.row(static_cast<Eigen::Index>(a)).transpose();
@@ -73,8 +72,8 @@ void PointField::add_stiffness(Triplets& triplets) const {
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const auto& [gradient, weight] = points_[p].geometry;
     // dN_a/dX_J A_iJkL dN_b/dX_L for every pair of nodes a, b and components i, k.
-    for (int a = 0; a < 4; ++a)
-      for (int b = 0; b < 4; ++b)
+    for (int a = 0; a < gradient.rows(); ++a)
+      for (int b = 0; b < gradient.rows(); ++b)
         for (int i = 0; i < 2; ++i)
           for (int k = 0; k < 2; ++k) {
             const double value = gradient.row(a) * tangent_[p].block<2, 2>(2 * i, 2 * k) *

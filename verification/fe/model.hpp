@@ -13,7 +13,7 @@ struct Model {
   Mesh mesh;
   std::vector<PrescribedDisplacement> displacements;
   std::vector<Tie> ties;
-  std::vector<FollowerPressure> pressures;
+  std::vector<Pressure> pressures;
   double thickness = 1;  // out of plane; forces are per metre of it [m]
 };
 
@@ -45,7 +45,7 @@ class PointField {
 
  private:
   struct Point {
-    std::array<int, 4> nodes;
+    std::vector<int> nodes;
     QuadPoint geometry;
     Tensor committed_deformation = Tensor::Identity();
     Tensor committed_stress = Tensor::Zero();

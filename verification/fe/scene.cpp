@@ -17,9 +17,12 @@ Mesh read_mesh(SceneTable table) {
   const std::vector<double> divisions = table.numbers("divisions", 2, counts);
   for (const double value : divisions)
     if (value != std::floor(value)) table.fail("divisions", fmt::format("{}", value), counts.text);
+  const ElementKind kind = table.choice_or("element", "q4", {"q4", "t3"}) == "t3"
+                               ? ElementKind::t3
+                               : ElementKind::q4;
   table.close();
   return rectangle_mesh({size[0], size[1]},
-                        {static_cast<int>(divisions[0]), static_cast<int>(divisions[1])});
+                        {static_cast<int>(divisions[0]), static_cast<int>(divisions[1])}, kind);
 }
 
 std::string read_edge(SceneTable& table) {
@@ -55,8 +58,10 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
   model.mesh = read_mesh(table.table("mesh"));
   for (SceneTable& entry : table.tables("displacement")) {
     PrescribedDisplacement condition;
-    condition.nodes = model.mesh.node_sets[read_edge(entry)];
+    const std::string edge = read_edge(entry);
+    condition.nodes = model.mesh.node_sets[edge];
     condition.component = read_component(entry);
+    condition.name = edge + (condition.component == 0 ? "_x" : "_y");
     condition.value = entry.number("value");
     entry.close();
     model.displacements.push_back(condition);
@@ -66,10 +71,11 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
     entry.close();
   }
   for (SceneTable& entry : table.tables("pressure")) {
-    FollowerPressure pressure;
+    Pressure pressure;
     pressure.sides = model.mesh.side_sets[read_edge(entry)];
     pressure.end = entry.number("value");
     pressure.start = entry.number_or("start", pressure.end);
+    pressure.follows = entry.choice_or("kind", "follower", {"follower", "dead"}) == "follower";
     entry.close();
     model.pressures.push_back(pressure);
   }

@@ -31,7 +31,7 @@ System assemble(const Model& model, const PointField& points, const Eigen::Vecto
   const Eigen::VectorXd internal = points.internal_force();
   system.residual = -internal;
   points.add_stiffness(triplets);
-  for (const FollowerPressure& pressure : model.pressures)
+  for (const Pressure& pressure : model.pressures)
     add_pressure(pressure, fraction, model.mesh, displacement, system.residual, triplets);
   system.stiffness.resize(internal.size(), internal.size());
   system.stiffness.setFromTriplets(triplets.begin(), triplets.end());
@@ -117,6 +117,12 @@ class LoadStepper {
     step.record.effort.iterations = iterations;
     step.record.effort.cuts = cuts;
     step.record.effort.loose = loose_parts;
+    for (const PrescribedDisplacement& condition : model_.displacements) {
+      step.displacements.push_back(to * condition.value);
+      step.reactions.push_back(0);
+      for (const int node : condition.nodes)
+        step.reactions.back() -= system_.residual(2 * node + condition.component);
+    }
     return step;
   }
 
@@ -171,7 +177,7 @@ class LoadStepper {
   // The committed system carries the load of its own fraction; the difference to the new one.
   void add_load_increment(System& system, double fraction) const {
     Triplets triplets;
-    for (FollowerPressure pressure : model_.pressures) {
+    for (Pressure pressure : model_.pressures) {
       pressure.end -= pressure.start;
       pressure.start = 0;
       add_pressure(pressure, fraction - committed_fraction_, model_.mesh, displacement_,

@@ -24,6 +24,10 @@ struct SolverOptions {
 struct LoadStep {
   Record record;  // means over the integration points
   std::vector<double> residuals;
+  // Of every prescribed displacement: its value [m], and the force that holds it, summed over its
+  // nodes, per metre of thickness [N/m].
+  std::vector<double> displacements;
+  std::vector<double> reactions;
 };
 using LoadObserver = std::function<void(const LoadStep&, const PointField&)>;
 

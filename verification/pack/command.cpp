@@ -5,12 +5,19 @@
 #include "app/material.hpp"
 #include "app/output.hpp"
 #include "pack/picture.hpp"
+#include "pack/rose.hpp"
+#include "pack/written.hpp"
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <ctime>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace verification {
 namespace {
@@ -20,57 +27,107 @@ struct PackArguments {
   std::string output = ".";
   std::string name;
   std::optional<long> seed;
+  long seeds = 0;
   bool vtk = false;
 };
 
-void print_packing(const grainlaw_state* state) {
-  const double void_ratio = measure_scalar(state, GRAINLAW_VOID_RATIO);
-  const std::vector<double> sigma = measure(state, GRAINLAW_CAUCHY_STRESS);
+// One packing, made and written.
+struct Made {
+  State state;
+  WrittenPacking written;
+  std::filesystem::path stem;
+  double seconds;  // of CPU, to make the material
+
+  [[nodiscard]] double scalar(grainlaw_measure what) const {
+    return measure_scalar(state.get(), what);
+  }
+  [[nodiscard]] double volume_fraction() const { return 1 / (1 + scalar(GRAINLAW_VOID_RATIO)); }
+};
+
+double cpu_seconds() {
+  return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
+}
+
+Made make(const PackArguments& arguments, std::optional<long> seed) {
+  MaterialSource source;
+  source.file = arguments.recipe;
+  source.base = source.file.parent_path();
+  if (seed) change(source, "packing", "seed", *seed);
+  const double start = cpu_seconds();
+  const Material material = make_material(source);
+  const double seconds = cpu_seconds() - start;
+  State state = make_state(material);
+  std::string name = arguments.name.empty() ? source.file.stem().string() : arguments.name;
+  const auto stem = output_stem(arguments.output, name);
+  check(grainlaw_state_write_packing(state.get(), stem.c_str()), "writing the packing");
+  WrittenPacking written = read_written(stem.string());
+  return {std::move(state), std::move(written), stem, seconds};
+}
+
+void print_packing(const Made& made) {
+  const std::vector<double> sigma = measure(made.state.get(), GRAINLAW_CAUCHY_STRESS);
+  const Rose rose = contact_rose(made.written);
   const auto line = [](const char* what, double value, const char* unit) {
-    fmt::print("  {:<34} {:>12.6g} {}\n", what, value, unit);
+    fmt::print("  {:<42} {:>12.6g} {}\n", what, value, unit);
   };
-  line("particles", measure_scalar(state, GRAINLAW_PARTICLES), "[-]");
-  line("touching contacts", measure_scalar(state, GRAINLAW_CONTACTS), "[-]");
-  line("void ratio", void_ratio, "[-]");
-  line("volume fraction", 1 / (1 + void_ratio), "[-]");
-  line("coordination, all particles", measure_scalar(state, GRAINLAW_COORDINATION), "[-]");
-  line("coordination, without rattlers", measure_scalar(state, GRAINLAW_COORDINATION_NO_RATTLERS),
-       "[-]");
-  line("fabric anisotropy", measure_scalar(state, GRAINLAW_ANISOTROPY), "[-]");
-  line("mean overlap", measure_scalar(state, GRAINLAW_MEAN_OVERLAP) * 1e6, "um");
+  line("particles", static_cast<double>(made.written.radius.size()), "[-]");
+  if (!made.written.periodic()) {
+    line("of them on the boundary", static_cast<double>(made.written.boundary.size()), "[-]");
+    line("particles, copies of a side counted once", made.scalar(GRAINLAW_PARTICLES), "[-]");
+  }
+  line("touching contacts, copies counted once", made.scalar(GRAINLAW_CONTACTS), "[-]");
+  line("void ratio", made.scalar(GRAINLAW_VOID_RATIO), "[-]");
+  line("volume fraction, copies counted once", made.volume_fraction(), "[-]");
+  line("coordination, all particles", made.scalar(GRAINLAW_COORDINATION), "[-]");
+  line("coordination, without rattlers", made.scalar(GRAINLAW_COORDINATION_NO_RATTLERS), "[-]");
+  line("fabric anisotropy", made.scalar(GRAINLAW_ANISOTROPY), "[-]");
+  line("its major direction, against axis 1", rose.direction * 180 / M_PI, "deg");
+  line("mean overlap", made.scalar(GRAINLAW_MEAN_OVERLAP) * 1e6, "um");
   line("stress 11 (tension positive)", sigma[0] / 1e3, "kPa");
   line("stress 12", sigma[1] / 1e3, "kPa");
   line("stress 21", sigma[2] / 1e3, "kPa");
   line("stress 22", sigma[3] / 1e3, "kPa");
+  line("CPU time to make it", made.seconds, "s");
+}
+
+// One line for each seed, to choose one.
+void compare_seeds(const PackArguments& arguments, long first) {
+  fmt::print("{:>6} {:>9} {:>9} {:>9} {:>9} {:>11} {:>9} {:>8}\n", "seed", "particles", "boundary",
+             "fraction", "coordin.", "no rattlers", "anisotr.", "CPU [s]");
+  for (long seed = first; seed < first + arguments.seeds; ++seed) {
+    try {
+      const Made made = make(arguments, seed);
+      fmt::print("{:>6} {:>9} {:>9} {:>9.4f} {:>9.3f} {:>11.3f} {:>9.4f} {:>8.2f}\n", seed,
+                 made.written.radius.size(), made.written.boundary.size(), made.volume_fraction(),
+                 made.scalar(GRAINLAW_COORDINATION),
+                 made.scalar(GRAINLAW_COORDINATION_NO_RATTLERS),
+                 made.scalar(GRAINLAW_ANISOTROPY), made.seconds);
+    } catch (const ComputationError& error) {
+      fmt::print("{:>6} {}\n", seed, error.what());
+    }
+  }
 }
 
 void run_pack(const PackArguments& arguments) {
-  MaterialSource source;
-  source.file = arguments.recipe;
-  source.base = source.file.parent_path();
-  const SceneFile recipe(source.file);
-  if (arguments.seed) {
-    if (!recipe.content["packing"]["generator"])
-      throw InputError(arguments.recipe + ": --seed needs a [packing] with a generator");
-    change(source, "packing", "seed", *arguments.seed);
-  }
-  const Material material = make_material(source);
-  const State state = make_state(material);
-  const auto stem = output_stem(
-      arguments.output, arguments.name.empty() ? source.file.stem().string() : arguments.name);
-  check(grainlaw_state_write_packing(state.get(), stem.c_str()), "writing the packing");
+  const SceneFile recipe(arguments.recipe);
+  const auto packing = recipe.content["packing"];
+  if ((arguments.seed || arguments.seeds > 0) && !packing["seed"])
+    throw InputError(arguments.recipe + ": --seed needs a [packing] with a generator and a seed");
+  if (arguments.seeds > 0)
+    return compare_seeds(arguments, arguments.seed.value_or(packing["seed"].value_or(1L)));
+  const Made made = make(arguments, arguments.seed);
   if (arguments.vtk)
-    check(grainlaw_state_write_vtk(state.get(), (stem.string() + ".vtp").c_str()),
+    check(grainlaw_state_write_vtk(made.state.get(), (made.stem.string() + ".vtp").c_str()),
           "writing the particles");
-  fmt::print("{}\n", stem.filename().string());
-  print_packing(state.get());
-  draw_packing(
-      stem.string(), stem,
-      fmt::format("{}: void ratio {:.4f}, coordination {:.3f}; bar width: normal force",
-                  stem.filename().string(), measure_scalar(state.get(), GRAINLAW_VOID_RATIO),
-                  measure_scalar(state.get(), GRAINLAW_COORDINATION)));
-  fmt::print("wrote {0}_particles.csv, _contacts.csv, _cell.csv, .svg, .png{1}\n", stem.string(),
-             arguments.vtk ? ", .vtp" : "");
+  fmt::print("{}\n", made.stem.filename().string());
+  print_packing(made);
+  draw_packing(made.written, made.stem,
+               fmt::format("{}: {} particles, volume fraction {:.3f}, coordination {:.2f}; bar "
+                           "width: normal force",
+                           made.stem.filename().string(), made.written.radius.size(),
+                           made.volume_fraction(), made.scalar(GRAINLAW_COORDINATION)));
+  fmt::print("wrote {0}_particles.csv, _contacts.csv, _cell.csv, .svg, .png{1}\n",
+             made.stem.string(), arguments.vtk ? ", .vtp" : "");
 }
 
 }  // namespace
@@ -83,6 +140,7 @@ void add_pack_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--name", arguments->name, "name of the results; default: of the recipe");
   command->add_option("--seed", arguments->seed, "seed of the generator, instead of the recipe's");
+  command->add_option("--seeds", arguments->seeds, "only compare so many seeds, one line each");
   command->add_flag("--vtk", arguments->vtk, "also write the particles for ParaView (.vtp)");
   command->callback([arguments] { run_pack(*arguments); });
 }

@@ -1,14 +1,16 @@
-// A picture of a packing: its discs, and its contact forces as bars as wide as the force.
+// A picture of a packing: its discs, its frame, its contact forces as bars as wide as the force, and
+// the rose diagram of its contact normals.
 #pragma once
+
+#include "pack/written.hpp"
 
 #include <filesystem>
 #include <string>
 
 namespace verification {
 
-// Reads prefix_particles.csv, prefix_contacts.csv and prefix_cell.csv as the library writes them,
-// and draws stem.svg and stem.png. With a periodic cell the discs across its sides are drawn again.
-void draw_packing(const std::string& prefix, const std::filesystem::path& stem,
+// Draws stem.svg and stem.png. With a periodic cell the discs across its sides are drawn again.
+void draw_packing(const WrittenPacking& packing, const std::filesystem::path& stem,
                   const std::string& title);
 
 }  // namespace verification

@@ -79,6 +79,27 @@ MaterialSource changed(MaterialSource source, const char* table, const char* key
   return source;
 }
 
+// Another law on the same discs.
+MaterialSource with_law(MaterialSource source, toml::table contact) {
+  source.changes.insert_or_assign("contact", std::move(contact));
+  return source;
+}
+
+MaterialSource with_rolling(const MaterialSource& source) {
+  return changed(source, "contact", "rolling", toml::table{{"ratio", 1.0}, {"friction", 0.1}});
+}
+
+// Bonds of some mean contact forces.
+MaterialSource with_bonds(const MaterialSource& source, double strength) {
+  auto bonded = changed(source, "contact", "law", "bonded");
+  change(bonded, "contact", "bond",
+         toml::table{{"normal_strength", strength},
+                     {"tangential_strength", strength},
+                     {"bending_stiffness", 20.0},
+                     {"bending_strength", 2e-3 * strength}});
+  return bonded;
+}
+
 void take_all_measures(grainlaw_state* state) {
 #define GRAINLAW_X(name, value, count, text) measure(state, name);
   GRAINLAW_MEASURE_LIST(GRAINLAW_X)
@@ -108,10 +129,20 @@ std::vector<Feature> features(const StudyOptions& options, int count, double tol
   const auto locked = changed(base, "contact", "rotation", false);
   const auto frame = changed(base, "boundary", "type", "frame-p");
   const auto trial = changed(base, "solver", "start", "trial");
+  const auto compressive = with_law(base, toml::table{{"law", "compressive"}, {"young", 6e8}});
+  const auto hertz = with_law(base, toml::table{{"law", "hertz"},
+                                                {"shear_modulus", 9e9},
+                                                {"poisson", 0.2},
+                                                {"friction", std::tan(0.5)}});
   const std::string vtk = output_stem(options.output, "study_features.vtp").string();
   std::vector<Feature> all{
       {"friction, isotropic path", locked, smooth, isotropic_compression(increments), {}},
       {"rotation", base, locked, path, {}},
+      {"compressive against friction 0", compressive, smooth, isotropic_compression(increments), {}},
+      {"rolling resistance", with_rolling(base), base, path, {}},
+      {"Hertz-Mindlin against linear", hertz, base, path, {}},
+      {"bonds that hold", with_bonds(base, 1e6), base, path, {}},
+      {"bonds that break", with_bonds(base, 100), base, path, {}},
       {"exact tangent", base, base, path, {GRAINLAW_WANT_TANGENT_EXACT, {}}},
       {"elastic tangent", base, base, path, {GRAINLAW_WANT_TANGENT_ELASTIC, {}}},
       {"perturbed tangent", base, base, path, {GRAINLAW_WANT_TANGENT_PERTURBED, {}}},

@@ -1,0 +1,190 @@
+// The material of CalculiX, called as the solver calls it.
+#include "ccx_host.hpp"
+#include "reference.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <thread>
+
+namespace grainlaw::test {
+namespace {
+
+constexpr F2 path[] = {{0.9996, 0.0003, -0.0001, 1.0002},
+                       {0.9990, 0.0012, -0.0004, 1.0005},
+                       {0.9982, 0.0024, -0.0009, 1.0010}};
+constexpr F2 elsewhere{1.0005, -0.0010, 0.0002, 0.9990};
+
+const std::string materials = GRAINLAW_MATERIALS;
+
+class calculix_material : public testing::Test {
+ protected:
+  MaterialLibrary library{materials + "/libGRAIN.so"};
+
+  Host host(int element = 1, int point = 1) const {
+    return {library.function("SMALL"), element, point};
+  }
+  static abi::State direct_state(const std::string& file = materials + "/../small.toml") {
+    return abi::State(abi::Material::load(file));
+  }
+  static void expect_reference(const Host& host, const Reference& expected) {
+    const auto [stress, stiffness] = distance(expected, host.stress.data(), host.stiffness.data());
+    EXPECT_LE(stress, 1e-12);
+    EXPECT_LE(stiffness, 1e-12);
+  }
+};
+
+TEST_F(calculix_material, patch_gives_S_and_the_symmetric_part_of_the_tangent) {
+  Host point(library.function("RVE"), 1, 1);
+  abi::State state = direct_state(GRAINLAW_TEST_DATA "/rve400.toml");
+  std::ifstream file(GRAINLAW_PATCH);
+  std::string line;
+  std::getline(file, line);
+  int steps = 0;
+  while (std::getline(file, line)) {
+    F2 F{};
+    ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf", &F[0], &F[1], &F[2], &F[3]), 4);
+    ASSERT_TRUE(point.call(columns(F)));
+    const Reference expected = reference(state, F, true);
+    expect_reference(point, expected);
+    if (++steps == 4) {
+      EXPECT_GT(expected.skew, 1e-2);  // what CalculiX cannot be given
+    }
+    ASSERT_TRUE(point.increment({F}));
+  }
+  EXPECT_EQ(steps, 4);
+}
+
+TEST_F(calculix_material, increments_with_iterations_are_committed_once) {
+  Host point = host();
+  abi::State state = direct_state();
+  for (const F2& F : path) {
+    ASSERT_TRUE(point.increment({elsewhere, F, elsewhere, F}));
+    const Reference expected = reference(state, F, true);
+    Host again = point;
+    again.stress = {};
+    EXPECT_TRUE(again.call(columns(F), true));  // the stress alone, after the increment
+    expect_reference(again, expected);
+  }
+}
+
+TEST_F(calculix_material, calls_at_a_known_F_give_the_same_bits) {
+  Host point = host();
+  ASSERT_TRUE(point.call(columns(path[0])));
+  const Host first = point;
+  point.stress = {};
+  ASSERT_TRUE(point.call(columns(path[0]), true));
+  EXPECT_EQ(point.stress, first.stress);
+  point.stiffness = {};
+  ASSERT_TRUE(point.call(columns(path[0])));
+  EXPECT_EQ(point.stiffness, first.stiffness);
+}
+
+TEST_F(calculix_material, an_accepted_answer_that_was_not_the_last_is_found_again) {
+  Host point = host();
+  abi::State state = direct_state();
+  ASSERT_TRUE(point.increment({path[0]}));
+  reference(state, path[0], true);
+  ASSERT_TRUE(point.call(columns(path[1])));
+  ASSERT_TRUE(point.call(columns(elsewhere)));
+  reference(state, path[1], true);
+  point.F0 = columns(path[1]);
+  ASSERT_TRUE(point.call(columns(path[2])));
+  expect_reference(point, reference(state, path[2], false));
+}
+
+TEST_F(calculix_material, an_increment_that_was_cut_ends_like_the_same_increments_uncut) {
+  constexpr double target = 0.8;  // simple shear; more than the packing takes at once
+  Host point = host();
+  std::vector<double> shears;
+  double shear = 0, step = target;
+  int cuts = 0;
+  while (shear < target - 1e-9) {
+    const double next = std::min(shear + step, target);
+    if (!point.increment({{1, next, 0, 1}})) {
+      ASSERT_LT(point.pnewdt, 1);
+      EXPECT_GT(point.stiffness[0], 1e6);  // what the solver goes on with before it cuts
+      step *= point.pnewdt;
+      ASSERT_LT(++cuts, 10);
+      continue;
+    }
+    shears.push_back(shear = next);
+  }
+  EXPECT_GE(cuts, 1);
+  Host uncut = host(2);
+  for (const double s : shears) ASSERT_TRUE(uncut.increment({{1, s, 0, 1}}));
+  EXPECT_EQ(point.stress, uncut.stress);
+}
+
+TEST_F(calculix_material, points_in_threads_give_the_bits_of_one_thread) {
+  const auto run = [&](int threads, int first_element) {
+    constexpr int points = 8;
+    std::vector<Host> hosts;
+    for (int p = 0; p < points; ++p) hosts.push_back(host(first_element, p + 1));
+    std::vector<std::thread> pool;
+    for (int t = 0; t < threads; ++t) {
+      pool.emplace_back([&, t] {
+        for (const F2& F : path) {
+          for (int p = t; p < points; p += threads) {
+            F2 own = F;
+            own[0] -= 1e-5 * p;
+            EXPECT_TRUE(hosts[static_cast<std::size_t>(p)].increment({elsewhere, own}));
+          }
+        }
+      });
+    }
+    for (std::thread& thread : pool) thread.join();
+    std::vector<std::array<double, 6>> stresses;
+    for (const Host& each : hosts) stresses.push_back(each.stress);
+    return stresses;
+  };
+  EXPECT_EQ(run(4, 20), run(1, 10));
+}
+
+class calculix_bad_input : public calculix_material {
+ protected:
+  // The call asks for a cut and prints the text; the state is as it was.
+  void refused(Host point, const std::array<double, 9>& F1, const char* text) {
+    testing::internal::CaptureStdout();
+    EXPECT_FALSE(point.call(F1));
+    const std::string output = testing::internal::GetCapturedStdout();
+    EXPECT_NE(output.find("*ERROR in grainlaw"), std::string::npos) << output;
+    EXPECT_NE(output.find(text), std::string::npos) << output;
+    EXPECT_LT(point.pnewdt, 1);
+    for (const double value : point.stiffness) EXPECT_TRUE(std::isfinite(value));
+  }
+};
+
+TEST_F(calculix_bad_input, leaves_the_state_as_it_was) {
+  Host point = host();
+  abi::State state = direct_state();
+  ASSERT_TRUE(point.increment({path[0]}));
+  reference(state, path[0], true);
+  auto F = columns(path[1]);
+  F[3] = std::numeric_limits<double>::quiet_NaN();
+  refused(point, F, "element 1, point 1: F12 of the deformation gradient is nan");
+  F = columns(path[1]);
+  F[8] = 1.02;
+  refused(point, F, "F33 is 1.02");
+  ASSERT_TRUE(point.call(columns(path[1])));
+  expect_reference(point, reference(state, path[1], false));
+}
+
+TEST_F(calculix_bad_input, a_start_elsewhere_is_told) {
+  Host point = host(7);
+  point.F0 = columns(path[1]);
+  refused(point, columns(path[2]), "cannot be restarted without its states");
+}
+
+TEST_F(calculix_bad_input, a_missing_material_file_is_told_once) {
+  const MaterialLibrary by_hand(materials + "/libBYHAND.so");
+  Host point(by_hand.function("MISSING"), 1, 1);
+  refused(point, columns(path[0]), "/no_such_material.toml");
+  testing::internal::CaptureStdout();
+  EXPECT_FALSE(point.call(columns(path[0])));
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+}
+
+}  // namespace
+}  // namespace grainlaw::test

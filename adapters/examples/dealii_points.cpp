@@ -1,0 +1,133 @@
+#include "dealii_points.hpp"
+
+#include <deal.II/fe/fe.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/grid/tria.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <algorithm>
+
+using namespace dealii;
+
+namespace grainlaw_dealii {
+namespace {
+
+const FEValuesExtractors::Vector displacement_components(0);
+
+}  // namespace
+
+Points::Points(const Mapping<2>& mapping, const DoFHandler<2>& dofs,
+               const Quadrature<2>& quadrature, const grainlaw::abi::Material& material)
+    : mapping_(mapping), dofs_(dofs), quadrature_(quadrature) {
+  const std::size_t n = dofs.get_triangulation().n_active_cells() * quadrature.size();
+  states_.reserve(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    states_.emplace_back(material);
+    handles_.push_back(states_.back().get());
+  }
+  F_.resize(4 * n);
+  P_.resize(4 * n);
+  A_.resize(16 * n);
+  status_.resize(n);
+  reports_.resize(n);
+}
+
+bool Points::evaluate(const Vector<double>& displacement) {
+  FEValues<2> values(mapping_, dofs_.get_fe(), quadrature_, update_gradients);
+  std::vector<Tensor<2, 2>> gradients(quadrature_.size());
+  for (const auto& cell : dofs_.active_cell_iterators()) {
+    values.reinit(cell);
+    values[displacement_components].get_function_gradients(displacement, gradients);
+    for (unsigned q = 0; q < quadrature_.size(); ++q)
+      for (unsigned i = 0; i < 2; ++i)
+        for (unsigned J = 0; J < 2; ++J)
+          F_[4 * point(cell->active_cell_index(), q) + 2 * i + J] =
+              gradients[q][i][J] + (i == J ? 1 : 0);
+  }
+  std::fill(reports_.begin(), reports_.end(), grainlaw_report_default());
+  trial_P_.resize(P_.size());
+  trial_A_.resize(A_.size());
+  const grainlaw_status status = grainlaw_evaluate_batch(
+      handles_.size(), handles_.data(), F_.data(), GRAINLAW_WANT_TANGENT_EXACT, trial_P_.data(),
+      trial_A_.data(), status_.data(), reports_.data(), 0);
+  if (status < 0) throw grainlaw::abi::StatusError(status, message());
+  if (status != GRAINLAW_OK) return false;
+  P_.swap(trial_P_);
+  A_.swap(trial_A_);
+  return true;
+}
+
+void Points::commit() {
+  for (auto& state : states_) state.commit();
+  committed_P_ = P_;
+  committed_A_ = A_;
+}
+
+void Points::revert() {
+  for (auto& state : states_) state.revert();
+  P_ = committed_P_;
+  A_ = committed_A_;
+}
+
+double Points::step_ratio() const {
+  double ratio = 1;
+  for (std::size_t k = 0; k < status_.size(); ++k)
+    if (status_[k] != GRAINLAW_OK) ratio = std::min(ratio, reports_[k].step_ratio);
+  return ratio;
+}
+
+std::string Points::message() const {
+  for (std::size_t k = 0; k < status_.size(); ++k)
+    if (status_[k] != GRAINLAW_OK)
+      return "point " + std::to_string(k) + ": " + grainlaw_status_text(status_[k]) + " " +
+             reports_[k].message;
+  return {};
+}
+
+void Points::internal_forces(Vector<double>& forces) const {
+  forces = 0;
+  FEValues<2> values(mapping_, dofs_.get_fe(), quadrature_, update_gradients | update_JxW_values);
+  std::vector<types::global_dof_index> indices(dofs_.get_fe().n_dofs_per_cell());
+  for (const auto& cell : dofs_.active_cell_iterators()) {
+    values.reinit(cell);
+    cell->get_dof_indices(indices);
+    for (unsigned q = 0; q < quadrature_.size(); ++q) {
+      const double* P = &P_[4 * point(cell->active_cell_index(), q)];
+      for (unsigned a = 0; a < indices.size(); ++a) {
+        const unsigned i = dofs_.get_fe().system_to_component_index(a).first;
+        const Tensor<1, 2> gradient = values.shape_grad(a, q);
+        forces(indices[a]) += (P[2 * i] * gradient[0] + P[2 * i + 1] * gradient[1]) * values.JxW(q);
+      }
+    }
+  }
+}
+
+void Points::stiffness(SparseMatrix<double>& matrix) const {
+  matrix = 0;
+  FEValues<2> values(mapping_, dofs_.get_fe(), quadrature_, update_gradients | update_JxW_values);
+  const unsigned n = dofs_.get_fe().n_dofs_per_cell();
+  std::vector<types::global_dof_index> indices(n);
+  FullMatrix<double> local(n, n);
+  for (const auto& cell : dofs_.active_cell_iterators()) {
+    values.reinit(cell);
+    cell->get_dof_indices(indices);
+    local = 0;
+    for (unsigned q = 0; q < quadrature_.size(); ++q) {
+      const double* A = &A_[16 * point(cell->active_cell_index(), q)];
+      for (unsigned a = 0; a < n; ++a)
+        for (unsigned b = 0; b < n; ++b) {
+          const unsigned i = dofs_.get_fe().system_to_component_index(a).first;
+          const unsigned k = dofs_.get_fe().system_to_component_index(b).first;
+          double sum = 0;
+          for (unsigned J = 0; J < 2; ++J)
+            for (unsigned L = 0; L < 2; ++L)
+              sum += values.shape_grad(a, q)[J] * A[((2 * i + J) * 2 + k) * 2 + L] *
+                     values.shape_grad(b, q)[L];
+          local(a, b) += sum * values.JxW(q);
+        }
+    }
+    matrix.add(indices, local);
+  }
+}
+
+}  // namespace grainlaw_dealii

@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+"""The biaxial test of adapters/biaxial/biaxial.toml in DOLFINx 0.5 (one process).
+
+    dolfinx_biaxial.py ../biaxial/material.toml [PREFIX [STEPS]]
+
+Prints the residuals of Newton's method, and writes PREFIX_force.csv and PREFIX_newton.csv.
+"""
+import sys
+
+import numpy as np
+import ufl
+from dolfinx import fem, mesh
+from mpi4py import MPI
+from petsc4py import PETSc
+
+import grainlaw
+from dolfinx_points import Points
+from grainlaw_steps import LoadSteps
+
+WIDTH, HEIGHT = 0.05, 0.1   # m
+SIDE_PRESSURE = 100e3       # Pa, dead load
+SHORTENING = 1e-3           # m, at full load
+TOLERANCE = 1e-10           # |force on the unknowns| / |nodal forces of P| [-]
+MAX_ITERATIONS = 12
+
+
+class Biaxial:
+    def __init__(self, material):
+        domain = mesh.create_rectangle(MPI.COMM_SELF, [[0, 0], [WIDTH, HEIGHT]], [4, 8],
+                                       mesh.CellType.triangle, diagonal=mesh.DiagonalType.right)
+        V = fem.VectorFunctionSpace(domain, ("Lagrange", 1))
+        self.u = fem.Function(V)
+        self.points = Points(domain, material, degree=1)
+        self.platen = PETSc.ScalarType((0, 0))
+        self.top_displacement = fem.Constant(domain, self.platen)
+
+        def nodes(side):
+            return fem.locate_dofs_geometrical(V, side)
+
+        top = nodes(lambda x: np.isclose(x[1], HEIGHT))
+        self.conditions = [
+            fem.dirichletbc(self.platen, nodes(lambda x: np.isclose(x[1], 0)), V),
+            fem.dirichletbc(self.top_displacement, top, V)]
+        self.top_y = 2 * top + 1
+        fixed = np.concatenate([top, nodes(lambda x: np.isclose(x[1], 0))])
+        self.free = np.setdiff1d(np.arange(self.u.x.array.size), [2 * fixed, 2 * fixed + 1])
+
+        sides = mesh.locate_entities_boundary(
+            domain, 1, lambda x: np.isclose(x[0], 0) | np.isclose(x[0], WIDTH))
+        tags = mesh.meshtags(domain, 1, np.sort(sides), np.ones(len(sides), np.int32))
+        ds = ufl.Measure("ds", domain, subdomain_data=tags)
+        v, du = ufl.TestFunction(V), ufl.TrialFunction(V)
+        outward = ufl.FacetNormal(domain)
+        load = -SIDE_PRESSURE * ufl.inner(outward, v) * ds(1)
+        self.internal = fem.form(self.points.stress_power(v))
+        self.residual = fem.form(self.points.stress_power(v) - load)
+        self.stiffness = fem.form(self.points.stiffness(du, v))
+
+        answer = self.points.evaluate(self.u)
+        if not answer.ok:
+            sys.exit(f"no state to start from: {answer.message}")
+        self.points.commit()
+
+    def forces(self):
+        """Nodal forces of P, and |force on the unknowns| relative to their norm."""
+        internal = fem.petsc.assemble_vector(self.internal).array
+        residual = fem.petsc.assemble_vector(self.residual).array
+        return internal, np.linalg.norm(residual[self.free]) / np.linalg.norm(internal)
+
+    def advance(self, load):
+        """Newton's method to a fraction of the load. Returns whether it got there, the residuals,
+        and the factor on the step to try next."""
+        start = self.u.x.array.copy()
+        self.top_displacement.value = (0, -SHORTENING * load)
+        residuals = []
+        for _ in range(MAX_ITERATIONS):
+            self.u.x.array[:] -= self.solve()
+            answer = self.points.evaluate(self.u)
+            if not answer.ok:
+                break
+            residuals.append(self.forces()[1])
+            if residuals[-1] <= TOLERANCE:
+                self.points.commit()
+                return True, residuals, 1.0
+        reason = answer.message or "Newton did not converge"
+        print(f"load {load:.6g}: {reason}; the step is cut", flush=True)
+        self.points.revert()
+        self.u.x.array[:] = start
+        return False, residuals, 0.5 if answer.ok else answer.step_ratio
+
+    def solve(self):
+        """Newton's correction; the increment of the boundary values enters through its right side.
+        """
+        matrix = fem.petsc.assemble_matrix(self.stiffness, self.conditions)
+        matrix.assemble()
+        right = fem.petsc.assemble_vector(self.residual)
+        fem.petsc.apply_lifting(right, [self.stiffness], [self.conditions], [self.u.vector], -1.0)
+        fem.petsc.set_bc(right, self.conditions, self.u.vector, -1.0)
+        solver = PETSc.KSP().create(MPI.COMM_SELF)
+        solver.setOperators(matrix)
+        solver.setType("preonly")
+        solver.getPC().setType("lu")
+        correction = right.duplicate()
+        solver.solve(right, correction)
+        return correction.array.copy()
+
+
+def main(material, prefix="biaxial", count="20"):
+    problem = Biaxial(grainlaw.Material(material))
+    steps = LoadSteps([k / int(count) for k in range(int(count) + 1)])
+    with open(prefix + "_force.csv", "w", encoding="utf-8") as force, \
+            open(prefix + "_newton.csv", "w", encoding="utf-8") as newton:
+        force.write("step[-],fraction[-],top_y_displacement[m],top_y_force[N/m]\n")
+        newton.write("step[-],iteration[-],relative_residual[-]\n")
+        while steps:
+            converged, residuals, ratio = problem.advance(steps.load)
+            if not converged:
+                steps.cut(ratio)
+                continue
+            top = problem.forces()[0][problem.top_y].sum()
+            print(f"load {steps.load:.6g}: force {top:.6g} N/m, residuals "
+                  + ", ".join(f"{residual:.1e}" for residual in residuals), flush=True)
+            force.write(f"{steps.number},{steps.load:.17g},{-SHORTENING * steps.load:.17g},"
+                        f"{top:.17g}\n")
+            for iteration, residual in enumerate(residuals, 1):
+                newton.write(f"{steps.number},{iteration},{residual:.17g}\n")
+            steps.accept()
+
+
+if __name__ == "__main__":
+    if not 2 <= len(sys.argv) <= 4:
+        sys.exit(__doc__)
+    try:
+        main(*sys.argv[1:])
+    except grainlaw.Error as error:
+        sys.exit(f"grainlaw: {error}")

@@ -1,0 +1,65 @@
+"""grainlaw in DOLFINx: P and its tangent as functions on quadrature points."""
+import basix
+import numpy as np
+import ufl
+from dolfinx import fem
+
+import grainlaw
+
+
+class Points:
+    """The quadrature points of a two-dimensional mesh, of one material. The functions `P` (2, 2)
+    and `A` (4, 4), which has a row for each P_iJ and a column for each F_kL in row-major order, are
+    for forms over `dx` and hold what the last `evaluate` found."""
+
+    def __init__(self, domain, material, degree):
+        cell = domain.ufl_cell()
+        kind = {"degree": degree, "quad_scheme": "default"}
+        self._P_space = fem.FunctionSpace(
+            domain, ufl.TensorElement("Quadrature", cell, shape=(2, 2), **kind))
+        self._A_space = fem.FunctionSpace(
+            domain, ufl.TensorElement("Quadrature", cell, shape=(4, 4), **kind))
+        self.P = fem.Function(self._P_space)
+        self.A = fem.Function(self._A_space)
+        self.dx = ufl.Measure("dx", domain, metadata={"quadrature_degree": degree,
+                                                      "quadrature_scheme": "default"})
+        self._where, _ = basix.make_quadrature(basix.cell.string_to_type(cell.cellname()), degree)
+        self._cells = np.arange(domain.topology.index_map(domain.topology.dim).size_local,
+                                dtype=np.int32)
+        self.states = grainlaw.States(material, len(self._cells) * len(self._where))
+        self._F = None
+        self._committed = None
+
+    def evaluate(self, u):
+        """Evaluate all points at I + grad u in one call, with the exact tangent. P and A follow
+        when all of them found an equilibrium."""
+        if self._F is None:
+            self._F = fem.Expression(ufl.Identity(2) + ufl.grad(u), self._where)
+        F = self._F.eval(self._cells).reshape(-1, 2, 2)
+        answer = self.states.evaluate(F, grainlaw.Tangent.EXACT)
+        if answer.ok:
+            self.P.x.array.reshape(-1, 4)[self._P_space.dofmap.list.array] = answer.P.reshape(-1, 4)
+            self.A.x.array.reshape(-1, 16)[self._A_space.dofmap.list.array] = \
+                answer.A.reshape(-1, 16)
+        return answer
+
+    def commit(self):
+        self.states.commit()
+        self._committed = self.P.x.array.copy(), self.A.x.array.copy()
+
+    def revert(self):
+        """Back to the committed states; P and A are theirs again."""
+        self.states.revert()
+        self.P.x.array[:], self.A.x.array[:] = self._committed
+
+    def stress_power(self, v):
+        """P : grad v, for the residual."""
+        return ufl.inner(self.P, ufl.grad(v)) * self.dx
+
+    def stiffness(self, u, v):
+        """grad v : A : grad u, for Newton's matrix."""
+        return ufl.dot(_row_major(ufl.grad(v)), self.A * _row_major(ufl.grad(u))) * self.dx
+
+
+def _row_major(G):
+    return ufl.as_vector([G[i, J] for i in range(2) for J in range(2)])

@@ -1,0 +1,187 @@
+// FreeFEM plugin: `load "grainlaw"`. A set of points is a handle >= 1 made by grainlawCreate; tensors
+// are columns of real[int,int] (components by points), or the same numbers in a real[int].
+//
+//   int sand = grainlawCreate("sand.toml", n)          n points at F = I; the number of the set
+//   grainlawEvaluate(sand, F, P [, A [, threads]])     number of points that found no equilibrium
+//       F, P [dim^2, n]: component i*dim+J; A [dim^4, n]: dP_iJ/dF_kL at ((i*dim+J)*dim+k)*dim+L
+//   grainlawStepRatio(sand), grainlawFirstFailed(sand), grainlawMessage(sand)
+//       of the last evaluation: by how much to shorten the step, which point failed first (-1: none)
+//       and why
+//   grainlawCommit(sand), grainlawRevert(sand)         when the load step has converged, or is cut
+//   grainlawSave(sand, "file"), grainlawLoad(sand, "file")
+//   grainlawMeasure(sand, "void_ratio", values)        [components, n], or [n] for a scalar
+//   grainlawWriteVtk(sand, point, "file.vtp")
+//   grainlawPoints(sand), grainlawDimension(sand), grainlawDestroy(sand)
+//
+// What cannot be done throws an ExecError, which `try ... catch(...)` catches; grainlawLastError()
+// has its text. What was committed stays as it was.
+#include "point_set.hpp"
+
+#include <ff++.hpp>
+
+#include <AFunction_ext.hpp>
+
+#include <exception>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace {
+
+using grainlaw_freefem::Array;
+using grainlaw_freefem::PointSet;
+
+using Vector = KN<double>*;   // real[int]
+using Matrix = KNM<double>*;  // real[int,int]
+
+// Numbers of sets are never used twice, so that a stale one is told.
+std::map<long, std::unique_ptr<PointSet>> sets;
+long last_number = 0;
+std::string last_error;
+
+Array view(Vector array) {
+  return {static_cast<double*>(*array), {static_cast<std::size_t>(array->N())}};
+}
+
+Array view(Matrix array) {
+  return {static_cast<double*>(*array),
+          {static_cast<std::size_t>(array->N()), static_cast<std::size_t>(array->M())}};
+}
+
+// Runs a command; whatever goes wrong becomes FreeFEM's own error.
+template <class Command>
+auto guarded(const char* name, Command&& command) {
+  try {
+    return command();
+  } catch (const std::exception& error) {
+    last_error = std::string(name) + ": " + error.what();
+    throw ErrorExec(last_error.c_str(), 1);
+  }
+}
+
+PointSet& find(long number) {
+  const auto found = sets.find(number);
+  if (found == sets.end())
+    throw std::invalid_argument("there is no set of points number " + std::to_string(number) +
+                                ", expected a result of grainlawCreate");
+  return *found->second;
+}
+
+long create(string* const& path, const long& points) {
+  return guarded("grainlawCreate", [&] {
+    sets.emplace(last_number + 1, std::make_unique<PointSet>(*path, points));
+    return ++last_number;
+  });
+}
+
+template <class Field>
+long evaluate(const long& number, const Field& F, const Field& P) {
+  return guarded("grainlawEvaluate",
+                 [&] { return find(number).evaluate(view(F), view(P), nullptr, 0); });
+}
+
+template <class Field>
+long evaluate(const long& number, const Field& F, const Field& P, const Field& A,
+              const long& threads) {
+  return guarded("grainlawEvaluate", [&] {
+    const Array tangent = view(A);
+    return find(number).evaluate(view(F), view(P), &tangent, threads);
+  });
+}
+
+template <class Field>
+long evaluate(const long& number, const Field& F, const Field& P, const Field& A) {
+  return evaluate(number, F, P, A, 0);
+}
+
+long commit(const long& number) {
+  return guarded("grainlawCommit", [&] { return find(number).commit(), 0L; });
+}
+
+long revert(const long& number) {
+  return guarded("grainlawRevert", [&] { return find(number).revert(), 0L; });
+}
+
+long save(const long& number, string* const& path) {
+  return guarded("grainlawSave", [&] { return find(number).save(*path), 0L; });
+}
+
+long load(const long& number, string* const& path) {
+  return guarded("grainlawLoad", [&] { return find(number).load(*path), 0L; });
+}
+
+template <class Field>
+long measure(const long& number, string* const& name, const Field& values) {
+  return guarded("grainlawMeasure",
+                 [&] { return find(number).measure(*name, view(values)), 0L; });
+}
+
+long write_vtk(const long& number, const long& point, string* const& path) {
+  return guarded("grainlawWriteVtk", [&] { return find(number).write_vtk(point, *path), 0L; });
+}
+
+double step_ratio(const long& number) {
+  return guarded("grainlawStepRatio", [&] { return find(number).failure().step_ratio; });
+}
+
+long first_failed(const long& number) {
+  return guarded("grainlawFirstFailed", [&] { return find(number).failure().point; });
+}
+
+string* message(Stack stack, const long& number) {
+  return guarded("grainlawMessage", [&] {
+    return Add2StackOfPtr2Free(stack, new string(find(number).failure().message));
+  });
+}
+
+long points(const long& number) {
+  return guarded("grainlawPoints", [&] { return find(number).size(); });
+}
+
+long dimension(const long& number) {
+  return guarded("grainlawDimension", [&] { return find(number).dimension(); });
+}
+
+long destroy(const long& number) {
+  return guarded("grainlawDestroy", [&] {
+    find(number);
+    sets.erase(number);
+    return 0L;
+  });
+}
+
+string* text_of_last_error() { return &last_error; }
+
+template <class Field>
+void add_array_functions() {
+  Global.Add("grainlawEvaluate", "(",
+             new OneOperator3_<long, long, Field, Field>(evaluate<Field>));
+  Global.Add("grainlawEvaluate", "(",
+             new OneOperator4_<long, long, Field, Field, Field>(evaluate<Field>));
+  Global.Add("grainlawEvaluate", "(",
+             new OneOperator5_<long, long, Field, Field, Field, long>(evaluate<Field>));
+  Global.Add("grainlawMeasure", "(",
+             new OneOperator3_<long, long, string*, Field>(measure<Field>));
+}
+
+void add_functions() {
+  Global.Add("grainlawCreate", "(", new OneOperator2_<long, string*, long>(create));
+  add_array_functions<Vector>();
+  add_array_functions<Matrix>();
+  Global.Add("grainlawCommit", "(", new OneOperator1_<long, long>(commit));
+  Global.Add("grainlawRevert", "(", new OneOperator1_<long, long>(revert));
+  Global.Add("grainlawSave", "(", new OneOperator2_<long, long, string*>(save));
+  Global.Add("grainlawLoad", "(", new OneOperator2_<long, long, string*>(load));
+  Global.Add("grainlawWriteVtk", "(", new OneOperator3_<long, long, long, string*>(write_vtk));
+  Global.Add("grainlawStepRatio", "(", new OneOperator1_<double, long>(step_ratio));
+  Global.Add("grainlawFirstFailed", "(", new OneOperator1_<long, long>(first_failed));
+  Global.Add("grainlawMessage", "(", new OneOperator1s_<string*, long>(message));
+  Global.Add("grainlawPoints", "(", new OneOperator1_<long, long>(points));
+  Global.Add("grainlawDimension", "(", new OneOperator1_<long, long>(dimension));
+  Global.Add("grainlawDestroy", "(", new OneOperator1_<long, long>(destroy));
+  Global.Add("grainlawLastError", "(", new OneOperator0<string*>(text_of_last_error));
+}
+
+}  // namespace
+
+LOADFUNC(add_functions)

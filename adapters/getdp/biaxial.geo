@@ -1,0 +1,20 @@
+// Cells cut from bottom left to top right into two triangles [m].
+DefineConstant[ Columns = 4, Rows = 8 ];
+Point(1) = {0, 0, 0};
+Point(2) = {0.05, 0, 0};
+Point(3) = {0.05, 0.1, 0};
+Point(4) = {0, 0.1, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Transfinite Curve{1, 3} = Columns + 1;
+Transfinite Curve{2, 4} = Rows + 1;
+Transfinite Surface{1} = {1, 2, 3, 4} Right;
+Physical Surface("body", 1) = {1};
+Physical Curve("bottom", 11) = {1};
+Physical Curve("right", 12) = {2};
+Physical Curve("top", 13) = {3};
+Physical Curve("left", 14) = {4};

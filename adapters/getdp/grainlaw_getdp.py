@@ -1,0 +1,258 @@
+"""grainlaw inside GetDP: what the Python[]{} expressions of grainlaw.pro call.
+
+One pass over the integration points hands over their displacement gradients (collect), one call of
+the library evaluates all of them (evaluate), and the terms of the formulation then only read
+(tangent, traction, stress). A point is known by (ElementNum[], QuadraturePointIndex[]).
+
+GetDP does not see a Python exception: the expression keeps its last value. So nothing is raised
+here; what goes wrong is printed, counted, and answered by FAILED, which the Resolution tests.
+"""
+import __main__
+import functools
+import os
+import sys
+
+import numpy as np
+
+import grainlaw
+from grainlaw_steps import LoadSteps, StepTooSmall
+
+FAILED, GO_ON, CUT, CONVERGED = 0, 1, 2, 3
+PATIENCE = 4  # iterations without halving the residual before a step is cut
+
+failures = 0
+_run = None
+# GetDP prints the arguments of an expression into its text; one that is no number has to get here.
+__main__.nan, __main__.inf = float("nan"), float("inf")
+
+
+def _guarded(answer_on_failure):
+    """No exception leaves the function; the first message of a row is enough."""
+    def decorate(function):
+        @functools.wraps(function)
+        def guarded(*arguments, **options):
+            global failures
+            try:
+                return function(*arguments, **options)
+            except Exception as error:  # pylint: disable=broad-except
+                failures += 1
+                if failures == 1:
+                    kind = "" if isinstance(error, grainlaw.Error) else f"{type(error).__name__}: "
+                    print(f"grainlaw: {function.__name__}: {kind}{error}", file=sys.stderr,
+                          flush=True)
+                return answer_on_failure
+        return guarded
+    return decorate
+
+
+class _Run:
+    def __init__(self, material, loads, tolerance, max_iterations, history):
+        self.material = grainlaw.Material(material)
+        self.dimension = self.material.dimension
+        self.steps = LoadSteps(loads)
+        self.tolerance = tolerance
+        self.max_iterations = max_iterations
+        self.history = history
+        self.threads = int(os.environ.get("GRAINLAW_THREADS", len(os.sched_getaffinity(0))))
+        self.rows = {}        # (element, point) -> number of the point
+        self.states = None    # made when the first pass has told how many there are
+        self.gradients = {}   # of this pass, by number of the point
+        self.tables = None    # what the terms read: committed, or of the last evaluation
+        self.committed = None
+        self.residuals = []   # relative, of this attempt
+        self.answer = None
+
+
+def _tables(F, P, A):
+    """Lists of what GetDP reads: vectors of 3 and row-major tensors of 9 numbers by component."""
+    n, d = F.shape[:2]
+    traction = P - np.einsum("niJkL,nkL->niJ", A, F - np.eye(d))
+
+    def vectors(rows):
+        padded = np.zeros((n, d, 3))
+        padded[:, :, :d] = rows
+        return padded.tolist()
+
+    tensors = np.zeros((n, d, d, 3, 3))
+    tensors[:, :, :, :d, :d] = A.transpose(0, 1, 3, 2, 4)
+    return vectors(P), vectors(traction), tensors.reshape(n, d, d, 9).tolist()
+
+
+def _current():
+    if _run is None:
+        raise RuntimeError("grainlaw.start has not been called, or it failed")
+    return _run
+
+
+@_guarded(FAILED)
+def start(material, loads, tolerance, max_iterations=12, history=None):
+    """Read the material; loads as for LoadSteps; tolerance of |force on the unknowns| relative to
+    |nodal forces of the stresses|; history: prefix of HISTORY_force.csv and HISTORY_newton.csv."""
+    global _run, failures
+    _run, failures = None, 0
+    run = _Run(material, loads, tolerance, int(max_iterations), history)
+    if history:
+        _write(run, "_force.csv", "w", "step[-],fraction[-],top_y_displacement[m],"
+               "top_x_force[N/m],top_y_force[N/m]")
+        _write(run, "_newton.csv", "w", "step[-],iteration[-],relative_residual[-]")
+    _run = run
+    return GO_ON
+
+
+@_guarded([0.0])
+def collect(arguments):
+    """Of one point: element, point, and a gradient of 3 numbers for each displacement component."""
+    run = _current()
+    element, point, *gradients = arguments
+    d = run.dimension
+    if len(gradients) != d or any(not isinstance(g, list) or len(g) != 3 for g in gradients):
+        raise ValueError(f"expected element, point and {d} gradients of 3 numbers, got {arguments}")
+    key = (int(element), int(point))
+    if run.states is None:
+        row = run.rows.setdefault(key, len(run.rows))
+    elif (row := run.rows.get(key)) is None:
+        raise LookupError(f"element {key[0]}, point {key[1]} was not there in the first pass")
+    run.gradients[row] = [gradient[:d] for gradient in gradients]
+    return [0.0]
+
+
+@_guarded(FAILED)
+def evaluate():
+    """All points that a pass collected, in one call: GO_ON, or CUT when one found no equilibrium."""
+    run = _current()
+    collected, run.gradients = run.gradients, {}
+    if failures:
+        return FAILED
+    if not collected or len(collected) != len(run.rows):
+        raise RuntimeError(f"{len(collected)} of {len(run.rows)} points were collected")
+    F = np.eye(run.dimension) + np.array([collected[row] for row in range(len(collected))])
+    if run.states is None:
+        run.states = grainlaw.States(run.material, len(run.rows))
+    try:
+        run.answer = run.states.evaluate(F, grainlaw.Tangent.EXACT, run.threads)
+    except grainlaw.Error as error:
+        raise grainlaw.Error(error.status, f"{error.message}; {_where(run, error)}") from None
+    if not run.answer.ok:
+        return _cut(run, run.answer.step_ratio, run.answer.message)
+    run.tables = _tables(F, run.answer.P, run.answer.A)
+    if run.committed is None:  # the first pass, at no displacement
+        _commit(run)
+    return GO_ON
+
+
+def _where(run, error):
+    keys = list(run.rows)
+    words = error.message.split(":")[0].split()
+    number = int(words[1]) if words[0] == "point" else 0
+    return "element {}, quadrature point {}".format(*keys[number])
+
+
+def _commit(run):
+    run.states.commit()
+    run.committed = run.tables
+
+
+def _cut(run, ratio, reason):
+    run.states.revert()
+    run.tables = run.committed
+    if run.committed is None:
+        raise RuntimeError(f"no equilibrium without displacement: {reason}")
+    print(f"grainlaw: load {run.steps.load:.6g}: {reason}; the step is cut", flush=True)
+    run.residuals = []
+    run.steps.cut(ratio)
+    return CUT
+
+
+@_guarded(-1.0)
+def load():
+    """The fraction of the load to try next."""
+    return _current().steps.load
+
+
+@_guarded(FAILED)
+def judge(arguments):
+    """After the system was generated: |residual| and |nodal forces of the stresses| of it. The first
+    call of an attempt is the out-of-balance of the load increment, the others follow a solve."""
+    run = _current()
+    if failures:
+        return FAILED
+    residual, scale = arguments
+    run.residuals.append(residual / scale)
+    iteration = len(run.residuals) - 1
+    if iteration == 0:
+        return GO_ON
+    if run.residuals[-1] <= run.tolerance:
+        return _accept(run)
+    since = run.residuals[1:]
+    stalled = len(since) > PATIENCE and min(since[-PATIENCE:]) > 0.5 * min(since[:-PATIENCE])
+    if iteration >= run.max_iterations or stalled or not np.isfinite(run.residuals[-1]):
+        return _cut(run, 0.5, f"Newton did not converge ({_shown(run.residuals)})")
+    return GO_ON
+
+
+def _shown(residuals):
+    return ", ".join(f"{residual:.1e}" for residual in residuals)
+
+
+def _accept(run):
+    _commit(run)
+    print(f"grainlaw: load {run.steps.load:.6g}: {_shown(run.residuals)}", flush=True)
+    for iteration, residual in enumerate(run.residuals):
+        _write(run, "_newton.csv", "a", f"{run.steps.number},{iteration},{residual:.17g}")
+    return CONVERGED
+
+
+@_guarded(FAILED)
+def finish(arguments):
+    """After an attempt: its outcome, and of a converged one displacement and force of the platen.
+    GO_ON while there is load left, CONVERGED at the end."""
+    run = _current()
+    outcome, displacement, force_x, force_y = arguments
+    run.residuals = []
+    if int(outcome) == CONVERGED:
+        _write(run, "_force.csv", "a", f"{run.steps.number},{run.steps.load:.17g},"
+               f"{displacement:.17g},{force_x:.17g},{force_y:.17g}")
+        run.steps.accept()
+    if failures:
+        return FAILED
+    if run.steps:
+        return GO_ON
+    print(f"grainlaw: the whole load is applied; {run.steps.cuts} cuts", flush=True)
+    return CONVERGED
+
+
+def _write(run, ending, mode, line):
+    if run.history:
+        with open(run.history + ending, mode, encoding="utf-8") as file:
+            file.write(line + "\n")
+
+
+def _read(table, arguments, *components):
+    run = _current()
+    if run.tables is None:
+        raise RuntimeError("a term was read before the points were evaluated")
+    row = run.rows.get((int(arguments[0]), int(arguments[1])))
+    if row is None:
+        raise LookupError(f"element {arguments[0]:.0f}, point {arguments[1]:.0f} was not collected")
+    values = run.tables[table][row]
+    for component in components:
+        values = values[component - 1]
+    return values
+
+
+@_guarded([0.0] * 3)
+def stress(i, arguments):
+    """Row i of P [Pa]."""
+    return _read(0, arguments, i)
+
+
+@_guarded([0.0] * 3)
+def traction(i, arguments):
+    """Row i of P - A : (F - I) [Pa]: the constant of Newton's step in the total displacement."""
+    return _read(1, arguments, i)
+
+
+@_guarded([0.0] * 9)
+def tangent(i, k, arguments):
+    """A_iJkL [Pa], a row for J and a column for L."""
+    return _read(2, arguments, i, k)

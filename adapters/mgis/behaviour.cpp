@@ -1,0 +1,241 @@
+// One call of an MGIS host: which state is meant, the packing's answer, in the host's measures.
+#include "library_points.hpp"
+#include "point_table.hpp"
+
+#include <grainlaw/mgis.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace grainlaw::adapters {
+namespace {
+
+constexpr std::size_t message_size = 512;
+constexpr double unreliable_step = 0.5;  // asked for after an approximate answer
+constexpr double same_place = 1e-9;  // of F, between what is committed and what the host recalls
+
+constexpr std::array<std::size_t, 9> tensor_order{0, 4, 8, 1, 3, 2, 6, 5, 7};
+constexpr std::array<std::size_t, 6> symmetric_order{0, 4, 8, 1, 2, 5};
+
+// What K asks for on entry.
+struct Request {
+  bool prediction = false;  // tangent at the start of the step; no integration
+  unsigned want = 0;
+  int stress = 0;   // 0 Cauchy, 1 second, 2 first Piola-Kirchhoff
+  int tangent = 0;  // 0 dsigma/dF, 1 dS/dE, 2 dP/dF, 3 dtau/d(dF)
+};
+
+int option(double value, int most, const char* what) {
+  if (!(value > -0.5 && value < most + 0.5)) {
+    char text[128];
+    std::snprintf(text, sizeof text, "%s is %g; 0 to %d were expected", what, value, most);
+    throw std::runtime_error(text);
+  }
+  return static_cast<int>(std::lround(value));
+}
+
+Request read_request(const double* K) {
+  if (!(std::abs(K[0]) < 50)) {
+    throw std::runtime_error(std::isfinite(K[0])
+                                 ? "K[0] asks for the speed of sound, which is not computed"
+                                 : "K[0], what is asked for, is not finite");
+  }
+  Request request;
+  request.prediction = K[0] < -0.5;
+  const double kind = std::abs(K[0]);
+  if (kind > 2.5) {
+    request.want = GRAINLAW_WANT_TANGENT_EXACT;
+  } else if (kind > 0.5) {
+    request.want = GRAINLAW_WANT_TANGENT_ELASTIC;
+  }
+  request.stress = option(K[1], 2, "K[1], the stress measure,");
+  if (request.want != 0) request.tangent = option(K[2], 3, "K[2], the tangent,");
+  return request;
+}
+
+Tensor2 read_gradient(const double* values, int dimension) {
+  Tensor2 F = identity;
+  const std::size_t size = dimension == 2 ? 5 : 9;
+  for (std::size_t k = 0; k < size; ++k) F[tensor_order[k]] = values[k];
+  return F;
+}
+
+// Sizes and factors of the host's vectors: row a of a symmetric tensor carries sqrt(2) from 12 on.
+double factor(bool symmetric, std::size_t a) {
+  return symmetric && a >= 3 ? std::numbers::sqrt2 : 1;
+}
+std::size_t size_of(bool symmetric, int dimension) {
+  if (symmetric) return dimension == 2 ? 4 : 6;
+  return dimension == 2 ? 5 : 9;
+}
+std::size_t place(bool symmetric, std::size_t a) {
+  return symmetric ? symmetric_order[a] : tensor_order[a];
+}
+
+void write_stress(const Request& request, int dimension, const Response& response, double* out) {
+  const bool symmetric = request.stress != 2;
+  const Tensor2 stress = request.stress == 0   ? cauchy_stress(response)
+                         : request.stress == 1 ? response.S
+                                               : response.P;
+  for (std::size_t a = 0; a < size_of(symmetric, dimension); ++a) {
+    out[a] = factor(symmetric, a) * stress[place(symmetric, a)];
+  }
+}
+
+void write_tangent(const Request& request, int dimension, const Response& response,
+                   const Tensor2& F0, double* K) {
+  Tensor4 computed;
+  const Tensor4* tangent = &computed;
+  if (request.tangent == 0) {
+    cauchy_by_F(response, computed);
+  } else if (request.tangent == 1) {
+    second_piola_by_green(response, computed);
+  } else if (request.tangent == 2) {
+    tangent = &response.A;
+  } else {
+    kirchhoff_by_increment(response, F0, computed);
+  }
+  const bool rows = request.tangent != 2;
+  const bool columns = request.tangent == 1;
+  for (std::size_t a = 0; a < size_of(rows, dimension); ++a) {
+    const double* row = &(*tangent)[9 * place(rows, a)];
+    for (std::size_t b = 0; b < size_of(columns, dimension); ++b) {
+      *K++ = factor(rows, a) * factor(columns, b) * row[place(columns, b)];
+    }
+  }
+}
+
+// The point in the state the host starts from.
+struct Start {
+  std::shared_ptr<TablePoint> point;
+  std::unique_lock<std::mutex> in_use;
+  bool is_new = false;
+};
+
+Start start(PointTable& table, const grainlaw_mgis_state& s0, int dimension) {
+  const double name = s0.internal_state_variables[0];
+  const double step = s0.internal_state_variables[1];
+  Start result;
+  if (name == 0 && step == 0) {
+    result.point = table.create();
+    result.is_new = true;
+  } else {
+    result.point = table.find(name, step);
+  }
+  TablePoint& point = *result.point;
+  result.in_use = std::unique_lock(point.in_use, std::try_to_lock);
+  if (!result.in_use) {
+    throw std::runtime_error(
+        "two threads ask for one state at once; each point needs internal state variables of its "
+        "own, zero at the start");
+  }
+  if (result.is_new) return result;
+  const Tensor2 F0 = read_gradient(s0.gradients, dimension);
+  if (step == static_cast<double>(point.step + 1)) {
+    point.accept(F0);
+    ++point.step;
+    table.keep(result.point);
+  } else if (step != static_cast<double>(point.step)) {
+    throw std::runtime_error("GrainlawStep is " + std::to_string(step) +
+                             ", but the point has gone through " + std::to_string(point.step) +
+                             " increments: only the last one can be retried");
+  } else if (!(Point::distance(F0, point.committed()) <= same_place)) {
+    throw std::runtime_error(
+        "the gradients at the start of the step are not those of the point's state: two points "
+        "hold the same internal state variables, or gradients were not kept with them");
+  }
+  return result;
+}
+
+void require(const void* pointer, const char* what) {
+  if (pointer == nullptr) throw std::runtime_error(std::string(what) + " is a null pointer");
+}
+
+int integrate(PointTable& table, int dimension, grainlaw_mgis_data& data) {
+  require(data.K, "K");
+  require(data.s0.gradients, "s0.gradients");
+  require(data.s0.internal_state_variables, "s0.internal_state_variables");
+  const Request request = read_request(data.K);
+  if (!request.prediction) {
+    require(data.s1.gradients, "s1.gradients");
+    require(data.s1.thermodynamic_forces, "s1.thermodynamic_forces");
+    require(data.s1.internal_state_variables, "s1.internal_state_variables");
+  }
+  if (table.material().dimension() > dimension) {
+    throw std::runtime_error("a packing of spheres needs the hypothesis Tridimensional");
+  }
+  const Start from = start(table, data.s0, dimension);
+  TablePoint& point = *from.point;
+  const Tensor2 F =
+      request.prediction ? point.committed() : read_gradient(data.s1.gradients, dimension);
+  Response response;
+  const Answer answer = point.evaluate(F, request.want, response);
+  if (answer.status != GRAINLAW_OK) {
+    if (data.rdt != nullptr) *data.rdt = std::min(*data.rdt, answer.report.step_ratio);
+    throw std::runtime_error(std::string(grainlaw_status_text(answer.status)) +
+                             (answer.report.message[0] != '\0' ? ": " : "") +
+                             answer.report.message);
+  }
+  if (request.want != 0) {
+    const Tensor2 F0 = from.is_new ? identity : read_gradient(data.s0.gradients, dimension);
+    write_tangent(request, dimension, response, F0, data.K);
+  }
+  if (request.prediction) {
+    point.revert();
+    return 1;
+  }
+  write_stress(request, dimension, response, data.s1.thermodynamic_forces);
+  if (from.is_new) table.add(from.point);
+  data.s1.internal_state_variables[0] = point.name;
+  data.s1.internal_state_variables[1] = static_cast<double>(point.step + 1);
+  if (!answer.approximate) return 1;
+  if (data.rdt != nullptr) *data.rdt = std::min(*data.rdt, unreliable_step);
+  if (data.error_message != nullptr) {
+    std::snprintf(data.error_message, message_size,
+                  "the equilibrium was only found by advancing the friction history; approximate");
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace grainlaw::adapters
+
+extern "C" {
+
+int grainlaw_mgis_integrate(grainlaw_mgis_behaviour* behaviour, int dimension,
+                            grainlaw_mgis_data* data) {
+  using namespace grainlaw::adapters;
+  if (behaviour == nullptr || data == nullptr) return -1;
+  const auto tell = [&](const char* what) {
+    if (data->error_message != nullptr) {
+      std::snprintf(data->error_message, message_size, "%s: %s", behaviour->name, what);
+    }
+    return -1;
+  };
+  try {
+    return integrate(points_of<PointTable>(behaviour), dimension, *data);
+  } catch (const std::exception& error) {
+    return tell(error.what());
+  } catch (...) {
+    return tell("unknown fault");
+  }
+}
+
+size_t grainlaw_mgis_states(const grainlaw_mgis_behaviour* behaviour) {
+  if (behaviour == nullptr || behaviour->points == nullptr) return 0;
+  return static_cast<const grainlaw::adapters::PointTable*>(behaviour->points)->size();
+}
+
+void grainlaw_mgis_release(grainlaw_mgis_behaviour* behaviour) {
+  grainlaw::adapters::release_points<grainlaw::adapters::PointTable>(behaviour);
+}
+
+}  // extern "C"

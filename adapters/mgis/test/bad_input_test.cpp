@@ -1,0 +1,145 @@
+// What a host may get wrong: -1 and a text in error_message, nothing of the host's changed, and the
+// state as it was committed.
+#include "mgis_host.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <functional>
+#include <limits>
+
+namespace grainlaw::test {
+namespace {
+
+using F2 = std::array<double, 4>;
+constexpr F2 first{0.9996, 0.0003, -0.0001, 1.0002};
+constexpr F2 second{0.9990, 0.0012, -0.0004, 1.0005};
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+class mgis_bad_input : public testing::Test {
+ protected:
+  BehaviourLibrary library{std::string(GRAINLAW_BEHAVIOURS) + "/libRve400.so"};
+  Manager host{library, "Rve400", "Tridimensional", 2, cauchy, dsigma_dF};
+
+  void SetUp() override {
+    for (std::size_t p = 0; p < 2; ++p) {
+      host.set_F(p, first);
+      ASSERT_EQ(host.integrate(p), 1) << host.message;
+    }
+    host.update();
+    for (std::size_t p = 0; p < 2; ++p) {
+      host.set_F(p, second);
+      ASSERT_EQ(host.integrate(p), 1) << host.message;
+    }
+    good_ = host.s1;
+  }
+
+  // The wrong call fails with the text; afterwards the right one gives what it gave before.
+  void refused(const char* text, const std::function<void(Manager&)>& spoil,
+               double request = consistent) {
+    Manager wrong = host;
+    spoil(wrong);
+    const Manager::State before = wrong.s1;
+    const std::vector<double> K = wrong.K;
+    EXPECT_EQ(wrong.integrate(0, request), -1) << text;
+    EXPECT_NE(wrong.message.find(text), std::string::npos) << wrong.message;
+    EXPECT_EQ(wrong.message.rfind("Rve400: ", 0), 0u) << wrong.message;
+    EXPECT_EQ(wrong.s1.forces, before.forces);
+    EXPECT_EQ(wrong.s1.internal.size(), before.internal.size());
+    EXPECT_TRUE(std::equal(K.begin() + 3, K.end(), wrong.K.begin() + 3));
+    for (std::size_t p = 0; p < 2; ++p) {
+      host.set_F(p, second);
+      ASSERT_EQ(host.integrate(p), 1) << host.message;
+    }
+    EXPECT_EQ(host.s1.forces, good_.forces);
+  }
+
+ private:
+  Manager::State good_;
+};
+
+TEST_F(mgis_bad_input, gradients_that_are_no_numbers) {
+  refused("F12 of the deformation gradient is nan", [](Manager& m) { m.s1.gradients[3] = nan; });
+  refused("F33 of the deformation gradient is inf",
+          [](Manager& m) { m.s1.gradients[2] = std::numeric_limits<double>::infinity(); });
+}
+
+TEST_F(mgis_bad_input, gradients_out_of_the_plane_of_discs) {
+  refused("F33 is 1.01", [](Manager& m) { m.s1.gradients[2] = 1.01; });
+  refused("F31 is 0.002", [](Manager& m) { m.s1.gradients[6] = 0.002; });
+}
+
+TEST_F(mgis_bad_input, an_inverted_element_is_told_and_the_step_is_cut) {
+  refused("det F", [](Manager& m) { m.set_F(0, {-1, 0, 0, 1}); });
+}
+
+TEST_F(mgis_bad_input, states_that_are_not_known) {
+  refused("name no state of this process", [](Manager& m) { m.s0.internal[0] = 17; });
+  refused("name no state of this process", [](Manager& m) { m.s0.internal[0] = nan; });
+  refused("name no state of this process", [](Manager& m) { m.s0.internal[0] = -3; });
+  refused("name no state of this process", [](Manager& m) { m.s0.internal[1] = nan; });
+  refused("name no state of this process", [](Manager& m) { m.s0.internal[1] = 0; });
+  refused("GrainlawStep is 5", [](Manager& m) { m.s0.internal[1] = 5; });
+}
+
+TEST_F(mgis_bad_input, two_points_with_one_state) {
+  refused("two points hold the same internal state variables", [](Manager& m) {
+    std::copy_n(&m.s0.internal[2], 2, &m.s0.internal[0]);
+    m.s0.gradients[0] += 1e-3;
+  });
+}
+
+TEST_F(mgis_bad_input, requests_that_are_not_known) {
+  refused(
+      "speed of sound", [](Manager&) {}, 104);
+  refused(
+      "not finite", [](Manager&) {}, nan);
+}
+
+TEST_F(mgis_bad_input, null_pointers) {
+  auto* integrate = library.symbol<int(mfront_gb_BehaviourData*)>("Rve400_PlaneStrain");
+  EXPECT_EQ(integrate(nullptr), -1);
+  mfront_gb_BehaviourData data{};
+  EXPECT_EQ(integrate(&data), -1);
+  std::array<char, 512> text{};
+  data.error_message = text.data();
+  EXPECT_EQ(integrate(&data), -1);
+  EXPECT_STREQ(text.data(), "Rve400: K is a null pointer");
+  double K[3] = {0, 7, 0};
+  data.K = K;
+  EXPECT_EQ(integrate(&data), -1);
+  EXPECT_STREQ(text.data(), "Rve400: s0.gradients is a null pointer");
+  const double F[5] = {1, 1, 1, 0, 0};
+  double internal[2] = {0, 0};
+  data.s0.gradients = F;
+  data.s0.internal_state_variables = internal;
+  EXPECT_EQ(integrate(&data), -1);
+  EXPECT_STREQ(text.data(), "Rve400: K[1], the stress measure, is 7; 0 to 2 were expected");
+}
+
+TEST_F(mgis_bad_input, a_host_without_message_buffer_and_rdt) {
+  host.set_F(0, {1.6, 0, 0, 1});
+  EXPECT_EQ(host.call(0, consistent, nullptr, nullptr), -1);
+}
+
+TEST(mgis_material, a_missing_file_is_named_and_may_come_later) {
+  const std::string folder = GRAINLAW_BEHAVIOURS;
+  const BehaviourLibrary library(folder + "/libByHand.so");
+  Manager host(library, "Missing", "PlaneStrain", 1, cauchy, dsigma_dF);
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    EXPECT_EQ(host.integrate(0), -1);
+    EXPECT_NE(host.message.find(folder + "/no_such_material.toml"), std::string::npos)
+        << host.message;
+  }
+}
+
+TEST(mgis_material, an_environment_variable_goes_before_the_library) {
+  setenv("GRAINLAW_MATERIAL_Named", GRAINLAW_TEST_DATA "/rve400.toml", 1);
+  const BehaviourLibrary library(std::string(GRAINLAW_BEHAVIOURS) + "/libByHand.so");
+  Manager host(library, "Named", "PlaneStrain", 1, cauchy, dsigma_dF);
+  EXPECT_EQ(host.integrate(0), 1) << host.message;
+  unsetenv("GRAINLAW_MATERIAL_Named");
+}
+
+}  // namespace
+}  // namespace grainlaw::test

@@ -1,0 +1,96 @@
+#include "point.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+namespace grainlaw::adapters {
+namespace {
+
+constexpr double rounding = 1e-12;  // of F in a host that computes it twice [-]
+
+[[noreturn]] void refuse(const char* format, const std::string& component, double value) {
+  char text[256];
+  std::snprintf(text, sizeof text, format, component.c_str(), value);
+  throw std::runtime_error(text);
+}
+
+}  // namespace
+
+std::string component_name(int index) {
+  return {'F', static_cast<char>('1' + index / 3), static_cast<char>('1' + index % 3)};
+}
+
+Point::Point(const abi::Material& material) : state_(material), dimension_(material.dimension()) {}
+
+double Point::distance(const Tensor2& F, const Tensor2& other) {
+  double largest = 0;
+  for (std::size_t k = 0; k < F.size(); ++k) {
+    const double difference = std::abs(F[k] - other[k]);
+    if (!(difference <= largest)) largest = difference;  // NaN is far away
+  }
+  return largest;
+}
+
+bool Point::is_trial(const Tensor2& F) const {
+  return has_trial_ && distance(F, trial_) <= rounding;
+}
+
+Answer Point::evaluate(const Tensor2& F, unsigned want, Response& response) {
+  for (int k = 0; k < 9; ++k) {
+    const double value = F[static_cast<std::size_t>(k)];
+    if (!std::isfinite(value)) {
+      refuse("%s of the deformation gradient is %g; a finite number was expected",
+             component_name(k), value);
+    }
+  }
+  double reduced[9], P[9], A[81];
+  if (const int wrong = reduce(dimension_, F, reduced); wrong >= 0) {
+    refuse(
+        "%s is %.9g, but this packing of discs is plane strain in the 1-2 plane: F33 = 1 and "
+        "F13, F23, F31, F32 = 0 were expected; hold the displacements along 3",
+        component_name(wrong), F[static_cast<std::size_t>(wrong)]);
+  }
+  has_trial_ = false;
+  Answer answer;
+  answer.status =
+      grainlaw_evaluate(state_.get(), reduced, want, P, want != 0 ? A : nullptr, &answer.report);
+  if (answer.status < 0) throw abi::StatusError(answer.status, answer.report.message);
+  if (answer.status != GRAINLAW_OK) return answer;
+  has_trial_ = true;
+  trial_ = F;
+  answer.approximate = answer.report.history_advanced != 0;
+  response.F = F;
+  complete(dimension_, P, want != 0 ? A : nullptr, response);
+  return answer;
+}
+
+void Point::accept(const Tensor2& F) {
+  if (!is_trial(F)) {
+    Response unused;
+    const Answer answer = evaluate(F, 0, unused);
+    if (answer.status != GRAINLAW_OK) {
+      throw std::runtime_error(
+          std::string("the host goes on from a deformation gradient at which the packing finds no "
+                      "equilibrium: ") +
+          grainlaw_status_text(answer.status));
+    }
+  }
+  state_.commit();
+  committed_ = trial_;
+  has_trial_ = false;
+}
+
+std::size_t Point::bytes() const {
+  std::size_t size = 0;
+  abi::check(grainlaw_state_save(state_.get(), nullptr, &size));
+  return 2 * size;
+}
+
+void Point::revert() {
+  state_.revert();
+  has_trial_ = false;
+}
+
+}  // namespace grainlaw::adapters

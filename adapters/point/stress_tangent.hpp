@@ -1,0 +1,45 @@
+// Stress measures and their tangents, out of what the packing answers: P and dP/dF. Everything is
+// three-dimensional here; a packing of discs enters as plane strain.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace grainlaw::adapters {
+
+using Tensor2 = std::array<double, 9>;   // [3 i + J]
+using Tensor4 = std::array<double, 81>;  // [9 (3 i + J) + 3 k + L]
+
+inline constexpr Tensor2 identity{1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+struct Response {
+  Tensor2 F = identity;  // deformation gradient [-]
+  Tensor2 P{};           // first Piola-Kirchhoff stress [Pa], tension positive
+  Tensor2 S{};           // second Piola-Kirchhoff stress F^-1 P [Pa], symmetric
+  Tensor4 A{};           // dP/dF [Pa]
+};
+
+// The components of F that a packing of this dimension is asked for: F[dim*dim], row-major.
+// Returns the index 3 i + J of a component in which F leaves plane strain, or -1: a packing of
+// discs (dimension 2) wants F33 = 1 and F13, F23, F31, F32 = 0, each to 1e-9.
+int reduce(int dimension, const Tensor2& F, double* reduced);
+
+// P[dim*dim] and A[dim^4] (or NULL) of the packing, completed to three dimensions. Out of the plane
+// of discs S is zero and does not depend on the strain, so that P = F S turns with F and
+// dP_3J/dF_3L = S_LJ is all that the tangent has there.
+void complete(int dimension, const double* P, const double* A, Response& response);
+
+// Cauchy stress P F^T / det F [Pa].
+Tensor2 cauchy_stress(const Response&);
+
+// d(Cauchy stress)/dF [Pa].
+void cauchy_by_F(const Response&, Tensor4& out);
+
+// dS/dE, E = (F^T F - I)/2 [Pa]; E12 and E21 count as one variable each, so that both minor
+// symmetries hold. Major symmetry does not, once contacts slide.
+void second_piola_by_green(const Response&, Tensor4& out);
+
+// d(Kirchhoff stress)/d(dF) [Pa], where F = dF F0.
+void kirchhoff_by_increment(const Response&, const Tensor2& F0, Tensor4& out);
+
+}  // namespace grainlaw::adapters

@@ -1,0 +1,73 @@
+"""Load steps that are cut where a point or Newton fails, for hosts whose loop is written in Python.
+
+    steps = LoadSteps(20)
+    while steps:
+        if attempt(steps.load):                 # tries to reach this fraction of the load
+            steps.accept()                      # after commit
+        else:
+            steps.cut(answer.step_ratio)        # after revert
+"""
+
+SMALLEST_CUT, USUAL_CUT = 0.1, 0.5   # of a part that failed, in one go
+GROWTH = 2.0                         # of the part after one that went well
+
+
+class StepTooSmall(Exception):
+    """A step was cut as often as allowed and still fails."""
+
+
+class LoadSteps:
+    """Fractions of the load to reach one after the other. `loads` is their number, for equal steps
+    from 0 to 1, or the ascending fractions themselves; a first one of 0 is a step of its own, for
+    loads that act from the start. No part gets smaller than its step / 2**max_cuts."""
+
+    def __init__(self, loads, max_cuts=10):
+        if isinstance(loads, int):
+            loads = [(k + 1) / loads for k in range(loads)]
+        self._goals = [float(load) for load in loads]
+        ascending = all(a < b for a, b in zip(self._goals, self._goals[1:]))
+        if not self._goals or not ascending or not all(0 <= goal <= 1 for goal in self._goals):
+            raise ValueError("expected a number of load steps >= 1, or ascending fractions of the "
+                             f"load from 0 to 1, got {loads!r}")
+        self._max_cuts = max_cuts
+        self._start = self.done = 0.0
+        self.number = 0          #: of the load step, from 0
+        self.cuts = 0            #: so far
+        self.accepted = []       #: fractions that were committed
+        self.load = self._goals[0]
+
+    def __bool__(self):
+        return self.number < len(self._goals)
+
+    @property
+    def complete(self):
+        """Whether `load` ends its load step."""
+        return self.load == self._goals[self.number]
+
+    def accept(self):
+        part = self.load - self.done
+        complete = self.complete
+        self.done = self.load
+        self.accepted.append(self.load)
+        if complete:
+            self.number += 1
+            self._start = self.done
+            if self:
+                self.load = self._goals[self.number]
+        else:
+            self._aim(GROWTH * part)
+
+    def cut(self, ratio):
+        step = self._goals[self.number] - self._start
+        part = (self.load - self.done) * max(SMALLEST_CUT, min(USUAL_CUT, ratio))
+        if part <= step / 2**(self._max_cuts + 1) or step == 0:
+            raise StepTooSmall(f"load step {self.number} fails at fraction {self.load:.6g} of the "
+                               f"load even in parts of {self.load - self.done:.1e}")
+        self.cuts += 1
+        self._aim(part)
+
+    def _aim(self, part):
+        goal = self._goals[self.number]
+        # A rest that is nothing but round-off is not a part.
+        near = self.done + part >= goal - 1e-9 * (goal - self._start)
+        self.load = goal if near else self.done + part

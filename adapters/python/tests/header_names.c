@@ -1,0 +1,32 @@
+/* What a C compiler makes of the lists in the header, for header_test.py. */
+#include <grainlaw/grainlaw.h>
+#include <stdio.h>
+
+#define FIELD(name) printf("Report %s %zu\n", #name, offsetof(grainlaw_report, name));
+
+int main(void) {
+#define GRAINLAW_X(name, value, text) printf("Status %s %d\n", #name, (int)(name));
+  GRAINLAW_STATUS_LIST(GRAINLAW_X)
+#undef GRAINLAW_X
+#define GRAINLAW_X(name, value, count, text) printf("Measure %s %d\n", #name, (int)(name));
+  GRAINLAW_MEASURE_LIST(GRAINLAW_X)
+#undef GRAINLAW_X
+  printf("Tangent GRAINLAW_EXACT %d\n", GRAINLAW_WANT_TANGENT_EXACT);
+  printf("Tangent GRAINLAW_ELASTIC %d\n", GRAINLAW_WANT_TANGENT_ELASTIC);
+  printf("Tangent GRAINLAW_PERTURBED %d\n", GRAINLAW_WANT_TANGENT_PERTURBED);
+  FIELD(size)
+  FIELD(residual)
+  FIELD(step_ratio)
+  FIELD(relaxation_steps)
+  FIELD(servo_corrections)
+  FIELD(factorisations)
+  FIELD(subincrements)
+  FIELD(contacts)
+  FIELD(sliding)
+  FIELD(status_changes)
+  FIELD(tangent_exact)
+  FIELD(history_advanced)
+  FIELD(message)
+  printf("sizeof %zu\n", sizeof(grainlaw_report));
+  return 0;
+}

@@ -1,0 +1,53 @@
+"""The names and layouts that make_names found in the header are those of a C compiler, and those of
+the library that was loaded."""
+import ctypes
+import os
+import subprocess
+import unittest
+
+import grainlaw
+import grainlaw_names
+from grainlaw_library import library, status_text
+from support import material
+
+
+class Header(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        run = subprocess.run([os.environ["GRAINLAW_HEADER_NAMES"]], text=True, check=True,
+                             stdout=subprocess.PIPE)
+        cls.said = {}
+        for line in run.stdout.splitlines():
+            words = line.split()
+            cls.said.setdefault(words[0], []).append(words[1:])
+
+    def test_enumerations_are_those_of_the_header(self):
+        for kind in ("Status", "Measure", "Tangent"):
+            said = [(name.removeprefix("GRAINLAW_"), int(value)) for name, value in self.said[kind]]
+            ours = [(entry.name, entry.value) for entry in getattr(grainlaw_names, kind)]
+            self.assertEqual(ours, said)
+
+    def test_report_has_the_size_and_offsets_of_the_header(self):
+        self.assertEqual(ctypes.sizeof(grainlaw_names.Report), int(self.said["sizeof"][0][0]))
+        for name, offset in self.said["Report"]:
+            self.assertEqual(getattr(grainlaw_names.Report, name).offset, int(offset), name)
+
+    def test_the_library_knows_each_status_and_measure_and_no_more(self):
+        unknown = status_text(1000)
+        texts = [status_text(status) for status in grainlaw.Status]
+        self.assertEqual(len(set(texts) | {unknown}), len(grainlaw.Status) + 1)
+        for beyond in (max(grainlaw.Status) + 1, min(grainlaw.Status) - 1):
+            self.assertEqual(status_text(beyond), unknown)
+        state = grainlaw.State(material())
+        for measure in grainlaw.Measure:
+            state.measure(measure)
+        with self.assertRaises(grainlaw.Error):
+            state.measure(max(grainlaw.Measure) + 1)
+
+    def test_version_is_that_of_the_header(self):
+        self.assertEqual(grainlaw.version(), grainlaw_names.VERSION)
+        self.assertEqual(library.grainlaw_version().decode(), grainlaw_names.VERSION)
+
+
+if __name__ == "__main__":
+    unittest.main()

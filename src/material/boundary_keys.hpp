@@ -1,0 +1,12 @@
+// The [boundary] table of a material file.
+#pragma once
+
+#include "boundary/options.hpp"
+#include "material/toml_table.hpp"
+
+namespace grainlaw {
+
+// Throws Error (BAD_MATERIAL) as TomlTable does.
+BoundaryOptions read_boundary(TomlTable table);
+
+}  // namespace grainlaw

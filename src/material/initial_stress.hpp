@@ -1,0 +1,15 @@
+// From the equilibrium at F = I to the one under the prescribed components of stress.
+#pragma once
+
+#include "equilibrium/chain.hpp"
+
+namespace grainlaw {
+
+// Load from `at` (at F = I, with its stress) until the prescribed components of `space` are reached,
+// in steps that shrink where no equilibrium is found. Of the request everything but the start is
+// used. Throws Error (NOT_CONVERGED, CONTACTS_LOST, COLLAPSED) that names the stress which no state
+// carries.
+void load_to_stress(const BoundarySpace& space, const Request& request, Workspace& workspace,
+                    Configuration& at);
+
+}  // namespace grainlaw
