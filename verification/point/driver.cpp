@@ -119,8 +119,9 @@ PointDriver::Attempt PointDriver::attempt(const Goal& goal, double tolerance, Ef
     if (goal.mixed) ++effort.iterations;
     if (result.evaluation.status != GRAINLAW_OK) {
       result.step_ratio = result.evaluation.report.step_ratio;
-      result.reason = fmt::format("{} {}", grainlaw_status_text(result.evaluation.status),
-                                  result.evaluation.report.message);
+      const std::string text = grainlaw_status_text(result.evaluation.status);
+      const std::string message = result.evaluation.report.message;
+      result.reason = message.empty() || message == text ? text : text + ": " + message;
       return result;
     }
     result.deformation = deformation_of(state_.get());

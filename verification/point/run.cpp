@@ -76,18 +76,28 @@ class Observer {
 
 PointEnd run_point(const PointScene& scene, const std::filesystem::path& stem) {
   PointEnd end;
-  const Material material = make_material(scene.material);
+  for (const Segment& segment : scene.segments) end.steps_wanted += segment.steps;
+  if (scene.options.max_steps > 0)
+    end.steps_wanted = std::min(end.steps_wanted, scene.options.max_steps);
+  Material material;
+  try {
+    material = make_material(scene.material);
+  } catch (const ComputationError& error) {
+    if (!scene.may_end) throw;
+    std::filesystem::remove(stem.string() + ".csv");  // of an earlier run
+    end.status = GRAINLAW_NOT_CONVERGED;
+    end.text = error.what();
+    fmt::print("{}: {}\n", scene.name, end.text);
+    return end;
+  }
   History history(stem);
   Observer observer(scene, stem);
   double start = cpu_seconds();
   PointDriver driver(material, scene.options);
   end.cpu += cpu_seconds() - start;
-  end.particles = static_cast<int>(measure_scalar(driver.state(), GRAINLAW_PARTICLES));
+  end.particles = static_cast<int>(take_snapshot(driver.state(), stem.string() + "_state").size());
   history.add(driver.record());
   observer.see(driver.state(), driver.record());
-  for (const Segment& segment : scene.segments) end.steps_wanted += segment.steps;
-  if (scene.options.max_steps > 0)
-    end.steps_wanted = std::min(end.steps_wanted, scene.options.max_steps);
 
   Progress progress(scene.name);
   const auto observe = [&](const PointStep& step) {

@@ -10,7 +10,7 @@ namespace verification {
 
 // How far a path went and what it cost.
 struct PointEnd {
-  int particles = 0;
+  int particles = 0;  // all copies of a frame
   int steps = 0;
   int steps_wanted = 0;
   Tensor deformation = Tensor::Identity();  // F of the last step [-]
