@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -96,6 +97,10 @@ Packing make_regular(const GeneratorOptions& options, const ContactLaw& law) {
   Packing packing = square
                         ? square_lattice(options.columns, options.rows, radius, distance)
                         : hexagonal_lattice(options.columns, options.rows, radius, distance);
+  std::mt19937_64 engine(options.seed);
+  if (options.radius_spread > 0)
+    for (double& r : packing.radius)
+      r *= 1 + options.radius_spread * (2 * unit_double(engine) - 1);
   packing.thickness = options.thickness;
   packing.density = options.density;
   return packing;

@@ -16,6 +16,8 @@ void read_regular(TomlTable& table, GeneratorOptions& generator) {
   table.require_either("pressure", "overlap");
   table.optional("pressure", number_above(0), generator.pressure);
   table.optional("overlap", number_above_up_to(0, 0.5 * generator.radius_max), generator.overlap);
+  table.optional("radius_spread", number_between(0, 0.1), generator.radius_spread);
+  if (generator.radius_spread > 0) table.required("seed", integer_between(0), generator.seed);
 }
 
 void read_anisotropy(TomlTable& table, GeneratorOptions& generator) {

@@ -39,6 +39,9 @@ struct GeneratorOptions {
   std::size_t columns = 0;
   std::size_t rows = 0;
   double overlap = 0;  // of neighbours, instead of the pressure [m]
+  // Radii are drawn from (1 +- this) radius_max by the seed: a perfect lattice stays one under any
+  // F, since the affine image is in equilibrium whether or not it is stable [-].
+  double radius_spread = 0;
 };
 
 // In [0, 1), from the engine's bits: they are fixed by the standard; what its distributions make of

@@ -7,9 +7,7 @@
 #include <string>
 
 namespace verification {
-namespace {
 
-// Lays `changes` over `target`; tables are merged, everything else is replaced.
 void merge(toml::table& target, const toml::table& changes) {
   for (const auto& [key, node] : changes) {
     toml::table* below = target[key.str()].as_table();
@@ -19,8 +17,6 @@ void merge(toml::table& target, const toml::table& changes) {
       target.insert_or_assign(key, node);
   }
 }
-
-}  // namespace
 
 MaterialSource read_material_source(SceneTable& scene) {
   const std::filesystem::path directory = scene.file().parent_path();

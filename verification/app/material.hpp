@@ -16,6 +16,9 @@ struct MaterialSource {
   toml::table changes;
 };
 
+// Lays `changes` over `target`; tables are merged, everything else is replaced.
+void merge(toml::table& target, const toml::table& changes);
+
 // Sets one key, e.g. {"solver", "tolerance"}, over what the source says.
 template <class Value>
 void change(MaterialSource& source, std::string_view table, std::string_view key, Value value) {

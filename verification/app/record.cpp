@@ -12,6 +12,18 @@ void Effort::add(const grainlaw_report& report) {
   subincrements = std::max(subincrements, report.subincrements);
 }
 
+void Effort::add(const Effort& other) {
+  iterations += other.iterations;
+  evaluations += other.evaluations;
+  cuts += other.cuts;
+  loose += other.loose;
+  relaxation_steps += other.relaxation_steps;
+  servo_corrections += other.servo_corrections;
+  factorisations += other.factorisations;
+  subincrements = std::max(subincrements, other.subincrements);
+  history_advanced += other.history_advanced;
+}
+
 Record make_record(const grainlaw_state* state, const Tensor& deformation, const Tensor& stress,
                    const grainlaw_report& report) {
   Record record;
@@ -27,6 +39,7 @@ Record make_record(const grainlaw_state* state, const Tensor& deformation, const
   record.mean_rotation = measure_scalar(state, GRAINLAW_MEAN_ROTATION);
   record.elastic_energy = measure_scalar(state, GRAINLAW_ELASTIC_ENERGY);
   record.dissipated_energy = measure_scalar(state, GRAINLAW_DISSIPATED_ENERGY);
+  record.broken_bonds = measure_scalar(state, GRAINLAW_BROKEN_BONDS);
   record.contacts = report.contacts;
   record.sliding = report.sliding;
   record.status_changes = report.status_changes;
@@ -48,7 +61,8 @@ Record mean(const std::vector<Record>& records) {
        {&Record::void_ratio, &Record::coordination, &Record::coordination_no_rattlers,
         &Record::fabric_intensity, &Record::anisotropy, &Record::mean_overlap,
         &Record::mean_rotation, &Record::elastic_energy, &Record::dissipated_energy,
-        &Record::external_work, &Record::contacts, &Record::sliding, &Record::status_changes})
+        &Record::external_work, &Record::contacts, &Record::sliding, &Record::status_changes,
+        &Record::broken_bonds})
     add(member);
   return sum;
 }
@@ -65,7 +79,7 @@ std::vector<std::string> record_columns() {
           "contacts[-]", "sliding[-]", "status_changes[-]",
           "newton_iterations[-]", "evaluations[-]", "step_cuts[-]", "loose_parts[-]",
           "relaxation_steps[-]", "servo_corrections[-]", "factorisations[-]", "subincrements[-]",
-          "history_advanced[-]"};
+          "history_advanced[-]", "broken_bonds[-]"};
   // clang-format on
 }
 
@@ -83,6 +97,7 @@ std::vector<double> record_values(const Record& r) {
                            e.relaxation_steps, e.servo_corrections, long{e.factorisations},
                            long{e.subincrements}, long{e.history_advanced}})
     values.push_back(static_cast<double>(count));
+  values.push_back(r.broken_bonds);
   return values;
 }
 

@@ -21,6 +21,7 @@ struct Effort {
   int history_advanced = 0;    // accepted evaluations that advanced the friction history [-]
 
   void add(const grainlaw_report& report);
+  void add(const Effort& other);
 };
 
 struct Record {
@@ -41,6 +42,7 @@ struct Record {
   double contacts = 0;
   double sliding = 0;
   double status_changes = 0;
+  double broken_bonds = 0;  // since F = I
   Effort effort;
 
   // Compression positive: 1 - F22; dilation positive: det F - 1; -sigma22 / -sigma11.

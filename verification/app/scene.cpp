@@ -42,7 +42,9 @@ void SceneTable::fail(std::string_view key, std::string_view found,
                       std::string_view expected) const {
   const toml::node* node = table_->get(key);
   const auto line = (node != nullptr ? node->source() : table_->source()).begin.line;
-  throw InputError(fmt::format("{}:{}: {}{}{}: found {}, expected {}", file_.string(), line, name_,
+  // What was merged from several places has no line of its own.
+  throw InputError(fmt::format("{}{}: {}{}{}: found {}, expected {}", file_.string(),
+                               line > 0 ? fmt::format(":{}", line) : "", name_,
                                name_.empty() ? "" : ".", key, found, expected));
 }
 
@@ -69,6 +71,13 @@ int SceneTable::integer(std::string_view key, int low) {
 
 int SceneTable::integer_or(std::string_view key, int fallback, int low) {
   return find(key) == nullptr ? fallback : integer(key, low);
+}
+
+bool SceneTable::flag_or(std::string_view key, bool fallback) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return fallback;
+  if (!node->is_boolean()) fail(key, shown(*node), "true or false");
+  return *node->value<bool>();
 }
 
 std::string SceneTable::text(std::string_view key) {

@@ -37,6 +37,7 @@ class SceneTable {
   double number_or(std::string_view key, double fallback, const Range& range = any_number);
   int integer(std::string_view key, int low);
   int integer_or(std::string_view key, int fallback, int low);
+  bool flag_or(std::string_view key, bool fallback);
   std::string text(std::string_view key);
   std::string text_or(std::string_view key, std::string_view fallback);
   std::string choice_or(std::string_view key, std::string_view fallback,
@@ -56,6 +57,7 @@ class SceneTable {
   [[noreturn]] void fail(std::string_view key, std::string_view found,
                          std::string_view expected) const;
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+  [[nodiscard]] const toml::table& content() const { return *table_; }
 
  private:
   const toml::node* find(std::string_view key);

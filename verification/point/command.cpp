@@ -1,91 +1,121 @@
-// `grainlaw point SCENE.toml`: one representative volume along a path of strain and stress.
+// `grainlaw point SCENE.toml`: representative volumes along paths of strain and stress.
 
 #include "app/commands.hpp"
-#include "app/history.hpp"
-#include "app/material.hpp"
 #include "app/output.hpp"
-#include "app/progress.hpp"
-#include "point/driver.hpp"
+#include "point/run.hpp"
+#include "point/scene.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <fstream>
 #include <memory>
 #include <string>
+#include <thread>
 
 namespace verification {
 namespace {
 
-struct PointScene {
-  std::string name;
-  MaterialSource material;
-  PointOptions options;
-  std::vector<Segment> segments;
-  std::string abscissa;
-  int vtk_every = 0;
+struct PointArguments {
+  std::string scene;
+  std::string output = ".";
+  std::vector<std::string> cases;
+  int jobs = 1;
+  int steps = 0;
 };
 
-PointScene read_scene(const SceneFile& file) {
-  SceneTable table = file.root();
-  PointScene scene;
-  scene.name = table.text_or("name", file.path.stem().string());
-  scene.material = read_material_source(table);
-  scene.options.tangent =
-      tangent_bit(table.choice_or("tangent", "exact", {"exact", "elastic", "perturbed"}));
-  scene.options.tolerance = table.number_or("tolerance", scene.options.tolerance, positive);
-  scene.options.max_iterations =
-      table.integer_or("max_iterations", scene.options.max_iterations, 1);
-  scene.options.max_cuts = table.integer_or("max_cuts", scene.options.max_cuts, 0);
-  scene.options.loose_tolerance = table.number_or("loose_tolerance", 0, not_negative);
-  scene.segments = read_segments(table);
-  scene.abscissa = table.choice_or("abscissa", axial_abscissa, {axial_abscissa, shear_abscissa});
-  scene.vtk_every = table.integer_or("vtk_every", 0, 0);
-  table.close();
-  return scene;
+// The scene's cases that were asked for, all without a wish.
+std::vector<PointScene> chosen(std::vector<PointScene> scenes, const std::string& prefix,
+                               const std::vector<std::string>& wanted) {
+  if (wanted.empty()) return scenes;
+  std::vector<PointScene> result;
+  for (const std::string& name : wanted) {
+    const auto found = std::find_if(
+        scenes.begin(), scenes.end(),
+        [&](const PointScene& scene) { return scene.name == prefix + "_" + name; });
+    if (found == scenes.end())
+      throw InputError(fmt::format("--case {}: the scene has no such case", name));
+    result.push_back(*found);
+  }
+  return result;
 }
 
-void run_point(const std::string& path, const std::string& directory) {
-  const SceneFile file(path);
-  const PointScene scene = read_scene(file);
-  const Material material = make_material(scene.material);
-  const auto stem = output_stem(directory, scene.name);
-  History history(stem);
-  PointDriver driver(material, scene.options);
-  history.add(driver.record());
-  if (scene.vtk_every > 0) write_vtk(driver.state(), stem, 0);
-
-  int total = 0;
-  for (const Segment& segment : scene.segments) total += segment.steps;
-  const auto observe = [&,
-                        progress = std::make_shared<Progress>(scene.name)](const PointStep& step) {
-    const Record& record = step.record;
-    history.add(record);
-    if (scene.vtk_every > 0 && record.step % scene.vtk_every == 0)
-      write_vtk(step.state, stem, record.step);
-    progress->update(
-        static_cast<double>(record.step) / total,
-        fmt::format("sigma22 {:.1f} kPa, F22 {:.4f}, F12 {:.4f}", record.cauchy(1, 1) / 1e3,
-                    record.deformation(1, 1), record.deformation(0, 1)));
-  };
-  try {
-    for (const Segment& segment : scene.segments) driver.run(segment, observe);
-  } catch (const ComputationError& error) {
-    history.draw_figure(scene.abscissa, scene.name);
-    throw ComputationError(fmt::format("{}: {}", path, error.what()));
+void write_ends(const std::vector<PointScene>& scenes, const std::vector<PointEnd>& ends,
+                const std::filesystem::path& path) {
+  std::ofstream file(path);
+  file << "case,particles[-],steps[-],steps_wanted[-],F11[-],F12[-],F21[-],F22[-],"
+          "relaxation_steps[-],servo_corrections[-],factorisations[-],evaluations[-],"
+          "history_advanced[-],cpu[s],status[-],end\n";
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    const PointEnd& end = ends[k];
+    std::string text = end.text;
+    std::replace(text.begin(), text.end(), ',', ';');
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    const Tensor& F = end.deformation;
+    file << fmt::format("{},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{},{},{},{},{},{:.4g},{},{}\n",
+                        scenes[k].name, end.particles, end.steps, end.steps_wanted, F(0, 0),
+                        F(0, 1), F(1, 0), F(1, 1), end.effort.relaxation_steps,
+                        end.effort.servo_corrections, end.effort.factorisations,
+                        end.effort.evaluations, end.effort.history_advanced, end.cpu,
+                        static_cast<int>(end.status), text);
   }
-  history.draw_figure(scene.abscissa, scene.name);
-  fmt::print("{}: {}\nwrote {}.csv, .svg, .png\n", scene.name, history.summary(), stem.string());
+  if (!file) throw ComputationError(fmt::format("{}: cannot be written", path.string()));
+}
+
+void run_command(const PointArguments& arguments) {
+  const SceneFile file(arguments.scene);
+  const std::string prefix =
+      file.content["name"].value_or(file.path.stem().string());
+  std::vector<PointScene> scenes = chosen(read_point_scenes(file), prefix, arguments.cases);
+  for (PointScene& scene : scenes) scene.options.max_steps = arguments.steps;
+  std::vector<PointEnd> ends(scenes.size());
+  std::vector<std::exception_ptr> errors(scenes.size());
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t k = next++; k < scenes.size(); k = next++) {
+      try {
+        ends[k] = run_point(scenes[k], output_stem(arguments.output, scenes[k].name));
+      } catch (...) {
+        errors[k] = std::current_exception();
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    const int jobs = std::min(arguments.jobs, static_cast<int>(scenes.size()));
+    for (int k = 1; k < jobs; ++k) others.emplace_back(work);
+    work();
+  }
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
+  if (file.content.contains("case"))
+    write_ends(scenes, ends, output_stem(arguments.output, prefix + "_cases.csv"));
+  std::string failed;
+  for (std::size_t k = 0; k < scenes.size(); ++k)
+    if (ends[k].steps < ends[k].steps_wanted && !scenes[k].may_end)
+      failed += fmt::format("{}{}: {}", failed.empty() ? "" : "\n", scenes[k].name, ends[k].text);
+  if (!failed.empty()) throw ComputationError(fmt::format("{}: {}", arguments.scene, failed));
 }
 
 }  // namespace
 
 void add_point_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "point", "lead one representative volume along a path of strain and stress");
-  auto scene = std::make_shared<std::string>();
-  auto output = std::make_shared<std::string>(".");
-  command->add_option("SCENE", *scene, "scene file (TOML)")->required();
-  command->add_option("--output", *output, "directory for the results")->capture_default_str();
-  command->callback([scene, output] { run_point(*scene, *output); });
+      "point", "lead representative volumes along paths of strain and stress");
+  auto arguments = std::make_shared<PointArguments>();
+  command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
+  command->add_option("--output", arguments->output, "directory for the results")
+      ->capture_default_str();
+  command->add_option("--case", arguments->cases, "only this case of the scene; may be repeated");
+  command->add_option("--steps", arguments->steps, "leave every path after so many; 0: none")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--jobs", arguments->jobs, "cases at a time")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->callback([arguments] { run_command(*arguments); });
 }
 
 }  // namespace verification

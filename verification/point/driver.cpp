@@ -16,6 +16,12 @@ constexpr double usual_cut = 0.5;
 // step, or another one, usually passes beside it.
 constexpr int patience = 4;
 
+// F of the trial: a boundary with prescribed stresses finds components of its own.
+Tensor deformation_of(const grainlaw_state* state) {
+  const std::vector<double> f = measure(state, GRAINLAW_DEFORMATION_GRADIENT);
+  return to_tensor({f[0], f[1], f[2], f[3]});
+}
+
 // The prescribed measure (F, P or sigma) by component, and its derivative with respect to F.
 struct Controlled {
   Vector4 value;
@@ -69,6 +75,7 @@ PointDriver::PointDriver(const Material& material, const PointOptions& options)
       deformation_(Tensor::Identity()),
       evaluation_(evaluate(state_.get(), deformation_, options.tangent)) {
   check(evaluation_.status, "evaluating the start at F = I");
+  deformation_ = deformation_of(state_.get());
   record_ = make_record(state_.get(), deformation_, evaluation_.stress, evaluation_.report);
   record_.effort.add(evaluation_.report);
   check(grainlaw_revert(state_.get()), "dropping the trial at F = I");
@@ -112,10 +119,12 @@ PointDriver::Attempt PointDriver::attempt(const Goal& goal, double tolerance, Ef
     if (goal.mixed) ++effort.iterations;
     if (result.evaluation.status != GRAINLAW_OK) {
       result.step_ratio = result.evaluation.report.step_ratio;
-      result.reason = fmt::format("{} {}", grainlaw_status_text(result.evaluation.status),
-                                  result.evaluation.report.message);
+      const std::string text = grainlaw_status_text(result.evaluation.status);
+      const std::string message = result.evaluation.report.message;
+      result.reason = message.empty() || message == text ? text : text + ": " + message;
       return result;
     }
+    result.deformation = deformation_of(state_.get());
     const Controlled now = controlled(goal.control, result.deformation, result.evaluation);
     const Vector4 residual = goal.value - now.value;
     double error = 0;
@@ -171,6 +180,7 @@ void PointDriver::run(const Segment& segment, const PointObserver& observe) {
   const double smallest = std::ldexp(1.0, -options_.max_cuts);
   if (goal_at(segment, start, 0).mixed && !has_tangent_) renew_tangent();
   for (int step = 1; step <= segment.steps; ++step) {
+    if (options_.max_steps > 0 && record_.step >= options_.max_steps) return;
     Effort effort;
     double done = 0;  // of this step
     double part = 1;
@@ -187,7 +197,8 @@ void PointDriver::run(const Segment& segment, const PointObserver& observe) {
         ++effort.cuts;
         if (part >= smallest) continue;
         if (loose || options_.loose_tolerance == 0)
-          throw ComputationError(
+          throw StepError(
+              result.evaluation.status,
               fmt::format("step {} (F22 = {:.6f}, F12 = {:.6f}) failed at 1/{:.0f} of its size: {}",
                           record_.step + 1, deformation_(1, 1), deformation_(0, 1), 1 / smallest,
                           result.reason));

@@ -17,6 +17,7 @@ struct PointOptions {
   // Where P(F) jumps across the target no step size helps. Once a step is at its smallest, this
   // tolerance holds instead of the first, and the record counts it as a loose step; 0: never [-].
   double loose_tolerance = 0;
+  int max_steps = 0;  // after which a path is left; 0: none
 };
 
 // What an observer sees at the end of every full step, before the trial is committed.
@@ -29,12 +30,20 @@ struct PointStep {
 };
 using PointObserver = std::function<void(const PointStep&)>;
 
+// A step that failed at its smallest cut. `status` is of the evaluation that did not succeed, OK when
+// all did and the stress control did not converge.
+struct StepError : ComputationError {
+  StepError(grainlaw_status status_, const std::string& text)
+      : ComputationError(text), status(status_) {}
+  grainlaw_status status;
+};
+
 class PointDriver {
  public:
   // Starts at F = I. The material must outlive nothing: the state keeps it alive.
   PointDriver(const Material& material, const PointOptions& options);
 
-  // Runs one segment. Throws ComputationError, saying where, when a step fails at its smallest cut;
+  // Runs one segment. Throws StepError, saying where, when a step fails at its smallest cut;
   // the steps before it stay done.
   void run(const Segment& segment, const PointObserver& observe);
 

@@ -113,6 +113,7 @@ void add_study_command(CLI::App& app) {
   add_features_study(*study, options);
   add_batch_study(*study, options);
   add_stability_study(*study, options);
+  add_papers_study(*study, options);
 }
 
 }  // namespace verification

@@ -84,5 +84,6 @@ void add_error_study(CLI::App& study, const std::shared_ptr<StudyOptions>& optio
 void add_features_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_batch_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_stability_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
+void add_papers_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 
 }  // namespace verification

@@ -1,0 +1,106 @@
+// The figures of Liu, Bosco & Suiker (2017) in small, through the C ABI: what the scenes in
+// verification/scenes/papers-002 show at full size.
+
+#include <grainlaw/grainlaw.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace grainlaw::test {
+namespace {
+
+using abi::Material;
+using abi::State;
+using Tensor = std::array<double, 4>;
+
+const std::string square = R"(
+dimension = 2
+thickness = 1e-3
+packing = { generator = "square", columns = 4, rows = 4, radius = 1.02e-3, overlap = 0.04e-3 }
+contact = { law = "frictional", kn = 1e4, ratio = 0.2, friction = 0.4 }
+solver = { tolerance = 1e-8 }
+)";
+
+std::string irregular(int count, const std::string& contact = "") {
+  return R"(
+dimension = 2
+thickness = 1e-3
+packing = { generator = "lubachevsky-stillinger", count = )" +
+         std::to_string(count) + R"(, radii = [0.67e-3, 1.34e-3], seed = 1, pressure = 100e3 }
+solver = { tolerance = 1e-6 }
+[contact]
+law = "frictional"
+kn = 1e4
+ratio = 0.2
+friction = 0.4
+)" + contact;
+}
+
+std::string boundary(const char* type, const char* method = "direct") {
+  return std::string("\n[boundary]\ntype = \"") + type + "\"\nmethod = \"" + method + "\"\n";
+}
+
+double norm(const Tensor& tensor) {
+  double sum = 0;
+  for (const double value : tensor) sum += value * value;
+  return std::sqrt(sum);
+}
+
+// |P| after each of the steps on the straight way from I to F.
+std::vector<double> stress_along(const std::string& text, const Tensor& F, int steps) {
+  const Material material = Material::parse(text, ".");
+  State state(material);
+  std::vector<double> stress;
+  for (int k = 1; k <= steps; ++k) {
+    const double s = static_cast<double>(k) / steps;
+    Tensor P{};
+    if (!state.evaluate({1 + s * (F[0] - 1), s * F[1], s * F[2], 1 + s * (F[3] - 1)}, P)) break;
+    state.commit();
+    stress.push_back(norm(P));
+  }
+  return stress;
+}
+
+constexpr Tensor compression_shear{0.99, -0.1, -0.1, 0.99};
+constexpr Tensor shear{1, 0.05, 0, 1};
+
+void expect_not_below(const std::vector<double>& stiff, const std::vector<double>& soft) {
+  ASSERT_FALSE(stiff.empty());
+  ASSERT_FALSE(soft.empty());
+  for (std::size_t k = 0; k < std::min(stiff.size(), soft.size()); ++k)
+    EXPECT_GE(stiff[k], soft[k] * (1 - 1e-6)) << "step " << k + 1;
+}
+
+TEST(papers_002, stress_of_regular_discs_falls_from_d_over_p_to_t) {  // fig. 4
+  const auto d = stress_along(square + boundary("frame-d"), compression_shear, 50);
+  const auto p = stress_along(square + boundary("frame-p"), compression_shear, 50);
+  const auto t = stress_along(square + boundary("frame-t"), compression_shear, 50);
+  EXPECT_EQ(d.size(), 50u);
+  EXPECT_EQ(p.size(), 50u);
+  expect_not_below(d, p);
+  expect_not_below(p, t);
+}
+
+TEST(papers_002, stress_of_irregular_discs_falls_from_d_to_p) {  // fig. 7
+  const auto d = stress_along(irregular(25) + boundary("frame-d"), shear, 10);
+  const auto p = stress_along(irregular(25) + boundary("frame-p"), shear, 10);
+  EXPECT_EQ(d.size(), 10u);
+  expect_not_below(d, p);
+}
+
+TEST(papers_002, locked_rotation_makes_stronger) {  // papers/000, fig. 10
+  const Tensor compression{1.04, 0, 0, 0.96};
+  const auto free = stress_along(irregular(100) + boundary("periodic-cell"), compression, 20);
+  const auto locked = stress_along(irregular(100, "rotation = false\n") + boundary("periodic-cell"),
+                                   compression, 20);
+  ASSERT_EQ(free.size(), 20u);
+  ASSERT_EQ(locked.size(), 20u);
+  EXPECT_GT(locked.back(), 1.3 * free.back());
+}
+
+}  // namespace
+}  // namespace grainlaw::test

@@ -1,0 +1,55 @@
+// Particles and contacts of a state as the library writes them, and what is drawn and counted from
+// them.
+#pragma once
+
+#include "app/library.hpp"
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace verification {
+
+struct SnapshotContact {
+  int i = 0;
+  int j = 0;
+  std::array<double, 2> branch{};  // from the centre of i to that of j or of its image [m]
+  double normal_force = 0;         // [N], compression positive
+  bool bonded = false;
+};
+
+struct Snapshot {
+  std::vector<double> x, y, radius;  // [m]
+  std::vector<double> rotation;      // since F = I [rad]
+  std::vector<int> boundary;         // of a frame: particles in order around it; else empty
+  std::array<double, 4> cell{};      // H, row-major [m]
+  std::vector<SnapshotContact> contacts;
+
+  [[nodiscard]] std::size_t size() const { return radius.size(); }
+};
+
+// The trial of a state, or the committed one without a trial. Writes `stem`_particles.csv,
+// _contacts.csv, _cell.csv and .vtp, and reads them. Throws ComputationError.
+Snapshot take_snapshot(const grainlaw_state* state, const std::filesystem::path& stem);
+
+// Mean over the touching contacts of overlap / mean radius of the two (Liu, Bosco & Suiker 2017,
+// eq. 39) [-].
+double normalised_overlap(const Snapshot& snapshot);
+
+// Mean over all particles, boundary included, of |rotation| (eq. 41) [rad].
+double mean_rotation_magnitude(const Snapshot& snapshot);
+
+// One panel of a row of pictures.
+struct SnapshotPanel {
+  std::string title;
+  Snapshot snapshot;
+};
+
+// stem.svg and stem.png: discs, the frame and force chains, side by side at one scale. A bar between
+// two centres is as wide as a mean radius when it carries `force` [N]; 0: twice the mean normal
+// force of the first panel. Bonded contacts have another colour than frictional ones.
+bool draw_snapshots(const std::vector<SnapshotPanel>& panels, double force,
+                    const std::string& title, const std::filesystem::path& stem);
+
+}  // namespace verification

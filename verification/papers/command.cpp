@@ -1,0 +1,19 @@
+#include "papers/papers.hpp"
+
+namespace verification {
+
+void add_papers_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options) {
+  CLI::App* command = study.add_subcommand(
+      "papers-002", "figures and tables of the scenes in papers-002, which were run before");
+  command->callback([options] {
+    PaperStudy papers{std::filesystem::path(options->scenes) / "papers-002", options->output, {}};
+    study_regular_packings(papers);
+    study_irregular_packings(papers);
+    study_layer(papers);
+    study_servo_cost(papers);
+    papers.facts.print();
+    papers.facts.write(papers.results / "papers_002_facts.csv");
+  });
+}
+
+}  // namespace verification

@@ -1,0 +1,132 @@
+#include "point/run.hpp"
+
+#include "app/history.hpp"
+#include "app/progress.hpp"
+#include "app/snapshot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+#include <optional>
+
+namespace verification {
+namespace {
+
+double cpu_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+double abscissa(const PointScene& scene, const Record& record) {
+  return scene.abscissa == shear_abscissa ? record.deformation(0, 1) : record.axial_strain();
+}
+
+// What is written and drawn beside the history of a run.
+class Observer {
+ public:
+  Observer(const PointScene& scene, const std::filesystem::path& stem)
+      : scene_(scene), stem_(stem) {
+    if (scene.particle_measures)
+      measures_.emplace(stem.string() + "_particles.csv",
+                        std::vector<std::string>{"step[-]", "F12[-]", "normalised_overlap[-]",
+                                                 "mean_rotation_magnitude[rad]"});
+  }
+
+  void see(const grainlaw_state* state, const Record& record) {
+    if (scene_.vtk_every > 0 && record.step % scene_.vtk_every == 0)
+      write_vtk(state, stem_, record.step);
+    const std::string prefix = stem_.string() + "_state";
+    std::optional<Snapshot> snapshot;
+    if (measures_) {
+      snapshot = take_snapshot(state, prefix);
+      measures_->row({static_cast<double>(record.step), record.deformation(0, 1),
+                      normalised_overlap(*snapshot), mean_rotation_magnitude(*snapshot)});
+    }
+    constexpr double rounding = 1e-9;
+    const double strain = abscissa(scene_, record);
+    const bool backwards = !scene_.pictures.empty() && scene_.pictures.back() < 0;
+    while (panels_.size() < scene_.pictures.size()) {
+      // Of negative abscissae the first one to come is the largest.
+      const double wanted = backwards ? scene_.pictures[scene_.pictures.size() - 1 - panels_.size()]
+                                      : scene_.pictures[panels_.size()];
+      if (backwards ? strain > wanted + rounding : strain < wanted - rounding) break;
+      if (!snapshot) snapshot = take_snapshot(state, prefix);
+      const char* name = scene_.abscissa == shear_abscissa ? "F12" : "axial strain";
+      panels_.push_back({fmt::format("{} = {:.3g}", name, strain), *snapshot});
+    }
+  }
+
+  void draw() const {
+    if (!panels_.empty())
+      draw_snapshots(panels_, scene_.picture_force, scene_.name, stem_.string() + "_packing");
+    for (const char* end : {"_particles.csv", "_contacts.csv", "_cell.csv", ".vtp"})
+      std::filesystem::remove(stem_.string() + "_state" + end);
+  }
+
+ private:
+  const PointScene& scene_;
+  std::filesystem::path stem_;
+  std::optional<CsvWriter> measures_;
+  std::vector<SnapshotPanel> panels_;
+};
+
+}  // namespace
+
+PointEnd run_point(const PointScene& scene, const std::filesystem::path& stem) {
+  PointEnd end;
+  for (const Segment& segment : scene.segments) end.steps_wanted += segment.steps;
+  if (scene.options.max_steps > 0)
+    end.steps_wanted = std::min(end.steps_wanted, scene.options.max_steps);
+  Material material;
+  try {
+    material = make_material(scene.material);
+  } catch (const ComputationError& error) {
+    if (!scene.may_end) throw;
+    std::filesystem::remove(stem.string() + ".csv");  // of an earlier run
+    end.status = GRAINLAW_NOT_CONVERGED;
+    end.text = error.what();
+    fmt::print("{}: {}\n", scene.name, end.text);
+    return end;
+  }
+  History history(stem);
+  Observer observer(scene, stem);
+  double start = cpu_seconds();
+  PointDriver driver(material, scene.options);
+  end.cpu += cpu_seconds() - start;
+  end.particles = static_cast<int>(take_snapshot(driver.state(), stem.string() + "_state").size());
+  history.add(driver.record());
+  observer.see(driver.state(), driver.record());
+
+  Progress progress(scene.name);
+  const auto observe = [&](const PointStep& step) {
+    end.cpu += cpu_seconds() - start;
+    const Record& record = step.record;
+    end.effort.add(record.effort);
+    history.add(record);
+    observer.see(step.state, record);
+    progress.update(
+        static_cast<double>(record.step) / end.steps_wanted,
+        fmt::format("sigma22 {:.1f} kPa, F22 {:.4f}, F12 {:.4f}", record.cauchy(1, 1) / 1e3,
+                    record.deformation(1, 1), record.deformation(0, 1)));
+    start = cpu_seconds();
+  };
+  start = cpu_seconds();
+  try {
+    for (const Segment& segment : scene.segments) driver.run(segment, observe);
+  } catch (const StepError& error) {
+    end.status = error.status;
+    end.text = error.what();
+  }
+  end.cpu += cpu_seconds() - start;
+  end.steps = driver.record().step;
+  end.deformation = driver.record().deformation;
+  history.draw_figure(scene.abscissa, scene.name);
+  observer.draw();
+  fmt::print("{}: {}{}\nwrote {}.csv, .svg, .png\n", scene.name, history.summary(),
+             end.steps < end.steps_wanted ? "\n  ended: " + end.text : "", stem.string());
+  return end;
+}
+
+}  // namespace verification

@@ -1,0 +1,61 @@
+#include "point/scene.hpp"
+
+#include "app/history.hpp"
+
+#include <algorithm>
+
+namespace verification {
+namespace {
+
+std::vector<double> read_pictures(SceneTable& table) {
+  const toml::node* node = table.node("pictures");
+  if (node == nullptr) return {};
+  const std::size_t count = node->is_array() ? node->as_array()->size() : 1;
+  std::vector<double> pictures = table.numbers("pictures", count, any_number);
+  std::sort(pictures.begin(), pictures.end());
+  return pictures;
+}
+
+PointScene read_scene(SceneTable table, const std::string& name) {
+  PointScene scene;
+  scene.name = table.text_or("name", name);
+  scene.material = read_material_source(table);
+  scene.options.tangent =
+      tangent_bit(table.choice_or("tangent", "exact", {"exact", "elastic", "perturbed"}));
+  scene.options.tolerance = table.number_or("tolerance", scene.options.tolerance, positive);
+  scene.options.max_iterations =
+      table.integer_or("max_iterations", scene.options.max_iterations, 1);
+  scene.options.max_cuts = table.integer_or("max_cuts", scene.options.max_cuts, 0);
+  scene.options.loose_tolerance = table.number_or("loose_tolerance", 0, not_negative);
+  scene.segments = read_segments(table);
+  scene.abscissa = table.choice_or("abscissa", axial_abscissa, {axial_abscissa, shear_abscissa});
+  scene.vtk_every = table.integer_or("vtk_every", 0, 0);
+  scene.pictures = read_pictures(table);
+  scene.picture_force = table.number_or("picture_force", 0, not_negative);
+  scene.particle_measures = table.flag_or("particle_measures", false);
+  scene.may_end = table.flag_or("may_end", false);
+  table.close();
+  return scene;
+}
+
+}  // namespace
+
+std::vector<PointScene> read_point_scenes(const SceneFile& file) {
+  const std::string stem = file.path.stem().string();
+  std::vector<PointScene> scenes;
+  SceneTable root = file.root();
+  const std::string name = root.text_or("name", stem);
+  std::vector<SceneTable> cases = root.tables("case");
+  if (cases.empty()) return {read_scene(std::move(root), stem)};
+  for (SceneTable& of_case : cases) {
+    const std::string case_name = of_case.text("name");
+    toml::table content = file.content;
+    content.erase("case");
+    merge(content, of_case.content());
+    content.insert_or_assign("name", name + "_" + case_name);
+    scenes.push_back(read_scene({content, file.path, ""}, stem));
+  }
+  return scenes;
+}
+
+}  // namespace verification
