@@ -209,8 +209,10 @@ bool Sensitivity::solve(Increment& increment, double share, double start_share,
   right_.assign(increment.unknowns(), Quad{});
   right_sides(loop, rotating, right_.data()->lane);
   const bool moments = increment.problem->law->moments();
+  std::array<Quad, 4> deformation{};
+  for (std::size_t k = 0; k < width; ++k) deformation[k].lane[k] = share;
   if (moments) {
-    find_moment_changes(increment, share, stiffness, {});
+    find_moment_changes(increment, deformation, stiffness, {});
     add_moments(stiffness);
   }
   if (!space.identity) {
@@ -222,7 +224,7 @@ bool Sensitivity::solve(Increment& increment, double share, double start_share,
 
   resize_with_room(changes_, touching.size());
   all_changes(loop, rotating, motion_.data()->lane, changes_.data());
-  if (moments) find_moment_changes(increment, share, stiffness, motion_);
+  if (moments) find_moment_changes(increment, deformation, stiffness, motion_);
   resize_with_room(place_, list.size());
   std::fill(place_.begin(), place_.end(), -1);
   for (std::size_t k = 0; k < touching.size(); ++k) {

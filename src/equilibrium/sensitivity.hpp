@@ -5,6 +5,7 @@
 #include "equilibrium/increment.hpp"
 #include "equilibrium/stiffness.hpp"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -46,8 +47,8 @@ class Sensitivity {
   void start_of_history(const Increment& increment, double start_share);
   // What laws beyond linear springs with friction need, in sensitivity_composite.cpp.
   void rescale_start(const Increment& increment);
-  void find_moment_changes(const Increment& increment, double share, const Stiffness& stiffness,
-                           std::span<const Quad> motion);
+  void find_moment_changes(const Increment& increment, const std::array<Quad, 4>& deformation,
+                           const Stiffness& stiffness, std::span<const Quad> motion);
   void add_moments(const Stiffness& stiffness);
 
   std::vector<Quad> motion_, right_;  // per node and component

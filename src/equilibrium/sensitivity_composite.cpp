@@ -3,6 +3,7 @@
 
 #include "room.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace grainlaw {
@@ -48,8 +49,10 @@ void Sensitivity::rescale_start(const Increment& increment) {
   }
 }
 
-// Per touching contact; without motion under the affine one and the history alone.
-void Sensitivity::find_moment_changes(const Increment& increment, double share,
+// Per touching contact under a change of F (row-major, a lane per change) and of the history, with
+// `motion` of the nodes beside, or none.
+void Sensitivity::find_moment_changes(const Increment& increment,
+                                      const std::array<Quad, 4>& deformation,
                                       const Stiffness& stiffness, std::span<const Quad> motion) {
   const auto touching = stiffness.touching();
   const auto moments = stiffness.moments();
@@ -59,12 +62,12 @@ void Sensitivity::find_moment_changes(const Increment& increment, double share,
   for (std::size_t m = 0; m < touching.size(); ++m) {
     const auto& contact = touching[m];
     const auto& point = contact.point;
-    const double rx = share * (f[3] * point.branch_x - f[1] * point.branch_y) / det;
-    const double ry = share * (-f[2] * point.branch_x + f[0] * point.branch_y) / det;
-    const double affine[] = {point.normal_x * rx, point.normal_x * ry, point.normal_y * rx,
-                             point.normal_y * ry};
+    const double rx = (f[3] * point.branch_x - f[1] * point.branch_y) / det;
+    const double ry = (-f[2] * point.branch_x + f[0] * point.branch_y) / det;
     for (std::size_t k = 0; k < width; ++k) {
-      double normal = affine[k];
+      double normal =
+          point.normal_x * (deformation[0].lane[k] * rx + deformation[1].lane[k] * ry) +
+          point.normal_y * (deformation[2].lane[k] * rx + deformation[3].lane[k] * ry);
       double spin = 0;
       if (!motion.empty()) {
         const Quad* zi = &motion[3 * contact.node_i];
