@@ -186,8 +186,8 @@ GRAINLAW_API grainlaw_status grainlaw_state_load(grainlaw_state*, const void* by
  * 2D).
  * ANISOTROPY is infinite when all contacts are parallel, and 0 without any.
  * DISSIPATED_ENERGY: what sliding and rolling contacts and springs that unload give up from one
- * committed state to the next, and all that the contacts lose at the F where bonds break. What is lost
- * when the packing snaps over between two states of equilibrium without sliding is not in it (with
+ * committed state to the next, and all that the contacts lose at the F where bonds break. What is
+ * lost when the packing snaps over between two equilibria without sliding is not in it (with
  * friction 0 it stays 0); after an increment with report.history_advanced = 1 it also counts the
  * sliding to and fro of the relaxation. */
 #define GRAINLAW_MEASURE_LIST(X)                                                                  \
@@ -221,14 +221,14 @@ typedef enum grainlaw_measure {
 GRAINLAW_API grainlaw_status grainlaw_state_measure(const grainlaw_state*, grainlaw_measure what,
                                                     double* value, size_t* count);
 
-/* Particles (radius, rotation) and force chains (normal and tangential force, moment, bonded or
- * not) of the trial state, or of the committed one, as one VTK PolyData file (.vtp) for ParaView. Errors: NULL_POINTER,
- * BAD_HANDLE, FILE_ERROR. */
+/* Particles (radius, rotation) and force chains (normal and tangential force, moment, bonded or not)
+ * of the trial state, or of the committed one, as one VTK PolyData file (.vtp) for ParaView. Errors:
+ * NULL_POINTER, BAD_HANDLE, FILE_ERROR. */
 GRAINLAW_API grainlaw_status grainlaw_state_write_vtk(const grainlaw_state*, const char* path);
 
 /* Write the same state as a packing: prefix_particles.csv, prefix_contacts.csv (forces, moments and
- * bonds included) and prefix_cell.csv, which a material file reads back to the same equilibrium. Errors:
- * NULL_POINTER, BAD_HANDLE, FILE_ERROR. */
+ * bonds included) and prefix_cell.csv, which a material file reads back to the same equilibrium.
+ * Errors: NULL_POINTER, BAD_HANDLE, FILE_ERROR. */
 GRAINLAW_API grainlaw_status grainlaw_state_write_packing(const grainlaw_state*,
                                                           const char* prefix);
 

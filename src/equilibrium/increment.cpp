@@ -141,7 +141,7 @@ void Increment::list_bonded_pairs() {
 }
 
 void Increment::build_list() {
-  const HistoryStart from{start,   cell_at(*problem, start_deformation), history, history_moments,
+  const HistoryStart from{start, cell_at(*problem, start_deformation), history, history_moments,
                           history_gaps};
   build_contacts(pairs, pair_weights, problem->packing->radius, problem->space->node, nodes(),
                  *problem->law, cell, from, contacts);
@@ -324,8 +324,8 @@ void Increment::advance_history() {
   const auto& law = *problem->law;
   dissipated += advance_contacts(records, law, contacts, forces);
   if (after_break_) {  // at the same F: nothing but the springs gives energy
-    dissipated = break_dissipated_ + break_energy_ -
-                 stored_energy(contacts, coordinates, particles(), law);
+    dissipated =
+        break_dissipated_ + break_energy_ - stored_energy(contacts, coordinates, particles(), law);
   }
   const bool gaps = !history_gaps.empty();
   history.clear();

@@ -30,9 +30,9 @@ void Sensitivity::rescale_start(const Increment& increment) {
     const auto j = static_cast<std::size_t>(list.j[c]);
     const double ax = frame ? 0 : h0[0] * list.shift_x[c] + h0[1] * list.shift_y[c];
     const double ay = frame ? 0 : h0[2] * list.shift_x[c] + h0[3] * list.shift_y[c];
-    const double overlap = list.reach[c] - std::hypot(start[j] - start[i] + f[0] * ax + f[1] * ay,
-                                                      start[n + j] - start[n + i] + f[2] * ax +
-                                                          f[3] * ay);
+    const double overlap =
+        list.reach[c] - std::hypot(start[j] - start[i] + f[0] * ax + f[1] * ay,
+                                   start[n + j] - start[n + i] + f[2] * ax + f[3] * ay);
     const double scale = start_scale(increment.overlap(c), law);
     for (std::size_t k = 0; k < width; ++k) {
       // A contact that was open has no spring.
@@ -65,9 +65,8 @@ void Sensitivity::find_moment_changes(const Increment& increment,
     const double rx = (f[3] * point.branch_x - f[1] * point.branch_y) / det;
     const double ry = (-f[2] * point.branch_x + f[0] * point.branch_y) / det;
     for (std::size_t k = 0; k < width; ++k) {
-      double normal =
-          point.normal_x * (deformation[0].lane[k] * rx + deformation[1].lane[k] * ry) +
-          point.normal_y * (deformation[2].lane[k] * rx + deformation[3].lane[k] * ry);
+      double normal = point.normal_x * (deformation[0].lane[k] * rx + deformation[1].lane[k] * ry) +
+                      point.normal_y * (deformation[2].lane[k] * rx + deformation[3].lane[k] * ry);
       double spin = 0;
       if (!motion.empty()) {
         const Quad* zi = &motion[3 * contact.node_i];

@@ -153,8 +153,7 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
   SolverOptions options = material->solver;
   options.method = Method::chain;
   const double tolerance = std::min(options.tolerance, tightest_needed);
-  const Problem problem{&material->packing, &material->law, &direct, 1e-3 * least_force,
-                        tolerance};
+  const Problem problem{&material->packing, &material->law, &direct, 1e-3 * least_force, tolerance};
   const Configuration given = given_configuration(*material);
   Request request{&problem, &options, &given, {1, 0, 0, 1}};
   request.tolerance = tolerance;
