@@ -31,18 +31,18 @@ class Biaxial:
         V = fem.VectorFunctionSpace(domain, ("Lagrange", 1))
         self.u = fem.Function(V)
         self.points = Points(domain, material, degree=1)
-        self.platen = PETSc.ScalarType((0, 0))
-        self.top_displacement = fem.Constant(domain, self.platen)
+        self.top_displacement = fem.Constant(domain, np.zeros(2))
 
         def nodes(side):
             return fem.locate_dofs_geometrical(V, side)
 
         top = nodes(lambda x: np.isclose(x[1], HEIGHT))
+        bottom = nodes(lambda x: np.isclose(x[1], 0))
         self.conditions = [
-            fem.dirichletbc(self.platen, nodes(lambda x: np.isclose(x[1], 0)), V),
+            fem.dirichletbc(np.zeros(2), bottom, V),
             fem.dirichletbc(self.top_displacement, top, V)]
         self.top_y = 2 * top + 1
-        fixed = np.concatenate([top, nodes(lambda x: np.isclose(x[1], 0))])
+        fixed = np.concatenate([top, bottom])
         self.free = np.setdiff1d(np.arange(self.u.x.array.size), [2 * fixed, 2 * fixed + 1])
 
         sides = mesh.locate_entities_boundary(

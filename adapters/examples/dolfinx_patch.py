@@ -7,7 +7,6 @@ stiffness are made of, against virtual fields of unit gradients.
 import sys
 
 import numpy as np
-import ufl
 from dolfinx import fem, mesh
 from mpi4py import MPI
 

@@ -15,7 +15,7 @@ import sys
 import numpy as np
 
 import grainlaw
-from grainlaw_steps import LoadSteps, StepTooSmall
+from grainlaw_steps import LoadSteps
 
 FAILED, GO_ON, CUT, CONVERGED = 0, 1, 2, 3
 PATIENCE = 4  # iterations without halving the residual before a step is cut
@@ -99,6 +99,11 @@ def start(material, loads, tolerance, max_iterations=12, history=None):
     return GO_ON
 
 
+def states():
+    """The points as grainlaw.States, in the order of the first pass, e.g. to write one as VTK."""
+    return _current().states
+
+
 @_guarded([0.0])
 def collect(arguments):
     """Of one point: element, point, and a gradient of 3 numbers for each displacement component."""
@@ -118,7 +123,7 @@ def collect(arguments):
 
 @_guarded(FAILED)
 def evaluate():
-    """All points that a pass collected, in one call: GO_ON, or CUT when one found no equilibrium."""
+    """All points that a pass collected, in one call: GO_ON, or CUT where one has no equilibrium."""
     run = _current()
     collected, run.gradients = run.gradients, {}
     if failures:
@@ -131,20 +136,21 @@ def evaluate():
     try:
         run.answer = run.states.evaluate(F, grainlaw.Tangent.EXACT, run.threads)
     except grainlaw.Error as error:
-        raise grainlaw.Error(error.status, f"{error.message}; {_where(run, error)}") from None
+        if error.point is None:
+            raise
+        message = f"{error.message}; {_where(run, error.point)}"
+        raise grainlaw.Error(error.status, message) from None
     if not run.answer.ok:
-        return _cut(run, run.answer.step_ratio, run.answer.message)
+        reason = f"{run.answer.message}; {_where(run, run.answer.failed[0])}"
+        return _cut(run, run.answer.step_ratio, reason)
     run.tables = _tables(F, run.answer.P, run.answer.A)
     if run.committed is None:  # the first pass, at no displacement
         _commit(run)
     return GO_ON
 
 
-def _where(run, error):
-    keys = list(run.rows)
-    words = error.message.split(":")[0].split()
-    number = int(words[1]) if words[0] == "point" else 0
-    return "element {}, quadrature point {}".format(*keys[number])
+def _where(run, point):
+    return "point {} is element {}, quadrature point {}".format(point, *list(run.rows)[point])
 
 
 def _commit(run):
@@ -171,8 +177,8 @@ def load():
 
 @_guarded(FAILED)
 def judge(arguments):
-    """After the system was generated: |residual| and |nodal forces of the stresses| of it. The first
-    call of an attempt is the out-of-balance of the load increment, the others follow a solve."""
+    """After the system was generated: its |residual| and |nodal forces of the stresses|. The first
+    call of an attempt tells the out-of-balance of the load increment, the others follow a solve."""
     run = _current()
     if failures:
         return FAILED

@@ -29,5 +29,5 @@ def tables(law):
         f"{name} {value:.1f}" for name, value in cost.items()) + f"; making the tables {make:.1f}")
     added = {name: value - cost["plain"] for name, value in cost.items()}
     total = added["collect"] + 4 * added["tangent"] + 4 * added["traction"] + make
-    print(f"the adapter adds {added['empty']:.1f} us per Python[] call, and {total:.0f} us per point "
-          "and Newton iteration (1 collect, 4 tangent, 2 traction, 2 stress)")
+    print(f"the adapter adds {added['empty']:.1f} us per Python[] call, and {total:.0f} us per "
+          "point and Newton iteration (1 collect, 4 tangent, 2 traction, 2 stress)")

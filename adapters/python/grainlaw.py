@@ -77,15 +77,20 @@ class Evaluation:
         return not self.status.any()
 
     @property
+    def failed(self):
+        """Numbers of the points that failed."""
+        return np.flatnonzero(self.status)
+
+    @property
     def step_ratio(self):
         """Smallest factor on the step that a failed point suggests; 1 when all are well."""
-        failed = np.atleast_1d(self.status) != 0
-        return float(np.min(np.atleast_1d(self.reports)["step_ratio"][failed], initial=1.0))
+        ratios = np.atleast_1d(self.reports)["step_ratio"]
+        return float(np.min(ratios[self.failed], initial=1.0))
 
     @property
     def message(self):
         """The first failed point, or "" """
-        failed = np.flatnonzero(self.status)
+        failed = self.failed
         return _point_message(failed[0], self.status, self.reports) if failed.size else ""
 
 
@@ -144,9 +149,10 @@ class States:
             n, self._array, F.ctypes.data, want, P.ctypes.data, A.ctypes.data if want else None,
             status.ctypes.data, reports.ctypes.data, threads)
         if result < 0:
-            of_points = (reports["message"] != b"").any() or not (status == result).all()
+            if (status == result).all() and not (reports["message"] != b"").any():
+                raise Error(result)  # of the whole call
             point = int(np.flatnonzero(status == result)[0])
-            raise Error(result, _point_message(point, status, reports) if of_points else "")
+            raise Error(result, _point_message(point, status, reports), point)
         self._trial = result == Status.OK
         return Evaluation(P, A, status, reports)
 

@@ -6,9 +6,11 @@ from grainlaw_names import ABI, VERSION, Report, Status
 
 
 class Error(Exception):
-    """A call the library, or this module before it, refused: status (Status) and message."""
+    """A call the library, or this module before it, refused: status (Status), message, and the
+    number of the point where it was one point of several, else None."""
 
-    def __init__(self, status, message=""):
+    def __init__(self, status, message="", point=None):
+        self.point = point
         known = status in Status._value2member_map_  # a later library may have more
         self.status = Status(status) if known else int(status)
         self.message = message or status_text(status)

@@ -148,11 +148,12 @@ GRAINLAW_API grainlaw_report grainlaw_report_default(void);
  * want). The result becomes the trial state. With solver.start = "committed" it is a function of
  * (committed state, F) alone: same bits however often it is called. Errors: NULL_POINTER,
  * BAD_HANDLE, NOT_FINITE, BAD_REPORT, BAD_ARGUMENT, OUT_OF_MEMORY; recoverable: NOT_CONVERGED,
- * CONTACTS_LOST, INVERTED, STEP_TOO_LARGE, COLLAPSED. On any of them P and A are untouched and the committed
- * state keeps its bits. A frame under uniform stress may also end COLLAPSED (recoverable): next to
- * no force is left, or a boundary particle has no contact. With prescribed stress components
- * (boundary "mixed") the given components of F that belong to them are ignored and found instead
- * (measure DEFORMATION_GRADIENT); A has zero rows and columns there.
+ * CONTACTS_LOST, INVERTED, STEP_TOO_LARGE, COLLAPSED (a boundary under uniform stress: next to no
+ * force is left, or a particle of it has no contact). On any of them P and A are untouched and the
+ * committed state keeps its bits. Where stress components are prescribed (boundary "mixed") the
+ * components of F that belong to them are ignored and found instead (measure
+ * DEFORMATION_GRADIENT), P returns the prescribed ones to the tolerance, and A has zero rows and
+ * columns there.
  * F that is refused or leads nowhere also drops the trial, so that an ignored failure cannot commit
  * an older one. */
 GRAINLAW_API grainlaw_status grainlaw_evaluate(grainlaw_state*, const double* F, unsigned want,

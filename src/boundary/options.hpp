@@ -14,9 +14,10 @@ enum class ContactWeight { copies, one };
 // 2.3): D no fluctuation, P that of the opposite side, T free under a uniform stress.
 enum class SideRule { d, p, t };
 enum class SideRotation { fixed, periodic, free };
-// discs: as any others; without_contacts: contacts within the row are left out; rigid: as well, and
-// the row follows F as a straight line of discs.
-enum class SideRow { discs, without_contacts, rigid };
+// discs: as any others. rigid: one body that follows F as a straight line, contacts within it left
+// out: a jagged row of prescribed discs presses its neighbours together as F12 moves them by their
+// heights, an elastic skeleton that dominates at low pressure.
+enum class SideRow { discs, rigid };
 
 struct Side {
   SideRule x = SideRule::p;

@@ -44,8 +44,8 @@ void consolidate_anisotropically(StressControl& control, StressTarget target, do
   const Pair wanted = {size * std::cos(2 * direction), size * std::sin(2 * direction)};
   target.free_shear = false;
   double gain = first_gain;
-  double lowest = 1e300;
-  double highest = 0;
+  double lowest = anisotropy_of(deviatoric_fabric(control));
+  double highest = lowest;
   Pair last{};
   double last_step = 0;
   for (int k = 0; k < most_steps && control.reach(target); ++k) {

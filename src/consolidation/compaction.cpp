@@ -12,8 +12,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace grainlaw {
 
@@ -104,6 +106,76 @@ Packing make_regular(const GeneratorOptions& options, const ContactLaw& law) {
   return packing;
 }
 
+// Consolidation of loose discs.
+class Consolidation {
+ public:
+  Consolidation(const Packing& loose, const GeneratorOptions& options, const ContactLaw& law)
+      : loose_(loose), options_(options), law_(law), radius_(mean_radius(loose)) {}
+
+  // Compression finds rest the easier the softer the discs are against the pressure; the way down
+  // from there is another for each.
+  Packing run() {
+    const double line_stiffness = law_.stiffness(radius_, radius_) / options_.thickness;  // [Pa]
+    const bool to_pressure = !(options_.void_ratio > 0);
+    std::vector<double> above;  // pressures to come down from
+    for (const double stiffness : {1.0, 0.3, 0.1, 0.03}) {
+      const double pressure = line_stiffness / (stiffness * stiffest_compression);
+      if (!to_pressure || pressure > options_.pressure) above.push_back(pressure);
+    }
+    if (!to_pressure || options_.pressure * stiffest_compression >= line_stiffness) {
+      try {
+        return finish(compress(loose_, options_, law_), options_.pressure, false);
+      } catch (const Error& error) {
+        if (error.status != GRAINLAW_NOT_CONVERGED || above.empty()) throw;
+      }
+    }
+    for (std::size_t k = 0;; ++k) {
+      try {
+        GeneratorOptions soft = options_;
+        soft.void_ratio = 0;
+        soft.pressure = above[k];
+        return finish(compress(loose_, soft, law_), above[k], true);
+      } catch (const Error& error) {
+        if (error.status != GRAINLAW_NOT_CONVERGED || k + 1 == above.size()) throw;
+      }
+    }
+  }
+
+ private:
+  Packing finish(Configuration at, double pressure, bool unload) const {
+    if (!unload && !(options_.anisotropy >= 0)) {
+      const BoundarySpace space = make_boundary_space(loose_, {});
+      return packing_of({&loose_, &law_, &space}, at);
+    }
+    StressTarget target;
+    target.pressure = options_.pressure;
+    const double solid = solid_area(loose_);
+    if (options_.void_ratio > 0) {
+      target.volume = (1 + options_.void_ratio) * solid / cell_area(loose_);
+    } else {
+      pressure = options_.pressure;
+    }
+    const double mean_force =
+        pressure * options_.thickness * solid / (2 * static_cast<double>(loose_.size()) * radius_);
+    StressControl control(loose_, law_, std::move(at), faded_force * mean_force);
+    if (unload && !control.reach(target))
+      throw Error(GRAINLAW_NOT_CONVERGED,
+                  fmt::format("generator: no packing at rest was found on unloading; pressure "
+                              "{:.6g} Pa, void ratio {:.6g}; try another seed",
+                              control.pressure(),
+                              control.volume() * cell_area(loose_) / solid - 1));
+    if (options_.anisotropy >= 0)
+      consolidate_anisotropically(control, target, options_.anisotropy,
+                                  options_.anisotropy_direction);
+    return packing_of(control.problem(), control.configuration());
+  }
+
+  const Packing& loose_;
+  const GeneratorOptions& options_;
+  const ContactLaw& law_;
+  double radius_;  // mean [m]
+};
+
 Packing make_random(const GeneratorOptions& options, const ContactLaw& material_law) {
   check(options, material_law, 0.5 * (options.radius_min + options.radius_max));
   ContactLaw law = material_law;
@@ -111,50 +183,10 @@ Packing make_random(const GeneratorOptions& options, const ContactLaw& material_
   if (law.bonds()) law.kind = LawKind::frictional;  // bonds come with F = I
   const Packing loose =
       options.kind == GeneratorKind::lubachevsky_stillinger ? grow(options) : scatter(options);
-  const double radius = mean_radius(loose);
   if (law.hertzian() && options.pressure > 0) {
     law.typical_overlap = overlap_at(options.pressure, loose, law);
   }
-  const double line_stiffness = law.stiffness(radius, radius) / options.thickness;  // [Pa]
-  const bool to_pressure = !(options.void_ratio > 0);
-  // The compression's own target, softer than the packing's where that is stiff.
-  GeneratorOptions soft = options;
-  soft.pressure = std::max(options.pressure, line_stiffness / stiffest_compression);
-  std::optional<Configuration> compressed;
-  bool unload = to_pressure && soft.pressure > options.pressure;
-  try {
-    compressed = compress(loose, soft, law);
-  } catch (const Error& error) {
-    if (error.status != GRAINLAW_NOT_CONVERGED || to_pressure) throw;
-    // A void ratio of so little load that it is reached from above.
-    soft.void_ratio = 0;
-    soft.pressure = line_stiffness / stiffest_compression;
-    compressed = compress(loose, soft, law);
-    unload = true;
-  }
-  const double pressure = to_pressure ? options.pressure : soft.pressure;
-  const double mean_force = pressure * options.thickness * solid_area(loose) /
-                            (2 * static_cast<double>(loose.size()) * radius);
-  const bool anisotropic = options.anisotropy >= 0;
-  if (unload || anisotropic) {
-    StressControl control(loose, law, *std::move(compressed), faded_force * mean_force);
-    StressTarget target;
-    target.pressure = options.pressure;
-    if (!to_pressure)
-      target.volume = (1 + options.void_ratio) * solid_area(loose) / cell_area(loose);
-    if (unload && !control.reach(target))
-      throw Error(GRAINLAW_NOT_CONVERGED,
-                  fmt::format("generator: no packing at rest was found on unloading; pressure "
-                              "{:.6g} Pa, void ratio {:.6g}; try another seed",
-                              control.pressure(),
-                              control.volume() * cell_area(loose) / solid_area(loose) - 1));
-    if (anisotropic)
-      consolidate_anisotropically(control, target, options.anisotropy,
-                                  options.anisotropy_direction);
-    return packing_of(control.problem(), control.configuration());
-  }
-  const BoundarySpace space = make_boundary_space(loose, {});
-  return packing_of({&loose, &law, &space}, *compressed);
+  return Consolidation(loose, options, law).run();
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ constexpr double exact_relaxation = 1e-4;
 constexpr double exact_tolerance = 1e-9;
 constexpr int most_factorisations = 50;
 constexpr double stress_tolerance = 1e-7;
-constexpr int most_steps = 2000;
+constexpr int most_steps = 600;
 
 using Stretches = std::array<double, 2>;
 

@@ -4,6 +4,7 @@
 
 #include "equilibrium/increment.hpp"
 
+#include <array>
 #include <limits>
 #include <span>
 #include <vector>
@@ -15,8 +16,12 @@ enum class History { committed, advancing };
 // Memory of the relaxations, reused from call to call.
 struct RelaxationMemory {
   std::vector<double> velocity, previous, gain, correction;
+  // Of the servo: what the relaxations do not move, forces before reduction, areas and particles of
+  // nodes under uniform stress.
   std::vector<unsigned char> frozen;
   std::vector<ForceRecord> raw;
+  std::vector<std::array<double, 2>> area;
+  std::vector<std::size_t> particle;
 };
 
 // Viscous relaxation: the damping follows the lowest active frequency, and its floor adapts to

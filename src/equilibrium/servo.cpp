@@ -40,6 +40,7 @@ class Servo {
   }
 
   bool run() {
+    if (space_.averages()) find_areas();
     predict();
     increment_.keep_neighbours();
     for (int correction = 0; correction <= servo_.max_corrections; ++correction) {
@@ -47,7 +48,7 @@ class Servo {
         return false;
       }
       memory_.correction.assign(increment_.unknowns(), 0.0);
-      const double residual = std::sqrt(correct_shared() + correct_averaged());
+      const double residual = std::sqrt(correct_shared() + correct_averaged() + correct_deformation());
       if (residual <= servo_.tolerance && off_average() <= servo_.tolerance_deformation) {
         return true;
       }
@@ -130,8 +131,8 @@ class Servo {
     return sum;
   }
 
-  // V P of the contacts, by reference branches; prescribed components are those (eq. 48).
-  std::array<double, 4> stress_times_volume() {
+  // P by the reference branches (eq. 23).
+  [[nodiscard]] std::array<double, 4> measured_stress() const {
     const auto n = packing_.size();
     const double* x = reference();
     std::array<double, 4> p{};
@@ -141,55 +142,79 @@ class Servo {
       const auto j = static_cast<std::size_t>(list.j[c]);
       const double branch[2] = {x[j] - x[i], x[n + j] - x[n + i]};
       for (std::size_t k = 0; k < 4; ++k) {
-        p[k] -= (k < 2 ? list.forces[c].x : list.forces[c].y) * branch[k % 2];
+        p[k] -= (k < 2 ? list.forces[c].x : list.forces[c].y) * branch[k % 2] /
+                space_.reference_volume;
       }
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (space_.found[k]) p[k] = space_.stress[k] * space_.reference_volume;
     }
     return p;
   }
 
   // Boundary nodes under uniform stress: P A - a, and back to the average (eqs. 35, 36 with V F A
-  // once). Components of F that are found follow the nodes. Returns the sum of squares of 1.5.B.
+  // once). Beside a found component of F the multiplier of the average takes the place of P, which
+  // for a jagged side is another. Returns the sum of squares of 1.5.B.
   double correct_averaged() {
     if (!space_.averages()) return 0;
-    auto& raw = memory_.raw;
-    raw.resize(increment_.forces.size());
-    evaluate_contacts(increment_.records, *increment_.problem->law, increment_.contacts, raw);
-    const auto vp = stress_times_volume();
-    find_areas();
+    std::array<double, 4> stress{};
+    const bool published = !found(0) || !found(1);
+    if (published) {
+      memory_.raw.resize(increment_.forces.size());
+      evaluate_contacts(increment_.records, *increment_.problem->law, increment_.contacts,
+                        memory_.raw);
+      stress = measured_stress();
+    }
     double sum = 0;
     for (std::size_t i = 0; i < 2; ++i) {
       const auto& average = space_.average[i];
-      std::array<double, 2> off{};
-      for (std::size_t k = 0; k < average.node.size(); ++k) {
-        const auto q = static_cast<std::size_t>(average.node[k]);
-        const double w = fluctuation(q, i);
-        for (std::size_t r = 0; r < average.rows; ++r) off[r] += average.row[k][r] * w;
-      }
-      for (std::size_t k = 0; k < average.node.size(); ++k) {
-        const auto q = static_cast<std::size_t>(average.node[k]);
+      double* step = memory_.correction.data() + i * nodes_;
+      for (const auto node : average.node) {
+        const auto q = static_cast<std::size_t>(node);
         const double radius = increment_.node_radius[q];
-        const double a = -(i == 0 ? raw[q].x : raw[q].y);
-        const double missing =
-            (vp[2 * i] * area_[q][0] + vp[2 * i + 1] * area_[q][1]) / space_.reference_volume - a;
+        double missing = increment_.residual()[i * nodes_ + q];
+        if (!found(i)) {
+          missing = stress[2 * i] * area_[q][0] + stress[2 * i + 1] * area_[q][1] +
+                    (i == 0 ? memory_.raw[q].x : memory_.raw[q].y);
+        }
         sum += std::pow(missing / force_scale(radius), 2);
-        memory_.correction[i * nodes_ + q] =
-            servo_.gain_force * compliance(radius) * missing -
-            servo_.gain_deformation *
-                (average.row[k][0] * off[0] + average.row[k][1] * off[1]);
+        step[q] = servo_.gain_force * compliance(radius) * missing;
       }
+      return_to_average(i, step);
     }
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (space_.found[k]) follow(k);
+    return sum;
+  }
+
+  [[nodiscard]] bool found(std::size_t direction) const {
+    return space_.found[2 * direction] || space_.found[2 * direction + 1];
+  }
+
+  // Beside a found component the step itself stays within the average.
+  void return_to_average(std::size_t i, double* step) {
+    const auto& average = space_.average[i];
+    std::array<double, 2> off{};
+    for (std::size_t k = 0; k < average.node.size(); ++k) {
+      const auto q = static_cast<std::size_t>(average.node[k]);
+      const double by = servo_.gain_deformation * fluctuation(q, i) + (found(i) ? step[q] : 0);
+      off[0] += average.row[k][0] * by;
+      off[1] += average.row[k][1] * by;
+    }
+    for (std::size_t k = 0; k < average.node.size(); ++k) {
+      step[static_cast<std::size_t>(average.node[k])] -=
+          average.row[k][0] * off[0] + average.row[k][1] * off[1];
+    }
+  }
+
+  // Found components of F by the stress that is missing, as stiff as all contacts together.
+  double correct_deformation() {
+    double sum = 0;
+    for (std::size_t k = increment_.node_unknowns(); k < increment_.unknowns(); ++k) {
+      const double missing = increment_.residual()[k];
+      memory_.correction[k] = servo_.gain_force * missing / increment_.mass[k];
+      sum += std::pow(missing / force_scale(smallest_), 2);
     }
     return sum;
   }
 
   // A_q t of every node under uniform stress, and a particle of it.
   void find_areas() {
-    if (!area_.empty()) return;
     area_.assign(nodes_, {0, 0});
     particle_.assign(nodes_, 0);
     const auto& frame = *packing_.frame;
@@ -204,29 +229,6 @@ class Servo {
   [[nodiscard]] double fluctuation(std::size_t node, std::size_t i) const {
     const auto p = particle_[node];
     return increment_.coordinates[i * packing_.size() + p] - place(p, i, increment_.deformation);
-  }
-
-  // The component of F takes over what the correction changes of the average; the nodes stay where
-  // the correction puts them.
-  void follow(std::size_t component) {
-    const std::size_t i = component / 2;
-    const std::size_t j = component % 2;
-    const auto n = packing_.size();
-    double moved = 0;
-    double span = 0;
-    for (const auto node : space_.average[i].node) {
-      const auto q = static_cast<std::size_t>(node);
-      moved += area_[q][j] * memory_.correction[i * nodes_ + q];
-      span += area_[q][j] * reference()[j * n + particle_[q]];
-    }
-    if (span == 0) return;
-    const double change = moved / span;
-    for (const auto node : space_.average[i].node) {
-      const auto q = static_cast<std::size_t>(node);
-      memory_.correction[i * nodes_ + q] -= change * reference()[j * n + particle_[q]];
-    }
-    memory_.correction[increment_.node_unknowns() + component] =
-        change * increment_.deformation_scale();
   }
 
   // |F - (1/V) sum x (x) A| over the components that are given.
@@ -256,8 +258,8 @@ class Servo {
   std::size_t nodes_;
   double smallest_ = 0;  // radius on the boundary [m]
   double dt_ = 0;        // [s]
-  std::vector<std::array<double, 2>> area_;
-  std::vector<std::size_t> particle_;
+  std::vector<std::array<double, 2>>& area_ = memory_.area;
+  std::vector<std::size_t>& particle_ = memory_.particle;
 };
 
 }  // namespace

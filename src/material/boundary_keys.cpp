@@ -33,11 +33,9 @@ void check_side(const TomlTable& table, const Side& side) {
   if (t && side.rotation == SideRotation::periodic) {
     table.fail("rotation", "\"periodic\" on a \"T\" side", "\"free\" or \"fixed\"");
   }
-  if (p && side.row != SideRow::discs) {
-    table.fail("row", "a row on a \"P\" side", "\"discs\", or \"D\" or \"T\" for x and y");
-  }
-  if (side.row == SideRow::rigid && side.x != SideRule::d) {
-    table.fail("row", "\"rigid\" where x is \"T\"", "x = \"D\" with it");
+  if (side.row == SideRow::rigid && (p || (side.x == SideRule::t && side.y == SideRule::t))) {
+    table.fail("row", "\"rigid\" on a side that is nowhere \"D\"",
+               "\"D\" in x or y with it, and no \"P\"");
   }
 }
 
@@ -57,9 +55,7 @@ Side read_side(TomlTable table) {
                                        {"free", SideRotation::free}}),
                  side.rotation);
   table.optional("row",
-                 one_of<SideRow>({{"discs", SideRow::discs},
-                                  {"without-contacts", SideRow::without_contacts},
-                                  {"rigid", SideRow::rigid}}),
+                 one_of<SideRow>({{"discs", SideRow::discs}, {"rigid", SideRow::rigid}}),
                  side.row);
   table.finish();
   check_side(table, side);

@@ -65,8 +65,11 @@ void load_to_stress(const BoundarySpace& space, const Request& request, Workspac
                                 prescribed.empty() ? "" : ", ", k / 2 + 1, k % 2 + 1,
                                 space.stress[k], at.stress[k]);
     }
-    throw Error(outcome.status == GRAINLAW_OK ? GRAINLAW_CONTACTS_LOST : outcome.status,
-                fmt::format("boundary.stress: no state of the packing carries {}", prescribed));
+    const auto status =
+        outcome.status == GRAINLAW_OK ? GRAINLAW_CONTACTS_LOST : outcome.status;
+    throw Error(GRAINLAW_NOT_CONVERGED,
+                fmt::format("boundary.stress: no state of the packing carries {}: {}", prescribed,
+                            grainlaw_status_text(status)));
   }
 }
 

@@ -193,6 +193,12 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
     throw Error(GRAINLAW_CONTACTS_LOST,
                 "the packing has no contacts at F = I; expected one that carries stress");
   }
+  if (outcome.status == GRAINLAW_COLLAPSED) {
+    throw Error(outcome.status,
+                "the packing carries no uniform stress at F = I: a boundary particle has no "
+                "contact, or the forces vanish; expected every boundary particle under \"T\" to be "
+                "held by others");
+  }
   if (outcome.status != GRAINLAW_OK) {
     throw Error(outcome.status,
                 fmt::format("the packing found no equilibrium at F = I: residual "

@@ -117,8 +117,8 @@ TEST(bad_material, any_mistake_is_told_with_file_line_key_and_expectation) {
       {11, "friction = 1979-05-27", 11, "contact.friction", "found 1979-05-27"},
       {11, "friction = 0.5\nrotation = 1", 12, "contact.rotation", "expected true or false"},
       {11, "friction = 0.5\nfrction = 0.5", 12, "contact.frction", "found an unknown key"},
-      {13, "type = \"frame-t\"", 13, "boundary.type", "one of \"periodic-cell\", \"frame-p\""},
-      {13, "method = \"servo\"", 13, "boundary.method", "type = \"frame-p\""},
+      {13, "type = \"frame-x\"", 13, "boundary.type", "one of \"periodic-cell\", \"frame-p\""},
+      {13, "method = \"servo\"", 13, "boundary.method", "a frame or mixed type"},
       {13, "method = \"penalty\"", 13, "boundary.method", "one of \"direct\", \"servo\""},
       {13, "contact_weight = 1", 13, "boundary.contact_weight", "one of \"copies\", \"one\""},
       {13, "gain = 3", 13, "boundary.gain", "found an unknown key"},
@@ -160,7 +160,7 @@ TEST(bad_material, any_mistake_is_told_with_file_line_key_and_expectation) {
 TEST(bad_material, any_mistake_in_a_generator_is_told) {
   const Mistake mistakes[] = {
       {2, "", 1, "thickness", "found nothing, expected a number > 0 with a generator"},
-      {4, "generator = \"rain\"", 4, "packing.generator", "expected \"compaction\""},
+      {4, "generator = \"rain\"", 4, "packing.generator", "expected one of \"compaction\""},
       {5, "count = 1", 5, "packing.count", "expected an integer from 2"},
       {5, "count = 100.0", 5, "packing.count", "expected an integer from 2"},
       {5, "", 3, "packing.count", "found nothing"},

@@ -1,5 +1,6 @@
 // After warm-up an evaluation allocates nothing. A program of its own: it counts every operator
 // new.
+#include "boundary_support.hpp"
 #include "law_support.hpp"
 
 #include <cstdlib>
@@ -101,6 +102,10 @@ std::vector<MaterialDescription> descriptions() {
     all.push_back(describe_law(reference_packing(), law, BoundaryType::periodic_cell, 1e-8));
   }
   all.push_back(describe_law(reference_packing(), compressive_law(), BoundaryType::periodic_cell, 1e-8));
+  for (const auto boundary : {BoundaryType::frame_d, BoundaryType::frame_t}) {
+    all.push_back(describe(small_packing(), rough_law(), boundary, 1e-8));
+  }
+  all.push_back(describe_layer(small_packing(), -1e5));
   return all;
 }
 
@@ -137,6 +142,9 @@ TEST(allocation, does_not_happen_in_the_reference_methods) {
   description.solver.method = Method::published;
   EXPECT_EQ(allocations_after_warm_up(description, TangentKind::none), none);
   description.boundary.method = BoundaryMethod::servo;
+  EXPECT_EQ(allocations_after_warm_up(description, TangentKind::none), none);
+  description.boundary.type = BoundaryType::frame_t;
+  description.boundary.servo.tolerance = 1e-4;
   EXPECT_EQ(allocations_after_warm_up(description, TangentKind::none), none);
 }
 

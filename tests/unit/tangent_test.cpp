@@ -36,8 +36,8 @@ TEST(tangent, through_sub_increments_matches_central_differences) {
   }
 }
 
-// A rattler left by one sub-increment may come to bear in the next, from a place that no equilibrium
-// determines; then the tangent does not claim to be exact.
+// A rattler left by one sub-increment may come to bear in the next, from a place that no
+// equilibrium determines; then the tangent does not claim to be exact.
 TEST(tangent, through_sub_increments_is_exact_where_it_says_so) {
   int exact = 0;
   for (const auto boundary : {BoundaryType::periodic_cell, BoundaryType::frame_p}) {

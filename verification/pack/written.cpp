@@ -17,13 +17,13 @@ void weigh_copies(WrittenPacking& packing) {
   std::map<std::tuple<long, long, long, long>, std::vector<std::size_t>> groups;
   for (std::size_t c = 0; c < packing.contacts.size(); ++c) {
     const WrittenContact& contact = packing.contacts[c];
-    Eigen::Vector2d branch = to_cell * packing.branch(contact);
+    const Eigen::Vector2d branch = to_cell * packing.branch(contact);
     const Eigen::Vector2d middle = to_cell * packing.centre[contact.i] + 0.5 * branch;
-    if (branch.x() < 0) branch = -branch;
     const auto place = [&](double s) { return std::lround((s - std::floor(s + 1e-7)) * places); };
-    groups[{place(middle.x()), place(middle.y()), std::lround(branch.x() * places),
-            std::lround(branch.y() * places)}]
-        .push_back(c);
+    const long along = std::lround(branch.x() * places);
+    const long up = std::lround(branch.y() * places);
+    const long sign = along < 0 || (along == 0 && up < 0) ? -1 : 1;
+    groups[{place(middle.x()), place(middle.y()), sign * along, sign * up}].push_back(c);
   }
   for (const auto& [key, members] : groups)
     for (const std::size_t c : members)

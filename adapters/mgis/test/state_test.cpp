@@ -223,7 +223,7 @@ TEST_F(mgis_state, states_of_analyses_that_ended_stay_within_the_budget) {
   setenv("GRAINLAW_IDLE_MEMORY", "0.1", 1);  // MiB: some 15 states of 40 discs
   constexpr std::size_t points = 4;
   std::size_t most_early = 0, most_late = 0;
-  for (int analysis = 0; analysis < 80; ++analysis) {
+  for (int analysis = 0; analysis < 40; ++analysis) {
     Manager host = manager(points);
     for (int step = 0; step < 3; ++step) {
       for (int iteration = 0; iteration < 8; ++iteration) {
@@ -231,7 +231,7 @@ TEST_F(mgis_state, states_of_analyses_that_ended_stay_within_the_budget) {
       }
       host.update();
     }
-    std::size_t& most = analysis < 20 ? most_early : most_late;
+    std::size_t& most = analysis < 12 ? most_early : most_late;
     most = std::max(most, states());
   }
   EXPECT_LE(most_early, 60u);

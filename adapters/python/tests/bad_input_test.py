@@ -49,8 +49,9 @@ class BadInput(Case):
     def test_numbers_that_are_none(self):
         for bad in (np.nan, np.inf, -np.inf):
             self.good[1, 0, 1] = bad
-            self.assert_refused(Status.NOT_FINITE, ["point 1", "F12"],
-                                self.states.evaluate, self.good, Tangent.EXACT)
+            refused = self.assert_refused(Status.NOT_FINITE, ["point 1", "F12"],
+                                          self.states.evaluate, self.good, Tangent.EXACT)
+            self.assertEqual(refused.point, 1)
             self.assert_refused(Status.NO_TRIAL, ["no evaluated trial"], self.states.commit)
 
     def test_unknown_tangent_and_measure(self):

@@ -25,3 +25,4 @@ class Case(unittest.TestCase):
         self.assertEqual(caught.exception.status, status)
         for word in words:
             self.assertIn(word, str(caught.exception))
+        return caught.exception

@@ -114,6 +114,21 @@ std::vector<std::byte> save(grainlaw_state* state) {
   return bytes;
 }
 
+// Periodic to left and right, discs that F moves below, a rigid row above; the vertical stress is
+// prescribed and F22 found.
+MaterialSource layer(MaterialSource source) {
+  change(source, "boundary", "type", "mixed");
+  const auto side = [&](const char* name, toml::table rules) {
+    change(source, "boundary", name, std::move(rules));
+  };
+  side("left", toml::table{{"x", "P"}});
+  side("right", toml::table{{"x", "P"}});
+  side("bottom", toml::table{{"x", "D"}});
+  side("top", toml::table{{"x", "D"}, {"y", "T"}, {"row", "rigid"}});
+  side("stress", toml::table{{"P22", -1e5}});
+  return source;
+}
+
 // Into a copy: loading drops the trial.
 void save_and_load(grainlaw_state* state) {
   const auto bytes = save(state);
@@ -147,6 +162,14 @@ std::vector<Feature> features(const StudyOptions& options, int count, double tol
       {"elastic tangent", base, base, path, {GRAINLAW_WANT_TANGENT_ELASTIC, {}}},
       {"perturbed tangent", base, base, path, {GRAINLAW_WANT_TANGENT_PERTURBED, {}}},
       {"frame-p", frame, base, path, {}},
+      {"frame-d", changed(base, "boundary", "type", "frame-d"), base, path, {}},
+      {"frame-t", changed(base, "boundary", "type", "frame-t"), base, path, {}},
+      {"frame-t, exact tangent",
+       changed(base, "boundary", "type", "frame-t"),
+       changed(base, "boundary", "type", "frame-t"),
+       path,
+       {GRAINLAW_WANT_TANGENT_EXACT, {}}},
+      {"layer under P22", layer(base), base, path, {}},
       {"start = trial, 3 iterates", trial, base, compression(increments, 3), {}},
       {"all measures", base, base, path, {0, take_all_measures}},
       {"VTK file",

@@ -30,14 +30,6 @@ void add_stiffness(const PackingStore& store, Cases& cases) {
   }
 }
 
-void add_generator(Cases& cases) {
-  for (const double stiffness : {1e4, 1e5, 1e7})
-    add(cases, "generator",
-        fmt::format("kn/p {:.0e}, isochoric, 10 increments of 0.1 %", stiffness),
-        [=] { return PackingStore::by_generator({.stiffness = stiffness}); },
-        {.targets = along(10, [](double s) { return isochoric(0.01 * s); })});
-}
-
 void add_friction(const PackingStore& store, Cases& cases) {
   for (const double friction : {0.0, 0.1, 0.5, 1.5, 1e3})
     add(
@@ -75,7 +67,6 @@ void add_sweep(const PackingStore& store, Cases& cases) {
 
 void add_contact_cases(const PackingStore& store, Cases& cases) {
   add_stiffness(store, cases);
-  add_generator(cases);
   add_friction(store, cases);
   add_sizes(store, cases);
   add_sweep(store, cases);

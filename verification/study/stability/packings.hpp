@@ -29,8 +29,8 @@ struct Contact {
   double tolerance = 1e-6;  // of the equilibria [-]
 };
 
-// A periodic packing of discs of mean radius 5 mm, uniform radii, at rest without friction: generated
-// at 100 kPa up to a stiffness of 1000, unloaded from there beyond.
+// A periodic packing of discs of mean radius 5 mm, uniform radii, at rest without friction: at 100
+// kPa up to a stiffness of 1000, at less beyond.
 struct Recipe {
   double stiffness = 300;       // kn / (p t) of the mean disc [-]
   double size_ratio = 7.0 / 3;  // largest / smallest radius [-]
@@ -50,8 +50,6 @@ class PackingStore {
  public:
   explicit PackingStore(std::filesystem::path directory) : directory_(std::move(directory)) {}
 
-  // What the library's generator makes of the recipe, at any stiffness, with the recipe's seed.
-  [[nodiscard]] static Material by_generator(const Recipe& recipe);
   // From the packing's files, which are made when they are missing. `contact.young` is the recipe's.
   [[nodiscard]] Material generated(const Recipe& recipe, Contact contact) const;
   // The same with another disc in the middle of the widest void, touching nothing.
@@ -66,7 +64,7 @@ class PackingStore {
  private:
   // Name of the files of the recipe, made when they are missing.
   [[nodiscard]] std::string ensure(const Recipe& recipe) const;
-  [[nodiscard]] State unloaded(const Recipe& recipe) const;
+  [[nodiscard]] static Material make(const Recipe& recipe);
   [[nodiscard]] Material from_files(const std::string& name, const Contact& contact,
                                     bool with_forces) const;
 

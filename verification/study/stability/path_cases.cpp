@@ -112,8 +112,13 @@ void add_dilution(const PackingStore& store, Cases& cases) {
 }
 
 // Friction is dissipated by whole increments and the work is a trapezoid: the error is of first
-// order in the increment.
-void add_energy(const MaterialSource& yade, Cases& cases) {
+// order in the increment. Without friction nothing is dissipated, but what jumps between equilibria
+// release does not fall with the increment.
+void add_energy(const PackingStore& store, const MaterialSource& yade, Cases& cases) {
+  for (const int steps : {15, 60, 240})
+    add(cases, "energy", fmt::format("friction 0, shear to 1.5 % and back by {:g} %", 1.5 / steps),
+        [=] { return store.generated({}, {.friction = 0}); },
+        {.targets = cycles(1, steps, [](double s) { return simple_shear(0.015 * s); })});
   const Maker material = [yade] { return make_material(yade); };
   for (const int steps : {10, 20, 40})
     add(cases, "energy", fmt::format("400 discs, shear to 1 % by {:g} %", 1.0 / steps), material,
@@ -130,7 +135,7 @@ void add_path_cases(const PackingStore& store, const MaterialSource& yade, Cases
   add_dilution(store, cases);
   add_rotations(store, cases);
   add_random(store, cases);
-  add_energy(yade, cases);
+  add_energy(store, yade, cases);
 }
 
 }  // namespace verification::stability

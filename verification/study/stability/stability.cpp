@@ -44,6 +44,7 @@ constexpr Column columns[] = {{"case", true},
                               {"factorisations[-]", true},
                               {"cpu[ms]", true},
                               {"worst_residual[-]", true},
+                              {"released_in_jumps[-]", true},
                               {"energy_error[-]", true},
                               {"least_dissipation[-]", false},
                               {"error[-]", true},
@@ -67,8 +68,7 @@ std::string ending(const Case& one, const Walk& walk, const std::optional<Check>
   return how;
 }
 
-// Relative to the total absolute work; bursts lose energy to the viscosity of the relaxation, which
-// is neither stored nor friction.
+// Relative to the total absolute work.
 Table::Cell per_work(const Walk& walk, double energy) {
   return walk.worked ? Table::Cell(energy / walk.total_work) : Table::Cell("");
 }
@@ -102,7 +102,8 @@ Row row_of(const Case& one, const Walk& walk) {
           walk.factorisations / evaluations,
           1e3 * walk.cpu / done,
           walk.worst_residual,
-          per_work(walk, walk.work - walk.stored - walk.dissipated),
+          per_work(walk, walk.released),
+          per_work(walk, walk.work - walk.stored - walk.dissipated - walk.released),
           per_work(walk, walk.least_dissipation),
           check ? Table::Cell(check->error) : Table::Cell(""),
           check ? check->against : "",
@@ -172,7 +173,8 @@ void write_tables(const std::vector<Row>& rows, const std::filesystem::path& out
   Table shown(
       "stability: every case converges or ends in a defined way. Checked in every evaluation: P, "
       "tangent and measures are finite; after a failure the state has its bytes. Steps and "
-      "factorisations per evaluation, CPU per increment, energy over the absolute work",
+      "factorisations per evaluation, CPU per increment; energy over the absolute work: set free "
+      "in jumps between equilibria, and what then remains of work - stored - dissipated - released",
       printed);
   for (const Row& row : rows) {
     Row written, narrow;

@@ -17,6 +17,9 @@ constexpr double longest_answer = 20;      // CPU time of one evaluation; more c
 constexpr double loosest_residual = 1e-2;  // that may pass for an equilibrium [-]
 constexpr double no_work = 1e-9;           // of the stored energy: rounding of a rotation [-]
 constexpr double dissipation_rounding = 1e-9;  // of the total work [-]
+// What an increment leaves unaccounted counts as a jump beyond this share of the mean work: without
+// a jump it is of second order in the increment, and the mean work of first.
+constexpr double jump = 0.1;
 
 double cpu_seconds() {
   timespec time{};
@@ -84,6 +87,8 @@ class Host {
     }
     walk_.stored = stored_ - first_stored_;
     walk_.dissipated = dissipated_;
+    const double least = jump * walk_.total_work / static_cast<double>(left_over_.size());
+    for (const double energy : left_over_) walk_.released += energy > least ? energy : 0;
     walk_.worked = walk_.total_work > no_work * first_stored_;
     walk_.mean_overlap = measure_scalar(state_.get(), GRAINLAW_MEAN_OVERLAP);
     return std::move(walk_);
@@ -195,9 +200,11 @@ class Host {
     const double work = 0.5 * volume_ * sum.cwiseProduct(back * deformation - here_).sum();
     walk_.work += work;
     walk_.total_work += std::abs(work);
-    stored_ = measure_scalar(state_.get(), GRAINLAW_ELASTIC_ENERGY);
+    const double stored = measure_scalar(state_.get(), GRAINLAW_ELASTIC_ENERGY);
     const double dissipated = measure_scalar(state_.get(), GRAINLAW_DISSIPATED_ENERGY);
     const double increment = dissipated - dissipated_;
+    left_over_.push_back(work - (stored - stored_) - increment);
+    stored_ = stored;
     walk_.least_dissipation = std::min(walk_.least_dissipation, increment);
     if (increment < -dissipation_rounding * (walk_.total_work + stored_))
       violate(fmt::format("friction gave {:.3g} J back", -increment));
@@ -212,10 +219,11 @@ class Host {
 
   const Path& path_;
   State state_;
-  double volume_ = 0;        // at F = I [m3]
-  double first_stored_ = 0;  // [J]
-  double stored_ = 0;        // [J]
-  double dissipated_ = 0;    // [J]
+  double volume_ = 0;              // at F = I [m3]
+  double first_stored_ = 0;        // [J]
+  double stored_ = 0;              // [J]
+  double dissipated_ = 0;          // [J]
+  std::vector<double> left_over_;  // of the work of every step: neither stored nor dissipated [J]
   Tensor here_ = Tensor::Identity();
   Tensor stress_ = Tensor::Zero();
   grainlaw_status last_status_ = GRAINLAW_OK;

@@ -47,7 +47,8 @@ struct Walk {
   double work = 0;               // V0 P:dF, trapezoid rule [J]
   double total_work = 0;         // sum of its absolute values [J]
   double stored = 0;             // change of elastic energy [J]
-  double dissipated = 0;         // [J]
+  double dissipated = 0;         // by friction [J]
+  double released = 0;           // in jumps from one equilibrium to another [J]
   bool worked = false;           // more than a rotation does by rounding
   double least_dissipation = 0;  // of one step [J]
   double mean_overlap = 0;       // at the end [m]
@@ -55,6 +56,10 @@ struct Walk {
   std::string violation;         // "", or the first thing that the contract excludes
 };
 
+// An increment in which the packing jumps from one equilibrium to another sets elastic energy free,
+// which the relaxation takes away. It stands out: what its work leaves over when the changes of
+// stored and dissipated energy are taken from it does not shrink with the increment.
+//
 // Every evaluation asks for the exact tangent. A failed step is halved up to ten times, a part that
 // succeeded doubles the next one.
 Walk walk(const Material& material, const Path& path);
