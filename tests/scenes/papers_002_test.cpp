@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -20,7 +21,7 @@ using Tensor = std::array<double, 4>;
 const std::string square = R"(
 dimension = 2
 thickness = 1e-3
-packing = { generator = "square", columns = 4, rows = 4, radius = 1.02e-3, overlap = 0.04e-3 }
+packing = { generator = "square", columns = 4, rows = 4, radius = 1.02e-3, overlap = 0.04e-3, radius_spread = 1e-3, seed = 1 }
 contact = { law = "frictional", kn = 1e4, ratio = 0.2, friction = 0.4 }
 solver = { tolerance = 1e-8 }
 )";
@@ -50,37 +51,38 @@ double norm(const Tensor& tensor) {
   return std::sqrt(sum);
 }
 
-// |P| after each of the steps on the straight way from I to F.
-std::vector<double> stress_along(const std::string& text, const Tensor& F, int steps) {
+// P after each of the steps on the straight way from I to F, as far as it goes.
+std::vector<Tensor> stress_along(const std::string& text, const Tensor& F, int steps) {
   const Material material = Material::parse(text, ".");
   State state(material);
-  std::vector<double> stress;
+  std::vector<Tensor> stress;
   for (int k = 1; k <= steps; ++k) {
     const double s = static_cast<double>(k) / steps;
+    const Tensor at{1 + s * (F[0] - 1), s * F[1], s * F[2], 1 + s * (F[3] - 1)};
     Tensor P{};
-    if (!state.evaluate({1 + s * (F[0] - 1), s * F[1], s * F[2], 1 + s * (F[3] - 1)}, P)) break;
+    if (!state.evaluate(at, P)) break;
     state.commit();
-    stress.push_back(norm(P));
+    stress.push_back(P);
   }
   return stress;
 }
 
-constexpr Tensor compression_shear{0.99, -0.1, -0.1, 0.99};
+constexpr Tensor compression_shear{0.995, -0.05, -0.05, 0.995};
 constexpr Tensor shear{1, 0.05, 0, 1};
 
-void expect_not_below(const std::vector<double>& stiff, const std::vector<double>& soft) {
+void expect_not_below(const std::vector<Tensor>& stiff, const std::vector<Tensor>& soft) {
   ASSERT_FALSE(stiff.empty());
   ASSERT_FALSE(soft.empty());
   for (std::size_t k = 0; k < std::min(stiff.size(), soft.size()); ++k)
-    EXPECT_GE(stiff[k], soft[k] * (1 - 1e-6)) << "step " << k + 1;
+    EXPECT_GE(norm(stiff[k]), norm(soft[k]) * (1 - 1e-6)) << "step " << k + 1;
 }
 
 TEST(papers_002, stress_of_regular_discs_falls_from_d_over_p_to_t) {  // fig. 4
-  const auto d = stress_along(square + boundary("frame-d"), compression_shear, 50);
-  const auto p = stress_along(square + boundary("frame-p"), compression_shear, 50);
-  const auto t = stress_along(square + boundary("frame-t"), compression_shear, 50);
-  EXPECT_EQ(d.size(), 50u);
-  EXPECT_EQ(p.size(), 50u);
+  const auto d = stress_along(square + boundary("frame-d"), compression_shear, 25);
+  const auto p = stress_along(square + boundary("frame-p"), compression_shear, 25);
+  const auto t = stress_along(square + boundary("frame-t"), compression_shear, 25);
+  EXPECT_EQ(d.size(), 25u);
+  EXPECT_EQ(p.size(), 25u);
   expect_not_below(d, p);
   expect_not_below(p, t);
 }
@@ -99,7 +101,8 @@ TEST(papers_002, locked_rotation_makes_stronger) {  // papers/000, fig. 10
                                    compression, 20);
   ASSERT_EQ(free.size(), 20u);
   ASSERT_EQ(locked.size(), 20u);
-  EXPECT_GT(locked.back(), 1.3 * free.back());
+  const auto deviator = [](const std::vector<Tensor>& P) { return P.back()[0] - P.back()[3]; };
+  EXPECT_GT(deviator(locked), 1.3 * deviator(free));
 }
 
 }  // namespace
