@@ -201,6 +201,12 @@ class Compaction {
                                   {pair.shift[0], pair.shift[1]},
                                   point.normal_force,
                                   {-t * point.normal_y, t * point.normal_x}});
+      if (law_.moments()) {
+        packing.contacts.back().moment =
+            contact_moment(increment.contacts, c, point, increment.coordinates, packing.size(),
+                           law_)
+                .moment;
+      }
     }
     return packing;
   }
