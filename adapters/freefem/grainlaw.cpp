@@ -1,12 +1,12 @@
-// FreeFEM plugin: `load "grainlaw"`. A set of points is a handle >= 1 made by grainlawCreate; tensors
-// are columns of real[int,int] (components by points), or the same numbers in a real[int].
+// FreeFEM plugin: `load "grainlaw"`. A set of points is a number >= 1 made by grainlawCreate;
+// tensors are columns of real[int,int] (components by points), or the same numbers in a real[int].
 //
 //   int sand = grainlawCreate("sand.toml", n)          n points at F = I; the number of the set
 //   grainlawEvaluate(sand, F, P [, A [, threads]])     number of points that found no equilibrium
 //       F, P [dim^2, n]: component i*dim+J; A [dim^4, n]: dP_iJ/dF_kL at ((i*dim+J)*dim+k)*dim+L
 //   grainlawStepRatio(sand), grainlawFirstFailed(sand), grainlawMessage(sand)
-//       of the last evaluation: by how much to shorten the step, which point failed first (-1: none)
-//       and why
+//       of the last evaluation: by how much to shorten the step, which point failed first (-1:
+//       none) and why
 //   grainlawCommit(sand), grainlawRevert(sand)         when the load step has converged, or is cut
 //   grainlawSave(sand, "file"), grainlawLoad(sand, "file")
 //   grainlawMeasure(sand, "void_ratio", values)        [components, n], or [n] for a scalar
@@ -112,8 +112,7 @@ long load(const long& number, string* const& path) {
 
 template <class Field>
 long measure(const long& number, string* const& name, const Field& values) {
-  return guarded("grainlawMeasure",
-                 [&] { return find(number).measure(*name, view(values)), 0L; });
+  return guarded("grainlawMeasure", [&] { return find(number).measure(*name, view(values)), 0L; });
 }
 
 long write_vtk(const long& number, const long& point, string* const& path) {
@@ -154,14 +153,12 @@ string* text_of_last_error() { return &last_error; }
 
 template <class Field>
 void add_array_functions() {
-  Global.Add("grainlawEvaluate", "(",
-             new OneOperator3_<long, long, Field, Field>(evaluate<Field>));
+  Global.Add("grainlawEvaluate", "(", new OneOperator3_<long, long, Field, Field>(evaluate<Field>));
   Global.Add("grainlawEvaluate", "(",
              new OneOperator4_<long, long, Field, Field, Field>(evaluate<Field>));
   Global.Add("grainlawEvaluate", "(",
              new OneOperator5_<long, long, Field, Field, Field, long>(evaluate<Field>));
-  Global.Add("grainlawMeasure", "(",
-             new OneOperator3_<long, long, string*, Field>(measure<Field>));
+  Global.Add("grainlawMeasure", "(", new OneOperator3_<long, long, string*, Field>(measure<Field>));
 }
 
 void add_functions() {

@@ -109,8 +109,8 @@ long PointSet::evaluate(const Array& F, const Array& P, const Array* A, long thr
   failure_ = {};
   const unsigned want = A != nullptr ? unsigned{GRAINLAW_WANT_TANGENT_EXACT} : 0u;
   const grainlaw_status status = grainlaw_evaluate_batch(
-      n, handles_.data(), F.data, want, P.data,
-      A != nullptr ? A->data : nullptr, status_.data(), reports_.data(), static_cast<int>(threads));
+      n, handles_.data(), F.data, want, P.data, A != nullptr ? A->data : nullptr, status_.data(),
+      reports_.data(), static_cast<int>(threads));
   if (status == GRAINLAW_OK) {
     evaluated_ = true;
     return 0;
@@ -214,8 +214,8 @@ void PointSet::measure(const std::string& name, const Array& values) const {
 
 void PointSet::write_vtk(long point, const std::string& path) const {
   if (point < 0 || point >= size())
-    throw std::invalid_argument("there is no point " + std::to_string(point) +
-                                ", expected 0 to " + std::to_string(size() - 1));
+    throw std::invalid_argument("there is no point " + std::to_string(point) + ", expected 0 to " +
+                                std::to_string(size() - 1));
   const grainlaw_status status =
       grainlaw_state_write_vtk(handles_[static_cast<std::size_t>(point)], path.c_str());
   check(status, path + ": " + grainlaw_status_text(status));

@@ -33,8 +33,8 @@ class PointSet {
   [[nodiscard]] long dimension() const { return dimension_; }
 
   // F[dim^2, n] -> P[dim^2, n] and, unless null, A[dim^4, n]: the exact tangent, in one batch.
-  // Returns the number of points without an equilibrium, whose P and A keep what they held; failure()
-  // tells about them. threads 0: as many as the library takes.
+  // Returns the number of points without an equilibrium, whose P and A keep what they held;
+  // failure() tells about them. threads 0: as many as the library takes.
   long evaluate(const Array& F, const Array& P, const Array* A, long threads);
   [[nodiscard]] const Failure& failure() const { return failure_; }
 
@@ -46,7 +46,7 @@ class PointSet {
   void save(const std::string& path) const;
   void load(const std::string& path);
 
-  // values[components, n] of a measure by its name in lower case, e.g. "void_ratio", "cauchy_stress".
+  // values[components, n] of a measure by its name in lower case, e.g. "void_ratio".
   void measure(const std::string& name, const Array& values) const;
   void write_vtk(long point, const std::string& path) const;
 

@@ -189,7 +189,13 @@ GRAINLAW_API grainlaw_status grainlaw_state_load(grainlaw_state*, const void* by
 
 /* Measures of the trial state, or of the committed one when there is no trial: X(name, value,
  * count, text); a count of -2 stands for dim*dim, -1 for the number of rotation components (1 in
- * 2D). */
+ * 2D).
+ * ANISOTROPY is infinite when all contacts are parallel, and 0 without any.
+ * DISSIPATED_ENERGY: what sliding and rolling contacts and springs that unload give up from one
+ * committed state to the next, and all that the contacts lose at the F where bonds break. What is
+ * lost when the packing snaps over between two equilibria without sliding is not in it (with
+ * friction 0 it stays 0); after an increment with report.history_advanced = 1 it also counts the
+ * sliding to and fro of the relaxation. */
 #define GRAINLAW_MEASURE_LIST(X)                                                                  \
   X(GRAINLAW_CAUCHY_STRESS, 0, -2, "Cauchy stress P F^T / det F [Pa], tension positive")          \
   X(GRAINLAW_VOLUME, 1, 1, "current volume [m3]")                                                 \
@@ -202,8 +208,8 @@ GRAINLAW_API grainlaw_status grainlaw_state_load(grainlaw_state*, const void* by
   X(GRAINLAW_MEAN_OVERLAP, 8, 1, "mean overlap of touching contacts [m]")                         \
   X(GRAINLAW_MEAN_ROTATION, 9, -1, "mean particle rotation since F = I [rad]")                    \
   X(GRAINLAW_ELASTIC_ENERGY, 10, 1, "energy stored in the contacts [J]")                          \
-  X(GRAINLAW_DISSIPATED_ENERGY, 11, 1, "energy dissipated by friction since F = I [J]")           \
-  X(GRAINLAW_BROKEN_BONDS, 12, 1, "number of broken bonds [-]")                                   \
+  X(GRAINLAW_DISSIPATED_ENERGY, 11, 1, "by friction, rolling, broken bonds since F = I [J]")      \
+  X(GRAINLAW_BROKEN_BONDS, 12, 1, "bonds broken since F = I, copies on a frame once [-]")         \
   X(GRAINLAW_CONTACTS, 13, 1, "number of touching contacts [-]")                                  \
   X(GRAINLAW_PARTICLES, 14, 1, "number of particles, images of a frame counted once [-]")         \
   X(GRAINLAW_REFERENCE_VOLUME, 15, 1, "volume at F = I [m3]")                                     \
@@ -222,14 +228,14 @@ typedef enum grainlaw_measure {
 GRAINLAW_API grainlaw_status grainlaw_state_measure(const grainlaw_state*, grainlaw_measure what,
                                                     double* value, size_t* count);
 
-/* Particles (radius, rotation) and force chains (normal and tangential force) of the trial state,
- * or of the committed one, as one VTK PolyData file (.vtp) for ParaView. Errors: NULL_POINTER,
- * BAD_HANDLE, FILE_ERROR. */
+/* Particles (radius, rotation) and force chains (normal and tangential force, moment, bonded or not)
+ * of the trial state, or of the committed one, as one VTK PolyData file (.vtp) for ParaView. Errors:
+ * NULL_POINTER, BAD_HANDLE, FILE_ERROR. */
 GRAINLAW_API grainlaw_status grainlaw_state_write_vtk(const grainlaw_state*, const char* path);
 
-/* Write the same state as a packing: prefix_particles.csv, prefix_contacts.csv (forces included)
- * and prefix_cell.csv, which a material file reads back to the same equilibrium. Errors:
- * NULL_POINTER, BAD_HANDLE, FILE_ERROR. */
+/* Write the same state as a packing: prefix_particles.csv, prefix_contacts.csv (forces, moments and
+ * bonds included) and prefix_cell.csv, which a material file reads back to the same equilibrium.
+ * Errors: NULL_POINTER, BAD_HANDLE, FILE_ERROR. */
 GRAINLAW_API grainlaw_status grainlaw_state_write_packing(const grainlaw_state*,
                                                           const char* prefix);
 

@@ -12,7 +12,7 @@ namespace grainlaw {
 
 namespace {
 
-constexpr double good = 0.004;    // error of A that ends the search
+constexpr double good = 0.004;  // error of A that ends the search
 constexpr double allowed = 0.005;
 constexpr int most_steps = 60;
 constexpr double largest_step = 0.1;   // of the deviatoric stress, over the pressure

@@ -94,9 +94,8 @@ Packing make_regular(const GeneratorOptions& options, const ContactLaw& law) {
   if (!(overlap < most_overlap * diameter))
     wrong("overlap", overlap, fmt::format("a length > 0 and below {} m", most_overlap * diameter));
   const double distance = diameter - overlap;
-  Packing packing = square
-                        ? square_lattice(options.columns, options.rows, radius, distance)
-                        : hexagonal_lattice(options.columns, options.rows, radius, distance);
+  Packing packing = square ? square_lattice(options.columns, options.rows, radius, distance)
+                           : hexagonal_lattice(options.columns, options.rows, radius, distance);
   std::mt19937_64 engine(options.seed);
   if (options.radius_spread > 0)
     for (double& r : packing.radius)
@@ -159,11 +158,11 @@ class Consolidation {
         pressure * options_.thickness * solid / (2 * static_cast<double>(loose_.size()) * radius_);
     StressControl control(loose_, law_, std::move(at), faded_force * mean_force);
     if (unload && !control.reach(target))
-      throw Error(GRAINLAW_NOT_CONVERGED,
-                  fmt::format("generator: no packing at rest was found on unloading; pressure "
-                              "{:.6g} Pa, void ratio {:.6g}; try another seed",
-                              control.pressure(),
-                              control.volume() * cell_area(loose_) / solid - 1));
+      throw Error(
+          GRAINLAW_NOT_CONVERGED,
+          fmt::format("generator: no packing at rest was found on unloading; pressure "
+                      "{:.6g} Pa, void ratio {:.6g}; try another seed",
+                      control.pressure(), control.volume() * cell_area(loose_) / solid - 1));
     if (options_.anisotropy >= 0)
       consolidate_anisotropically(control, target, options_.anisotropy,
                                   options_.anisotropy_direction);

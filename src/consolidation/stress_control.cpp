@@ -80,9 +80,8 @@ bool StressControl::accept(const Tensor& deformation, double least_pressure) {
   Increment& increment = workspace_.increment;
   if (outcome.status != GRAINLAW_OK || !increment.bears()) return false;
   const Tensor stress = piola_stress(increment);
-  const auto tangent = outcome.sensitivities
-                           ? condensed_tangent(increment, workspace_.sensitivity)
-                           : elastic_tangent(increment);
+  const auto tangent = outcome.sensitivities ? condensed_tangent(increment, workspace_.sensitivity)
+                                             : elastic_tangent(increment);
   increment.advance_history();
   increment.export_to(at_, next_);
   next_.stress = {stress[0], stress[1], stress[2], stress[3]};
@@ -214,8 +213,8 @@ Packing packing_of(const Problem& problem, const Configuration& at) {
   Packing packing = *problem.packing;
   const auto& f = at.deformation;
   const auto& h = problem.packing->cell;
-  packing.cell = {f[0] * h[0] + f[1] * h[2], f[0] * h[1] + f[1] * h[3],
-                  f[2] * h[0] + f[3] * h[2], f[2] * h[1] + f[3] * h[3]};
+  packing.cell = {f[0] * h[0] + f[1] * h[2], f[0] * h[1] + f[1] * h[3], f[2] * h[0] + f[3] * h[2],
+                  f[2] * h[1] + f[3] * h[3]};
   std::copy_n(at.coordinates.begin(), packing.position.size(), packing.position.begin());
   packing.contacts.clear();
   for (const ContactView& view : contact_views(problem, at)) {

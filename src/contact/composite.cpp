@@ -19,12 +19,12 @@ struct Loops {
   ContactTotals (*stiffnesses)(const Loop&);
 };
 
-#define GRAINLAW_LAW(name, ...)                                                       \
-  constexpr Features name{__VA_ARGS__};                                               \
-  GRAINLAW_LOOP(LoopResult, name##_near, contact_loop, name, false, false)            \
-  GRAINLAW_LOOP(LoopResult, name##_far, contact_loop, name, true, false)              \
-  GRAINLAW_LOOP(LoopResult, name##_advancing, contact_loop, name, true, true)         \
-  GRAINLAW_LOOP(ContactTotals, name##_stiffnesses, stiffness_loop, name)              \
+#define GRAINLAW_LAW(name, ...)                                               \
+  constexpr Features name{__VA_ARGS__};                                       \
+  GRAINLAW_LOOP(LoopResult, name##_near, contact_loop, name, false, false)    \
+  GRAINLAW_LOOP(LoopResult, name##_far, contact_loop, name, true, false)      \
+  GRAINLAW_LOOP(LoopResult, name##_advancing, contact_loop, name, true, true) \
+  GRAINLAW_LOOP(ContactTotals, name##_stiffnesses, stiffness_loop, name)      \
   constexpr Loops name##_loops{name##_near, name##_far, name##_advancing, name##_stiffnesses};
 //                                            hertz  bonds  moments
 GRAINLAW_LAW(rolling, Kinematics::rotating, false, false, true)

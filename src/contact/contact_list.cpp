@@ -111,8 +111,8 @@ void build_contacts(std::span<const NeighbourPair> pairs, std::span<const double
     }
     if (moments) {
       const double rolling = law.rolling_ratio(radius[p], radius[q]);
-      list.bending_stiffness[c] = bonded ? weight * law.bond.bending_stiffness
-                                         : rolling * list.tangential_stiffness[c];
+      list.bending_stiffness[c] =
+          bonded ? weight * law.bond.bending_stiffness : rolling * list.tangential_stiffness[c];
       list.rolling_length[c] =
           law.rolls() ? law.rolling.friction * law.common_radius(radius[p], radius[q]) : 0;
       list.inverse_radius_i[c] = 1 / radius[p];

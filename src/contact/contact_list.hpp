@@ -35,7 +35,8 @@ struct ContactList {
   simd::Column<double> weight;                // empty when all are 1 [-]
   // Of laws with bonds, else empty.
   simd::Column<double> hold;  // `held` while bonded, else 0 [N, m]
-  simd::Column<double> rest;  // branch without normal force: reach, more when bonded across a gap [m]
+  simd::Column<double>
+      rest;  // branch without normal force: reach, more when bonded across a gap [m]
   // Of laws with moments, else empty.
   simd::Column<double> bending_stiffness;  // kr [N m]; Hertz: kr / sqrt(overlap) [N m^0.5]
   simd::Column<double> rolling_length;     // largest moment / normal force [m]

@@ -199,8 +199,7 @@ GRAINLAW_INLINE Lanes<width> find_normals(const ContactList& list, std::size_t f
     const V ny = load<width>(start_y + c);
     const V square = x * x + y * y + tiny;
     const V distance = square_root(square);
-    const V overlap =
-        overlap_of<width, law>(list, first + c, load<width>(at.reach + c), distance);
+    const V overlap = overlap_of<width, law>(list, first + c, load<width>(at.reach + c), distance);
     const V least = least_overlap<width, law>(list, first + c);
     const V dot = nx * x + ny * y;
     const V cross = nx * y - ny * x;
@@ -378,8 +377,8 @@ GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
       const V x = load<width>(at.x + c);
       const V y = load<width>(at.y + c);
       const V square = x * x + y * y + tiny;
-      const V overlap = overlap_of<width, law>(list, first + c, load<width>(at.reach + c),
-                                               square_root(square));
+      const V overlap =
+          overlap_of<width, law>(list, first + c, load<width>(at.reach + c), square_root(square));
       const auto here = overlap > least_overlap<width, law>(list, first + c);
       V kn = here ? load<width>(&list.normal_stiffness[first + c]) : zero;
       V kt = here ? load<width>(&list.tangential_stiffness[first + c]) : zero;
@@ -401,23 +400,23 @@ GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
       }
       touching.add(c, touches);
       if (weighted) weight.add(c, here ? load<width>(&list.weight[first + c]) : zero);
-      put_records<width>(kn, kn, kt * square * load<width>(&list.inverse_reach[first + c]),
-                         last, &list.forces[first + c].x);
+      put_records<width>(kn, kn, kt * square * load<width>(&list.inverse_reach[first + c]), last,
+                         &list.forces[first + c].x);
     }
   }
   return {force.total(), weighted ? weight.total() : touching.total(),
           static_cast<int>(touching.total())};
 }
 
-#define GRAINLAW_LOOP(Result, name, loop_of, ...)                                  \
-  GRAINLAW_CLONES_OF_FOUR Result name##_of_four(const Loop& loop) {                \
-    return loop_of<4 __VA_OPT__(, ) __VA_ARGS__>(loop);                            \
-  }                                                                                \
-  GRAINLAW_OF_EIGHT Result name##_of_eight(const Loop& loop) {                     \
-    return loop_of<8 __VA_OPT__(, ) __VA_ARGS__>(loop);                            \
-  }                                                                                \
-  Result name(const Loop& loop) {                                                  \
-    return eight_lanes() ? name##_of_eight(loop) : name##_of_four(loop);           \
+#define GRAINLAW_LOOP(Result, name, loop_of, ...)                        \
+  GRAINLAW_CLONES_OF_FOUR Result name##_of_four(const Loop& loop) {      \
+    return loop_of<4 __VA_OPT__(, ) __VA_ARGS__>(loop);                  \
+  }                                                                      \
+  GRAINLAW_OF_EIGHT Result name##_of_eight(const Loop& loop) {           \
+    return loop_of<8 __VA_OPT__(, ) __VA_ARGS__>(loop);                  \
+  }                                                                      \
+  Result name(const Loop& loop) {                                        \
+    return eight_lanes() ? name##_of_eight(loop) : name##_of_four(loop); \
   }
 
 }  // namespace grainlaw::contact_loops

@@ -46,9 +46,8 @@ ContactPoint contact_point(const ContactList& list, std::size_t c,
   point.status = bonded ? ContactStatus::bonded : ContactStatus::sticking;
   point.normal_force = normal_force(list, c, overlap, law);
   if (!law.tangential()) return point;
-  point.turn =
-      std::atan2(list.start_x[c] * point.branch_y - list.start_y[c] * point.branch_x,
-                 list.start_x[c] * point.branch_x + list.start_y[c] * point.branch_y);
+  point.turn = std::atan2(list.start_x[c] * point.branch_y - list.start_y[c] * point.branch_x,
+                          list.start_x[c] * point.branch_x + list.start_y[c] * point.branch_y);
   if (law.rotating()) {
     const double* rotation = y + particles;
     point.turn += list.start_roll[c] / list.reach[c] - list.lever_i[c] * rotation[p] -
@@ -120,7 +119,8 @@ ContactMoment contact_moment(const ContactList& list, std::size_t c, const Conta
   const double bound = list.rolling_length[c] * point.normal_force;
   if (point.status != ContactStatus::bonded && !(std::abs(trial) < bound)) {
     const double kn = list.normal_stiffness[c] * scale;
-    return {std::copysign(bound, trial), std::copysign(list.rolling_length[c] * kn, -trial), 0, true};
+    return {std::copysign(bound, trial), std::copysign(list.rolling_length[c] * kn, -trial), 0,
+            true};
   }
   return {trial, law.hertzian() ? (0.5 * kr * spin - 0.25 * start) / overlap : 0, -kr, false};
 }

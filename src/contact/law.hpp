@@ -1,4 +1,4 @@
-// The contact law of a material: stiffness, friction, bonds, rolling resistance, and what may rotate.
+// The contact law of a material: stiffness, friction, bonds, rolling, and what may rotate.
 #pragma once
 
 #include <cmath>
@@ -18,8 +18,8 @@ struct RollingResistance {
   double friction = 0;  // [-]
 };
 
-// A bond has the contact's kn and kt, in tension too, and bends. It breaks when fn / normal_strength
-// + |ft| / tangential_strength + |m| / bending_strength >= 1, fn positive in tension.
+// A bond has the contact's kn and kt, in tension too, and bends. It breaks when fn /
+// normal_strength + |ft| / tangential_strength + |m| / bending_strength >= 1, fn positive in tension.
 struct Bond {
   double normal_strength = 0;      // [N]
   double tangential_strength = 0;  // [N]
@@ -65,8 +65,8 @@ struct ContactLaw {
   // What its springs hold [J]; bonded: by a bond.
   [[nodiscard]] double energy(double a, double b, double overlap, double tangential_force,
                               double moment, bool bonded) const {
-    const double kn = hertzian() ? coefficient(a, b) * std::sqrt(overlap > 0 ? overlap : 0)
-                                 : coefficient(a, b);
+    const double kn =
+        hertzian() ? coefficient(a, b) * std::sqrt(overlap > 0 ? overlap : 0) : coefficient(a, b);
     const double kr = bonded ? bond.bending_stiffness : rolling_ratio(a, b) * ratio * kn;
     double sum = (hertzian() ? 4.0 / 15 : 0.5) * kn * overlap * overlap;
     if (tangential_force != 0) sum += 0.5 * tangential_force * tangential_force / (ratio * kn);
@@ -89,9 +89,7 @@ struct ContactLaw {
     return rotating() && rolling.ratio > 0 && rolling.friction > 0;
   }
   // Contacts carry moments.
-  [[nodiscard]] bool moments() const {
-    return rolls() || (rotating() && bonds());
-  }
+  [[nodiscard]] bool moments() const { return rolls() || (rotating() && bonds()); }
   // Linear, without bonds and moments: the law of the shortest loops.
   [[nodiscard]] bool plain() const { return !hertzian() && !bonds() && !moments(); }
 };

@@ -155,7 +155,8 @@ bool solve_advancing(const Request& request, Method method, Workspace& w, Outcom
     return relax(increment, request.tolerance, 50 * relaxation_limit(increment.nodes()),
                  History::advancing, w.relaxation);
   };
-  const bool done = equilibrium() && settle_bonds(increment, [] {}, equilibrium);
+  const bool done = equilibrium() && settle_bonds(
+                                         increment, [] {}, equilibrium);
   outcome.sensitivities =
       done && request.sensitivities && w.sensitivity.solve(increment, 1, 0, w.newton.stiffness);
   return done;

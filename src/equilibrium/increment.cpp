@@ -39,6 +39,11 @@ void move_with(const double* reference, const std::array<double, 4>& change, std
   }
 }
 
+void copy_with_room(const std::vector<double>& from, std::vector<double>& to) {
+  resize_with_room(to, from.size());
+  std::copy(from.begin(), from.end(), to.begin());
+}
+
 std::array<double, 4> cell_at(const Problem& problem, const std::array<double, 4>& f) {
   if (problem.packing->frame) return {};
   return product(f, problem.packing->cell.data());
@@ -58,8 +63,8 @@ void Increment::begin(const Problem& p, const Configuration& from,
                        from.deformation[3]};
   resize_with_room(history, from.contacts.size());
   std::copy(from.contacts.begin(), from.contacts.end(), history.begin());
-  history_moments.assign(from.moments.begin(), from.moments.end());
-  history_gaps.assign(from.bond_gaps.begin(), from.bond_gaps.end());
+  copy_with_room(from.moments, history_moments);
+  copy_with_room(from.bond_gaps, history_gaps);
   coordinates = start;
   deformation = start_deformation;
   cell = cell_at(p, deformation);
@@ -170,8 +175,10 @@ void Increment::list_neighbours() {
 // Bonds hold however far they are stretched.
 void Increment::list_bonded_pairs() {
   const auto key = [](const auto& pair) { return std::tie(pair.i, pair.j, pair.shift); };
-  resize_with_room(merged_pairs_, pairs.size() + history.size());
   merged_pairs_.clear();
+  if (merged_pairs_.capacity() < pairs.size() + history.size()) {
+    merged_pairs_.reserve(3 * (pairs.size() + history.size()) / 2);
+  }
   auto next = pairs.begin();
   for (const auto& contact : history) {
     if (!contact.bonded) continue;
@@ -184,7 +191,7 @@ void Increment::list_bonded_pairs() {
 }
 
 void Increment::build_list() {
-  const HistoryStart from{start,   cell_at(*problem, start_deformation), history, history_moments,
+  const HistoryStart from{start, cell_at(*problem, start_deformation), history, history_moments,
                           history_gaps};
   build_contacts(pairs, pair_weights, problem->packing->radius, problem->space->node, nodes(),
                  *problem->law, cell, from, contacts);
@@ -390,18 +397,16 @@ void Increment::advance_history() {
   const auto& law = *problem->law;
   dissipated += advance_contacts(records, law, contacts, forces);
   if (after_break_) {  // at the same F: nothing but the springs gives energy
-    dissipated = break_dissipated_ + break_energy_ -
-                 stored_energy(contacts, coordinates, particles(), law);
+    dissipated =
+        break_dissipated_ + break_energy_ - stored_energy(contacts, coordinates, particles(), law);
   }
   const bool gaps = !history_gaps.empty();
   history.clear();
   history_moments.clear();
   history_gaps.clear();
-  if (history.capacity() < pairs.size()) {
-    history.reserve(pairs.capacity());
-    if (law.moments()) history_moments.reserve(pairs.capacity());
-    if (gaps) history_gaps.reserve(pairs.capacity());
-  }
+  if (history.capacity() < pairs.size()) history.reserve(pairs.capacity());
+  if (law.moments()) history_moments.reserve(history.capacity());
+  if (gaps) history_gaps.reserve(history.capacity());
   const bool tangential = law.tangential();
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (!carries(c)) continue;
@@ -474,8 +479,8 @@ void Increment::export_to(const Configuration& from, Configuration& to) const {
   }
   resize_with_room(to.contacts, history.size());
   std::copy(history.begin(), history.end(), to.contacts.begin());
-  to.moments.assign(history_moments.begin(), history_moments.end());
-  to.bond_gaps.assign(history_gaps.begin(), history_gaps.end());
+  copy_with_room(history_moments, to.moments);
+  copy_with_room(history_gaps, to.bond_gaps);
   to.dissipated = from.dissipated + dissipated;
   to.broken_bonds = from.broken_bonds + broken_bonds;
 }

@@ -55,9 +55,9 @@ class Increment {
   // Make the present coordinates the start of the history; sums up the dissipated energy.
   void advance_history();
 
-  // Break the bonds that are beyond their strength here, and the history starts anew from here; false
-  // when none is. The worst break first, with all that exceed the strength by at least half as much:
-  // the others may be relieved, and equal bonds break together.
+  // Break bonds that are beyond their strength here, and the history starts anew from here; false
+  // when none is. The worst break first, with all that exceed the strength by at least half as
+  // much: the others may be relieved, and equal bonds break together.
   bool break_bonds();
   // Whether break_bonds() would.
   [[nodiscard]] bool overloads_bonds() const { return worst_bond() >= 1; }
@@ -164,7 +164,7 @@ class Increment {
   void find_deformation_masses();
 
   std::vector<NeighbourPair> merged_pairs_;
-  // Of the state in which bonds broke last: what is lost until the next is what the energy falls by.
+  // Of the state in which bonds broke last: until the next, what the energy falls by is lost.
   bool after_break_ = false;
   double break_energy_ = 0, break_dissipated_ = 0;  // [J]
   std::vector<ForceRecord> least_masses_;  // of one contact; and 1 / R in `unused`

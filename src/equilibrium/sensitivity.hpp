@@ -7,6 +7,7 @@
 #include "equilibrium/increment.hpp"
 #include "equilibrium/stiffness.hpp"
 
+#include <array>
 #include <span>
 #include <vector>
 

@@ -78,10 +78,10 @@ double elastic_energy(const Problem& problem, const std::vector<ContactView>& co
   double energy = 0;
   const auto& radius = problem.packing->radius;
   for (const auto& c : contacts) {
-    energy += c.weight * problem.law->energy(radius[static_cast<std::size_t>(c.i)],
-                                             radius[static_cast<std::size_t>(c.j)],
-                                             carried_overlap(c), c.tangential_force, c.moment,
-                                             c.bonded);
+    energy +=
+        c.weight * problem.law->energy(radius[static_cast<std::size_t>(c.i)],
+                                       radius[static_cast<std::size_t>(c.j)], carried_overlap(c),
+                                       c.tangential_force, c.moment, c.bonded);
   }
   return energy;
 }

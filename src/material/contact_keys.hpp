@@ -11,8 +11,10 @@ namespace grainlaw {
 //       "bonded"       the same, and [contact.bond]
 //       "hertz"        shear_modulus, poisson, friction, rotation, [contact.rolling]
 // [contact.rolling]    ratio, friction
-// [contact.bond]       normal_strength, tangential_strength, bending_stiffness, bending_strength, gap
-// Meaning and units as in ContactLaw. Throws Error (BAD_MATERIAL), also for what cannot act together.
+// [contact.bond]       normal_strength, tangential_strength, bending_stiffness, bending_strength,
+//                      gap
+// Meaning and units as in ContactLaw. Throws Error (BAD_MATERIAL), also for what cannot act
+// together.
 ContactLaw read_contact(TomlTable table);
 
 }  // namespace grainlaw

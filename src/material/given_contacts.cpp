@@ -65,8 +65,8 @@ void add_bonds_and_moments(const Material& material, Configuration& given) {
     }
   }
   for (const auto& c : packing.contacts) {
-    const Key key{c.i, c.j, {static_cast<std::int16_t>(c.shift[0]),
-                             static_cast<std::int16_t>(c.shift[1])}};
+    const Key key{
+        c.i, c.j, {static_cast<std::int16_t>(c.shift[0]), static_cast<std::int16_t>(c.shift[1])}};
     const auto found = contacts.find(key);
     if (found == contacts.end()) continue;  // named from the other side: files never are
     auto& [contact, extra] = found->second;
@@ -76,9 +76,9 @@ void add_bonds_and_moments(const Material& material, Configuration& given) {
     extra.gap = c.bond_gap;
   }
   const bool gaps =
-      law.bonds() && (law.bond.gap > 0 ||
-                      std::any_of(contacts.begin(), contacts.end(),
-                                  [](const auto& c) { return c.second.second.gap > 0; }));
+      law.bonds() &&
+      (law.bond.gap > 0 || std::any_of(contacts.begin(), contacts.end(),
+                                       [](const auto& c) { return c.second.second.gap > 0; }));
   given.contacts.clear();
   for (const auto& [key, contact] : contacts) {
     given.contacts.push_back(contact.first);

@@ -6,8 +6,8 @@
 
 namespace grainlaw {
 
-// Bond what touches, or is nearer than the gap, unless the packing names its bonds; take over moments.
-// given: contacts of the packing in the order of neighbours.
+// Bond what touches, or is nearer than the gap, unless the packing names its bonds; take over
+// moments. given: contacts of the packing in the order of neighbours.
 void add_bonds_and_moments(const Material& material, Configuration& given);
 
 // Mean overlap of the touching discs over their common radius; 1e-3 when none touch [-].

@@ -135,7 +135,8 @@ class Growth {
   }
 
   // Time until the gap closes, from now on.
-  [[nodiscard]] double meeting(const Disc& a, const Disc& b, const std::array<long, 2>& shift) const {
+  [[nodiscard]] double meeting(const Disc& a, const Disc& b,
+                               const std::array<long, 2>& shift) const {
     const double late = now_ - b.time;
     const double x = b.x + b.u * late + static_cast<double>(shift[0]) - a.x;
     const double y = b.y + b.v * late + static_cast<double>(shift[1]) - a.y;
@@ -167,8 +168,8 @@ class Growth {
       if (velocity > 0) return ((k + 1) * width - place) / velocity;
       return velocity < 0 ? (k * width - place) / velocity : never;
     };
-    double time = std::max(
-        0.0, std::min(leaving(disc.x, disc.u, disc.cell[0]), leaving(disc.y, disc.v, disc.cell[1])));
+    double time = std::max(0.0, std::min(leaving(disc.x, disc.u, disc.cell[0]),
+                                         leaving(disc.y, disc.v, disc.cell[1])));
     for_neighbours(disc, [&](std::size_t j, const std::array<long, 2>& shift) {
       if (i == j) return;  // no disc grows until it meets its own image
       const double meet = meeting(disc, discs_[j], shift);
@@ -305,9 +306,9 @@ class Growth {
   std::vector<Disc> discs_;
   std::vector<std::vector<int>> members_;  // of each grid cell
   std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
-  long cells_ = 1;     // along a side; each at least as wide as the largest diameter
-  double rate_ = 0;    // of the scale
-  double scale_ = 1;   // when the clock was last set to 0
+  long cells_ = 1;    // along a side; each at least as wide as the largest diameter
+  double rate_ = 0;   // of the scale
+  double scale_ = 1;  // when the clock was last set to 0
   double end_scale_ = 1;
   double now_ = 0;
   double virial_ = 0;  // sum of kick x distance since then
@@ -322,8 +323,9 @@ void check(const GeneratorOptions& options) {
   require(options.count >= 2, "count", static_cast<double>(options.count), "2 particles or more");
   require(options.growth_rate >= 1e-5 && options.growth_rate <= 1, "growth_rate",
           options.growth_rate, "a number from 1e-5 to 1");
-  require(options.growth_end == 0 || (options.growth_end > start_fraction && options.growth_end < 1),
-          "volume_fraction", options.growth_end, "a number above 0.3 and below 1");
+  require(
+      options.growth_end == 0 || (options.growth_end > start_fraction && options.growth_end < 1),
+      "volume_fraction", options.growth_end, "a number above 0.3 and below 1");
 }
 
 }  // namespace

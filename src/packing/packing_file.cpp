@@ -246,8 +246,8 @@ void write_packing(const std::string& prefix, const Packing& packing) {
 
   text.clear();
   const auto& contacts = packing.contacts;
-  const bool moments = std::any_of(contacts.begin(), contacts.end(),
-                                   [](const auto& c) { return c.moment != 0; });
+  const bool moments =
+      std::any_of(contacts.begin(), contacts.end(), [](const auto& c) { return c.moment != 0; });
   const bool bonds = std::any_of(contacts.begin(), contacts.end(),
                                  [](const auto& c) { return c.bonded.has_value(); });
   fmt::format_to(out, "i,j,shift_x,shift_y,fn,ftx_on_j,fty_on_j{}{}\n", moments ? ",moment" : "",

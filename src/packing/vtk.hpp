@@ -21,8 +21,8 @@ struct VtkContact {
 
 // One VTK XML PolyData file (.vtp, ascii). Particles are vertices with point data radius [m],
 // rotation [rad] and coordination [-]; contacts are lines with cell data normal_force and
-// tangential_force [N], moment [N m] and bonded (0 or 1). The far end of a line is a point of its own with radius 0, the vertices
-// carry no force.
+// tangential_force [N], moment [N m] and bonded (0 or 1). The far end of a line is a point of its
+// own with radius 0, the vertices carry no force.
 //   position  component-major, 2 or 3 components x radius.size() [m]
 //   rotation  [radius.size()], or empty for none [rad]
 // Throws Error (FILE_ERROR).

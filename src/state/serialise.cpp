@@ -175,8 +175,9 @@ Configuration load_configuration(const Material& material, std::span<const std::
   require(in.get<std::uint64_t>() == material.fingerprint, GRAINLAW_WRONG_MATERIAL,
           "of another material");
   const std::size_t fixed_size = size_without_contacts(material);
-  require(bytes.size() >= fixed_size && bytes.size() - fixed_size == contacts * contact_size(material),
-          GRAINLAW_BAD_BYTES, "its length does not fit its content");
+  require(
+      bytes.size() >= fixed_size && bytes.size() - fixed_size == contacts * contact_size(material),
+      GRAINLAW_BAD_BYTES, "its length does not fit its content");
 
   Configuration found;
   const std::size_t square = components(material);

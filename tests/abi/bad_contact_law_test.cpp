@@ -27,9 +27,9 @@ void expect_told(const Mistake& mistake) {
   const std::string text = head + mistake.contact;
   char message[512];
   grainlaw_material* made = nullptr;
-  expect_refused(grainlaw_material_parse(text.c_str(), data_directory.c_str(), &made, message,
-                                         sizeof message),
-                 GRAINLAW_BAD_MATERIAL, mistake.contact);
+  expect_refused(
+      grainlaw_material_parse(text.c_str(), data_directory.c_str(), &made, message, sizeof message),
+      GRAINLAW_BAD_MATERIAL, mistake.contact);
   EXPECT_EQ(made, nullptr);
   const std::string place =
       data_directory + ":" + std::to_string(mistake.line) + ": " + mistake.key + ": ";

@@ -6,7 +6,8 @@
 namespace grainlaw::test {
 namespace {
 
-const std::string contact = "[contact]\nlaw = \"frictional\"\nkn = 1e4\nratio = 0.2\nfriction = 0.4\n";
+const std::string contact =
+    "[contact]\nlaw = \"frictional\"\nkn = 1e4\nratio = 0.2\nfriction = 0.4\n";
 
 std::string grown(const std::string& lines) {
   return "dimension = 2\nthickness = 1e-3\n[packing]\ngenerator = \"lubachevsky-stillinger\"\n" +

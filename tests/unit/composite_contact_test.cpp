@@ -88,7 +88,7 @@ Discs pair(const ContactLaw& law, const Committed& committed = {}, bool bond = t
   std::vector<double> moments, gaps;
   if (law.moments()) moments = {committed.moment};
   if (committed.gap != 0) gaps = {committed.gap - overlap};
-  return {law,       {1, 3}, start, {{0, 1, {}, false, law.bonds() && bond, committed.force}},
+  return {law,          {1, 3},  start, {{0, 1, {}, false, law.bonds() && bond, committed.force}},
           {{0, 1, {}}}, moments, gaps};
 }
 
@@ -301,11 +301,16 @@ std::vector<Named> all_laws() {
   locked.rotation = false;
   ContactLaw then_rolling = bonded();
   then_rolling.rolling = {0.5, 0.1};
-  return {{"frictional", linear()},     {"locked", locked},
-          {"compressive", compressive()}, {"rolling", rolling()},
-          {"hertz", hertz()},           {"hertz, locked", hertz(false)},
-          {"hertz, rolling", rolling_hertz()}, {"bonded", bonded()},
-          {"bonded, locked", bonded(false)}, {"bonded, rolling", then_rolling}};
+  return {{"frictional", linear()},
+          {"locked", locked},
+          {"compressive", compressive()},
+          {"rolling", rolling()},
+          {"hertz", hertz()},
+          {"hertz, locked", hertz(false)},
+          {"hertz, rolling", rolling_hertz()},
+          {"bonded", bonded()},
+          {"bonded, locked", bonded(false)},
+          {"bonded, rolling", then_rolling}};
 }
 
 TEST(every_contact, feels_no_rigid_rotation) {

@@ -87,7 +87,8 @@ TEST(regular, stress_at_rest_is_the_pressure_wanted) {
       GeneratorOptions options = published(kind, 4, 4);
       options.overlap = 0;
       options.pressure = pressure;
-      const auto material = make_material(test::describe(consolidate(options, soft_law()), soft_law()));
+      const auto material =
+          make_material(test::describe(consolidate(options, soft_law()), soft_law()));
       const auto& stress = material->initial.stress;
       EXPECT_NEAR(stress[0] / pressure, -1, 1e-9);
       EXPECT_NEAR(stress[3] / pressure, -1, 1e-9);

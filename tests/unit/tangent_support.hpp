@@ -23,9 +23,9 @@ inline Statuses statuses(const State& state) {
   const auto& material = state.material();
   if (!material.law.rolls()) return result;
   for (const auto& view : contact_views(material.problem(), state.current())) {
-    const double r = material.law.common_radius(
-        material.packing.radius[static_cast<std::size_t>(view.i)],
-        material.packing.radius[static_cast<std::size_t>(view.j)]);
+    const double r =
+        material.law.common_radius(material.packing.radius[static_cast<std::size_t>(view.i)],
+                                   material.packing.radius[static_cast<std::size_t>(view.j)]);
     const double most = material.law.rolling.friction * r * view.normal_force;
     result.rolling.push_back(!view.bonded && std::abs(view.moment) > (1 - rounding) * most);
   }

@@ -25,7 +25,8 @@ TEST(vtk, draws_particles_as_vertices_and_contacts_as_lines) {
   const std::vector<double> position = {0, 1, 5, 6};
   const std::vector<double> radius = {0.5, 0.6};
   const std::vector<double> rotation = {0.1, -0.2};
-  const std::vector<VtkContact> contacts = {{0, 1, {1, 1, 0}, 7, 2}, {1, 0, {0.5, 0, 0}, 3, -1}};
+  const std::vector<VtkContact> contacts = {{0, 1, {1, 1, 0}, 7, 2},
+                                            {1, 0, {0.5, 0, 0}, 3, -1, 0.25, true}};
   write_vtk(path, position, radius, rotation, contacts);
   const std::string text = read_text(path);
   EXPECT_NE(text.find("NumberOfPoints=\"4\" NumberOfVerts=\"2\" NumberOfLines=\"2\""),
@@ -36,6 +37,8 @@ TEST(vtk, draws_particles_as_vertices_and_contacts_as_lines) {
   EXPECT_EQ(array_of(text, "coordination"), "2\n2\n0\n0\n");
   EXPECT_EQ(array_of(text, "normal_force"), "0\n0\n7\n3\n");
   EXPECT_EQ(array_of(text, "tangential_force"), "0\n0\n2\n-1\n");
+  EXPECT_EQ(array_of(text, "moment"), "0\n0\n0\n0.25\n");
+  EXPECT_EQ(array_of(text, "bonded"), "0\n0\n0\n1\n");
   EXPECT_NE(text.find("0 2\n1 3\n"), std::string::npos);
   std::filesystem::remove(path);
 }

@@ -96,8 +96,8 @@ void run_solve(const std::string& path, const std::string& directory) {
     throw ComputationError(fmt::format("{}: {}", path, error.what()));
   }
   history.draw_figure(scene.abscissa, scene.name);
-  fmt::print("{}: {}\n{}\nwrote {}.csv, _newton.csv, _force.csv, .svg, .png\n", scene.name, history.summary(),
-             cost.summary(), stem.string());
+  fmt::print("{}: {}\n{}\nwrote {}.csv, _newton.csv, _force.csv, .svg, .png\n", scene.name,
+             history.summary(), cost.summary(), stem.string());
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 namespace verification {
 
 struct Mesh {
-  std::vector<Eigen::Vector2d> nodes;        // reference positions [m]
-  std::vector<std::vector<int>> elements;    // corners, anticlockwise
+  std::vector<Eigen::Vector2d> nodes;      // reference positions [m]
+  std::vector<std::vector<int>> elements;  // corners, anticlockwise
   std::map<std::string, std::vector<int>> node_sets;
   // Element sides from the first node to the second, the element on the left.
   std::map<std::string, std::vector<std::array<int, 2>>> side_sets;

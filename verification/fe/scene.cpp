@@ -17,9 +17,8 @@ Mesh read_mesh(SceneTable table) {
   const std::vector<double> divisions = table.numbers("divisions", 2, counts);
   for (const double value : divisions)
     if (value != std::floor(value)) table.fail("divisions", fmt::format("{}", value), counts.text);
-  const ElementKind kind = table.choice_or("element", "q4", {"q4", "t3"}) == "t3"
-                               ? ElementKind::t3
-                               : ElementKind::q4;
+  const ElementKind kind =
+      table.choice_or("element", "q4", {"q4", "t3"}) == "t3" ? ElementKind::t3 : ElementKind::q4;
   table.close();
   return rectangle_mesh({size[0], size[1]},
                         {static_cast<int>(divisions[0]), static_cast<int>(divisions[1])}, kind);

@@ -99,8 +99,7 @@ void compare_seeds(const PackArguments& arguments, long first) {
       const Made made = make(arguments, seed);
       fmt::print("{:>6} {:>9} {:>9} {:>9.4f} {:>9.3f} {:>11.3f} {:>9.4f} {:>8.2f}\n", seed,
                  made.written.radius.size(), made.written.boundary.size(), made.volume_fraction(),
-                 made.scalar(GRAINLAW_COORDINATION),
-                 made.scalar(GRAINLAW_COORDINATION_NO_RATTLERS),
+                 made.scalar(GRAINLAW_COORDINATION), made.scalar(GRAINLAW_COORDINATION_NO_RATTLERS),
                  made.scalar(GRAINLAW_ANISOTROPY), made.seconds);
     } catch (const ComputationError& error) {
       fmt::print("{:>6} {}\n", seed, error.what());

@@ -35,10 +35,9 @@ struct Drawing {
   void bar(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width) {
     const Eigen::Vector2d along = (to - from).normalized() * 0.5 * width;
     const Eigen::Vector2d across(-along.y(), along.x());
-    for (const Eigen::Vector2d& p :
-         {Eigen::Vector2d(from + across), Eigen::Vector2d(to + across),
-          Eigen::Vector2d(to - across), Eigen::Vector2d(from - across),
-          Eigen::Vector2d(from + across)})
+    for (const Eigen::Vector2d& p : {Eigen::Vector2d(from + across), Eigen::Vector2d(to + across),
+                                     Eigen::Vector2d(to - across), Eigen::Vector2d(from - across),
+                                     Eigen::Vector2d(from + across)})
       corner(bars, p);
     bars += "\n";
   }

@@ -67,11 +67,11 @@ std::string plot_rose(const Rose& rose) {
   }
   const double reach =
       1.1 * std::max(1.2, *std::max_element(rose.density.begin(), rose.density.end()));
-  return fmt::format(
-             "$wedges << EOD\n{}EOD\n$curve << EOD\n{}EOD\n$circle << EOD\n{}EOD\n", wedges, curve,
-             circle) +
+  return fmt::format("$wedges << EOD\n{}EOD\n$curve << EOD\n{}EOD\n$circle << EOD\n{}EOD\n", wedges,
+                     curve, circle) +
          fmt::format("set xrange [-{0}:{0}]\nset yrange [-{0}:{0}]\n", reach) +
-         "set margins 1,1,1,1\nunset border\nunset tics\nunset xlabel\nunset ylabel\nset size ratio -1\n"
+         "set margins 1,1,1,1\nunset border\nunset tics\nunset xlabel\nunset ylabel\nset size "
+         "ratio -1\n"
          "set xzeroaxis lt 1 lc rgb '#cccccc'\nset yzeroaxis lt 1 lc rgb '#cccccc'\n"
          "plot $wedges with filledcurves closed fs solid 0.8 border lc rgb '#ffffff' fc rgb "
          "'#56b4e9' notitle, $circle with lines lc rgb '#555555' lw 1 dt (4,4) notitle, $curve "

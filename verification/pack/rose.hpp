@@ -9,9 +9,10 @@
 namespace verification {
 
 struct Rose {
-  std::vector<double> density;  // per sector of the full turn, over that of an isotropic packing [-]
-  double anisotropy = 0;        // largest / smallest eigenvalue of the fabric - 1 [-]
-  double direction = 0;         // of the larger eigenvalue against x [rad]
+  std::vector<double>
+      density;            // per sector of the full turn, over that of an isotropic packing [-]
+  double anisotropy = 0;  // largest / smallest eigenvalue of the fabric - 1 [-]
+  double direction = 0;   // of the larger eigenvalue against x [rad]
 };
 
 // Every contact counts with its normal and the opposite one (Liu, Bosco & Suiker 2017b, eq. 39);

@@ -1,5 +1,6 @@
-/* A law that costs nothing, behind the functions of grainlaw.h that the plugin calls: loaded before
- * the library (LD_PRELOAD), it leaves the time of FreeFEM and of the plugin alone. P = (F - I) Pa. */
+/* A law that costs nothing, behind the functions of grainlaw.h that the plugin calls: loaded
+ * before the library (LD_PRELOAD), it leaves the time of FreeFEM and of the plugin alone.
+ * P = (F - I) Pa. */
 #include <grainlaw/grainlaw.h>
 
 #include <string.h>

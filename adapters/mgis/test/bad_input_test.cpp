@@ -133,6 +133,15 @@ TEST(mgis_material, a_missing_file_is_named_and_may_come_later) {
   }
 }
 
+TEST(mgis_material, a_budget_that_is_no_number_is_told) {
+  setenv("GRAINLAW_IDLE_MEMORY", "much", 1);
+  const BehaviourLibrary library(std::string(GRAINLAW_BEHAVIOURS) + "/libByHand.so");
+  Manager host(library, "Named", "PlaneStrain", 1, cauchy, dsigma_dF);
+  EXPECT_EQ(host.integrate(0), -1);
+  EXPECT_EQ(host.message, "Named: GRAINLAW_IDLE_MEMORY is 'much'; a number of MiB was expected");
+  unsetenv("GRAINLAW_IDLE_MEMORY");
+}
+
 TEST(mgis_material, an_environment_variable_goes_before_the_library) {
   setenv("GRAINLAW_MATERIAL_Named", GRAINLAW_TEST_DATA "/rve400.toml", 1);
   const BehaviourLibrary library(std::string(GRAINLAW_BEHAVIOURS) + "/libByHand.so");

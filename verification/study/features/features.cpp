@@ -145,15 +145,19 @@ std::vector<Feature> features(const StudyOptions& options, int count, double tol
   const auto frame = changed(base, "boundary", "type", "frame-p");
   const auto trial = changed(base, "solver", "start", "trial");
   const auto compressive = with_law(base, toml::table{{"law", "compressive"}, {"young", 6e8}});
-  const auto hertz = with_law(base, toml::table{{"law", "hertz"},
-                                                {"shear_modulus", 9e9},
-                                                {"poisson", 0.2},
-                                                {"friction", std::tan(0.5)}});
+  const auto hertz = with_law(
+      base,
+      toml::table{
+          {"law", "hertz"}, {"shear_modulus", 9e9}, {"poisson", 0.2}, {"friction", std::tan(0.5)}});
   const std::string vtk = output_stem(options.output, "study_features.vtp").string();
   std::vector<Feature> all{
       {"friction, isotropic path", locked, smooth, isotropic_compression(increments), {}},
       {"rotation", base, locked, path, {}},
-      {"compressive against friction 0", compressive, smooth, isotropic_compression(increments), {}},
+      {"compressive against friction 0",
+       compressive,
+       smooth,
+       isotropic_compression(increments),
+       {}},
       {"rolling resistance", with_rolling(base), base, path, {}},
       {"Hertz-Mindlin against linear", hertz, base, path, {}},
       {"bonds that hold", with_bonds(base, 1e6), base, path, {}},
