@@ -83,7 +83,8 @@ typedef struct grainlaw_state grainlaw_state;
  * message (may be NULL) gets a zero-terminated text that names file, line, key and expectation when
  * something is wrong, truncated to message_size bytes; it is set to "" on success.
  * Errors: NULL_POINTER, FILE_ERROR, BAD_MATERIAL, BAD_PACKING, NOT_CONVERGED (no equilibrium at
- * F = I, or under the prescribed stresses), CONTACTS_LOST, COLLAPSED, OUT_OF_MEMORY. On any error *out is NULL. */
+ * F = I, or under the prescribed stresses), CONTACTS_LOST, COLLAPSED, OUT_OF_MEMORY. On any error
+ * *out is NULL. */
 GRAINLAW_API grainlaw_status grainlaw_material_load(const char* path, grainlaw_material** out,
                                                     char* message, size_t message_size);
 

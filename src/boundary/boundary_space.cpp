@@ -39,7 +39,9 @@ BoundarySpace make_boundary_space(const Packing& packing, const BoundaryOptions&
   }
   const auto& frame = *packing.frame;
   space.identity = false;
-  if (!frame.copies) space.reference_volume = polygon_area(packing) * packing.thickness;
+  if (!frame.copies[0] || !frame.copies[1]) {
+    space.reference_volume = polygon_area(packing) * packing.thickness;
+  }
   space.source = frame.source;
   space.sources =
       1 + static_cast<std::size_t>(*std::max_element(frame.source.begin(), frame.source.end()));
@@ -73,8 +75,8 @@ void BoundarySpace::weigh(const Packing& packing, std::span<const NeighbourPair>
   // Sides of a mixed boundary that do not share their fluctuations are no copies.
   const bool mixed = options.type == BoundaryType::mixed;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
-    weights[c] = 1.0 / contact_copies(*packing.frame, pairs[c].i, pairs[c].j,
-                                      !mixed || copied[0], !mixed || copied[1]);
+    weights[c] = 1.0 / contact_copies(*packing.frame, pairs[c].i, pairs[c].j, !mixed || copied[0],
+                                      !mixed || copied[1]);
   }
 }
 

@@ -15,12 +15,7 @@
 namespace grainlaw {
 
 // Bits of BoundarySpace::fixed.
-enum Fixed : unsigned char {
-  fixed_x = 1,
-  fixed_y = 2,
-  fixed_translation = 3,
-  fixed_rotation = 4
-};
+enum Fixed : unsigned char { fixed_x = 1, fixed_y = 2, fixed_translation = 3, fixed_rotation = 4 };
 
 // sum_q w_q A_q = 0 over the boundary, of the fluctuations in one direction (Liu, Bosco & Suiker
 // 2017, eq. 15), as one or two orthonormal rows over the nodes that take part; none where nothing
@@ -44,9 +39,9 @@ struct BoundarySpace {
   std::vector<unsigned char> fixed;  // [nodes] bits of Fixed: prescribed
   std::vector<char> boundary;        // [nodes] 1: on the frame, 2: and turns freely
   std::array<AverageConstraint, 2> average;  // in x and in y
-  double reference_volume = 0;  // V at F = I, thickness included [m3]
-  double solid_volume = 0;      // of the particles, copies counted once [m3]
-  std::vector<int> source;      // [particles] the particle that it is, copies being the same one
+  double reference_volume = 0;               // V at F = I, thickness included [m3]
+  double solid_volume = 0;                   // of the particles, copies counted once [m3]
+  std::vector<int> source;  // [particles] the particle that it is, copies being the same one
   std::size_t sources = 0;
 
   // A condition whose directions are those of space, as a layer between plates has them: it does

@@ -65,11 +65,12 @@ class Builder {
     const Side& b = sides_[other];
     if (!a.shared() && !b.shared()) return;
     if (a.x != b.x || a.y != b.y || a.rotation != b.rotation) {
-      wrong(fmt::format("\"P\" and \"periodic\" need the opposite side to be the same, but {} and "
-                        "{} differ",
-                        side_names[one], side_names[other]));
+      wrong(
+          fmt::format("\"P\" and \"periodic\" need the opposite side to be the same, but {} and "
+                      "{} differ",
+                      side_names[one], side_names[other]));
     }
-    if (!frame_.copies) {
+    if (!frame_.copies[one == left_side ? 0 : 1]) {
       wrong(fmt::format("{} and {} are \"P\" or \"periodic\", but are not copies of each other",
                         side_names[one], side_names[other]));
     }
@@ -110,8 +111,7 @@ class Builder {
   }
 
   [[nodiscard]] std::size_t node_at(std::size_t place) const {
-    return static_cast<std::size_t>(
-        space_.node[static_cast<std::size_t>(frame_.boundary[place])]);
+    return static_cast<std::size_t>(space_.node[static_cast<std::size_t>(frame_.boundary[place])]);
   }
 
   void fix_nodes() {
@@ -125,8 +125,12 @@ class Builder {
       const auto fix = [&](unsigned char bit, auto&& has) {
         if (any_side(q, has)) fixed |= bit;
       };
-      const auto held_x = [](const Side& s) { return s.x == SideRule::d || s.row == SideRow::rigid; };
-      const auto held_y = [](const Side& s) { return s.y == SideRule::d || s.row == SideRow::rigid; };
+      const auto held_x = [](const Side& s) {
+        return s.x == SideRule::d || s.row == SideRow::rigid;
+      };
+      const auto held_y = [](const Side& s) {
+        return s.y == SideRule::d || s.row == SideRow::rigid;
+      };
       fix(fixed_x, held_x);
       fix(fixed_y, held_y);
       fix(fixed_rotation, [](const Side& s) { return s.rotation == SideRotation::fixed; });
@@ -237,8 +241,7 @@ class Builder {
     for (std::size_t q = corner[side]; q < end; ++q) {
       const auto x = at(q);
       const auto y = at(q + 1);
-      area += 0.5 * (height(x) + height(y)) *
-              (along[0] * (y[0] - x[0]) + along[1] * (y[1] - x[1]));
+      area += 0.5 * (height(x) + height(y)) * (along[0] * (y[0] - x[0]) + along[1] * (y[1] - x[1]));
     }
     for (std::size_t q = corner[side]; q <= end; ++q) {
       const auto p = static_cast<std::size_t>(frame_.boundary[q % count]);

@@ -39,11 +39,11 @@ using Sides = std::array<Side, 4>;
 // with 1/M, as there; here they are dimensionless, stated for the lightest boundary particle:
 // g_a = gain_force / kn, g_m = gain_moment / (kn R^2). Table 4 means about 0.25 and 0.5.
 struct ServoOptions {
-  double gain_force = 0.2;        // stable below 0.3 [-]
-  double gain_moment = 0.4;       // [-]
-  double gain_deformation = 0.5;  // T: of the correction that would bring F back at once [-]
-  double inheritance = 1;         // n_f; 0 is the algorithm without prediction (Table 3) [-]
-  double tolerance = 1e-6;        // eps_a on the residual r_a (Table 2, 1.5) [-]
+  double gain_force = 0.2;              // stable below 0.3 [-]
+  double gain_moment = 0.4;             // [-]
+  double gain_deformation = 0.5;        // T: of the correction that would bring F back at once [-]
+  double inheritance = 1;               // n_f; 0 is the algorithm without prediction (Table 3) [-]
+  double tolerance = 1e-6;              // eps_a on the residual r_a (Table 2, 1.5) [-]
   double tolerance_deformation = 1e-6;  // T: eps_F on |F - (1/V) sum x (x) A| [-]
   int max_corrections = 20000;          // per increment [-]
 };

@@ -46,9 +46,9 @@ void Increment::reduce(std::span<ForceRecord> residual) const {
     for (std::size_t k = 0; k < 4; ++k) force[k] += (k < 2 ? f.x : f.y) * branch[k % 2];
   }
   for (std::size_t k = 0; k < 4; ++k) {
-    force[k] = space.found[k] ? (force[k] + space.reference_volume * space.stress[k]) /
-                                    deformation_scale_
-                              : 0;
+    force[k] = space.found[k]
+                   ? (force[k] + space.reference_volume * space.stress[k]) / deformation_scale_
+                   : 0;
   }
   residual[nodes()] = {force[0], force[1], 0, 0};
   residual[nodes() + 1] = {force[2], force[3], 0, 0};
@@ -88,8 +88,7 @@ void Increment::find_average_masses() {
     if (average.rows == 0) continue;
     std::array<double, 3> sum{};
     for (std::size_t k = 0; k < average.node.size(); ++k) {
-      const double m =
-          component(mass_records[static_cast<std::size_t>(average.node[k])], i);
+      const double m = component(mass_records[static_cast<std::size_t>(average.node[k])], i);
       const auto& row = average.row[k];
       sum[0] += row[0] * row[0] / m;
       sum[1] += row[0] * row[1] / m;

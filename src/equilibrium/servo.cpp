@@ -33,9 +33,8 @@ class Servo {
     memory.frozen.assign(nodes_, 0);
     for (std::size_t q = 0; q < nodes_; ++q) {
       if (!space_.boundary[q]) continue;
-      memory.frozen[q] = space_.boundary[q] == turns_freely
-                             ? fixed_translation
-                             : fixed_translation | fixed_rotation;
+      memory.frozen[q] = space_.boundary[q] == turns_freely ? fixed_translation
+                                                            : fixed_translation | fixed_rotation;
     }
   }
 
@@ -48,7 +47,8 @@ class Servo {
         return false;
       }
       memory_.correction.assign(increment_.unknowns(), 0.0);
-      const double residual = std::sqrt(correct_shared() + correct_averaged() + correct_deformation());
+      const double residual =
+          std::sqrt(correct_shared() + correct_averaged() + correct_deformation());
       if (residual <= servo_.tolerance && off_average() <= servo_.tolerance_deformation) {
         return true;
       }
@@ -121,7 +121,8 @@ class Servo {
         memory_.correction[k * nodes_ + q] = servo_.gain_force * compliance(radius) * force;
         sum += std::pow(force / force_scale(radius), 2);
       }
-      const bool turned = space_.boundary[q] != turns_freely && (space_.fixed[q] & fixed_rotation) == 0;
+      const bool turned =
+          space_.boundary[q] != turns_freely && (space_.fixed[q] & fixed_rotation) == 0;
       if (!increment_.problem->law->rotating() || !turned) continue;
       const double moment = r[2 * nodes_ + q];
       memory_.correction[2 * nodes_ + q] =
@@ -142,8 +143,8 @@ class Servo {
       const auto j = static_cast<std::size_t>(list.j[c]);
       const double branch[2] = {x[j] - x[i], x[n + j] - x[n + i]};
       for (std::size_t k = 0; k < 4; ++k) {
-        p[k] -= (k < 2 ? list.forces[c].x : list.forces[c].y) * branch[k % 2] /
-                space_.reference_volume;
+        p[k] -=
+            (k < 2 ? list.forces[c].x : list.forces[c].y) * branch[k % 2] / space_.reference_volume;
       }
     }
     return p;

@@ -54,8 +54,7 @@ Side read_side(TomlTable table) {
                                        {"periodic", SideRotation::periodic},
                                        {"free", SideRotation::free}}),
                  side.rotation);
-  table.optional("row",
-                 one_of<SideRow>({{"discs", SideRow::discs}, {"rigid", SideRow::rigid}}),
+  table.optional("row", one_of<SideRow>({{"discs", SideRow::discs}, {"rigid", SideRow::rigid}}),
                  side.row);
   table.finish();
   check_side(table, side);

@@ -61,12 +61,11 @@ void load_to_stress(const BoundarySpace& space, const Request& request, Workspac
     std::string prescribed;
     for (std::size_t k = 0; k < 4; ++k) {
       if (!space.found[k]) continue;
-      prescribed += fmt::format("{}P{}{} = {:.6g} Pa (reached {:.6g} Pa)",
-                                prescribed.empty() ? "" : ", ", k / 2 + 1, k % 2 + 1,
-                                space.stress[k], at.stress[k]);
+      prescribed +=
+          fmt::format("{}P{}{} = {:.6g} Pa (reached {:.6g} Pa)", prescribed.empty() ? "" : ", ",
+                      k / 2 + 1, k % 2 + 1, space.stress[k], at.stress[k]);
     }
-    const auto status =
-        outcome.status == GRAINLAW_OK ? GRAINLAW_CONTACTS_LOST : outcome.status;
+    const auto status = outcome.status == GRAINLAW_OK ? GRAINLAW_CONTACTS_LOST : outcome.status;
     throw Error(GRAINLAW_NOT_CONVERGED,
                 fmt::format("boundary.stress: no state of the packing carries {}: {}", prescribed,
                             grainlaw_status_text(status)));

@@ -46,7 +46,7 @@ void check_copy(const Packing& packing, std::size_t lower, std::size_t upper, st
 void set_areas(const Packing& packing, Frame& frame) {
   const std::size_t count = frame.boundary.size();
   const auto share = [&](int q, int neighbour) {
-    if (!frame.copies) return 0.5;
+    if (!frame.copies[0] || !frame.copies[1]) return 0.5;
     const double own = packing.radius[static_cast<std::size_t>(q)];
     return own / (own + packing.radius[static_cast<std::size_t>(neighbour)]);
   };
@@ -66,18 +66,20 @@ void set_areas(const Packing& packing, Frame& frame) {
   }
 }
 
-// Number the periodic identities in order of appearance; all copies of one particle share theirs.
+// Number the identities in order of appearance; all copies of one particle share theirs.
 void set_sources(std::size_t particles, Frame& frame) {
   std::vector<int> first_copy(particles);
-  for (std::size_t p = 0; p < particles; ++p) first_copy[p] = static_cast<int>(p);
+  std::iota(first_copy.begin(), first_copy.end(), 0);
+  const auto copy = [&](int of, int q) { first_copy[static_cast<std::size_t>(q)] = of; };
   for (std::size_t q = 0; q < frame.boundary.size(); ++q) {
     const auto p = static_cast<std::size_t>(frame.boundary[q]);
-    if (frame.partner[q] < 0) {
-      first_copy[p] = frame.corner[0];
-    } else if (frame.offset[p] != std::array{0, 0}) {
-      first_copy[p] = frame.partner[q];
+    if (frame.partner[q] >= 0 && frame.offset[p] != std::array{0, 0}) {
+      copy(frame.partner[q], frame.boundary[q]);
     }
   }
+  const auto [c0, c1, c2, c3] = frame.corner;
+  if (frame.copies[0]) copy(c0, c1), copy(c3, c2);
+  if (frame.copies[1]) copy(c0, c3), copy(frame.copies[0] ? c0 : c1, c2);
   std::vector<int> number(particles, -1);
   int sources = 0;
   frame.source.resize(particles);
@@ -92,19 +94,6 @@ void check_polygon(const Packing& packing) {
   std::vector<Point> polygon;
   for (const int q : packing.frame->boundary) polygon.push_back(centre(packing, q));
   if (!is_simple(polygon)) wrong("the boundary crosses itself");
-}
-
-// A frame whose opposite sides have nothing to do with each other.
-void complete_chain(Packing& packing) {
-  Frame& frame = *packing.frame;
-  frame.partner.assign(frame.boundary.size(), -1);
-  frame.offset.assign(packing.size(), {0, 0});
-  frame.extent.assign(packing.size(), {0, 0});
-  if (!(polygon_area(packing) > 0)) wrong("the boundary must be numbered anticlockwise");
-  check_polygon(packing);
-  set_areas(packing, frame);
-  frame.source.resize(packing.size());
-  std::iota(frame.source.begin(), frame.source.end(), 0);
 }
 
 }  // namespace
@@ -123,9 +112,8 @@ void complete_frame(Packing& packing) {
   if (packing.dimension != 2) wrong("only 2D packings have one");
   Frame& frame = *packing.frame;
   const auto [c0, c1, c2, c3] = corner_places(frame);
-  if (!frame.copies) return complete_chain(packing);
   const std::size_t count = frame.boundary.size();
-  if (c1 - c0 != c3 - c2 || c2 - c1 != count - c3)
+  if ((frame.copies[1] && c1 - c0 != c3 - c2) || (frame.copies[0] && c2 - c1 != count - c3))
     wrong("opposite sides differ in their particles");
 
   frame.partner.assign(count, -1);
@@ -138,17 +126,18 @@ void complete_frame(Packing& packing) {
     frame.offset[b][k] = frame.extent[a][k] = frame.extent[b][k] = 1;
     return std::pair(static_cast<int>(b), static_cast<int>(a));
   };
-  for (std::size_t q = c0; q <= c1; ++q) {
+  for (std::size_t q = c0; frame.copies[1] && q <= c1; ++q) {
     const std::size_t opposite = c3 - (q - c0);
     std::tie(frame.partner[q], frame.partner[opposite]) = pair_up(q, opposite, 1);
   }
-  for (std::size_t q = c1; q <= c2; ++q) {
+  for (std::size_t q = c1; frame.copies[0] && q <= c2; ++q) {
     const std::size_t opposite = (count - (q - c1)) % count;
     std::tie(frame.partner[opposite], frame.partner[q]) = pair_up(opposite, q, 0);
   }
   for (const std::size_t corner : {c0, c1, c2, c3}) frame.partner[corner] = -1;
 
   if (!(polygon_area(packing) > 0)) wrong("the boundary must be numbered anticlockwise");
+  if (!frame.copies[0] || !frame.copies[1]) check_polygon(packing);
   set_areas(packing, frame);
   set_sources(packing.size(), frame);
 }

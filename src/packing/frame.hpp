@@ -20,7 +20,7 @@ namespace grainlaw {
 Packing cut_frame(const Packing& periodic, double largest_gap = 0.35);
 
 // Fill partner, area, source, offset and extent of packing.frame from its boundary, corners and
-// whether its sides are copies. Throws Error (BAD_PACKING) when these do not make a frame:
+// which of its sides are copies. Throws Error (BAD_PACKING) when these do not make a frame:
 // anticlockwise from corner 0, a polygon that does not cross itself; and of copies, opposite sides
 // shifted by the lattice vectors of `cell` (to 1e-9 of the frame's length) with equal radii.
 void complete_frame(Packing& packing);

@@ -22,12 +22,12 @@ struct InitialContact {
 };
 
 // A packing cut out along chains of particles (Liu, Bosco & Suiker 2017, section 2.1). The boundary
-// runs anticlockwise from corner 0 over the four sides; opposite sides are exact copies, or have
-// nothing to do with each other.
+// runs anticlockwise from corner 0 over the four sides: bottom, right, top, left. Opposite sides are
+// exact copies, or have nothing to do with each other.
 struct Frame {
-  bool copies = true;
+  std::array<bool, 2> copies{true, true};   // left and right, bottom and top
   std::vector<int> boundary;                // particles on the frame, anticlockwise, each once
-  std::array<int, 4> corner{};              // anticlockwise; of copies, images of one particle
+  std::array<int, 4> corner{};              // anticlockwise; of copies, images of each other
   std::vector<int> partner;                 // [boundary.size()] opposite copy; -1 for corners
   std::vector<std::array<double, 2>> area;  // A_q of eq. 2 per boundary particle [m], per unit t
   // Per particle: which particle of the periodic packing it is, numbered in order of appearance;

@@ -83,6 +83,28 @@ void check_holes(const Packing& packing) {
   }
 }
 
+// Opposite sides are copies when their edges name partners; sides without an edge do as the others.
+void find_copies(const FrameRows& rows, Frame& frame) {
+  const auto corner = corner_places(frame);
+  const auto given = [&](std::size_t side) {
+    const std::size_t end = side < 3 ? corner[side + 1] : frame.boundary.size();
+    int partners = 0;
+    for (std::size_t q = corner[side] + 1; q < end; ++q)
+      partners += rows.partner_id.at(frame.boundary[q]) != no_partner ? 1 : 0;
+    return std::pair(static_cast<int>(end - corner[side]) - 1, partners);
+  };
+  std::array<int, 2> edges{}, partners{};  // of left and right, bottom and top
+  for (std::size_t side = 0; side < 4; ++side) {
+    const auto [count, named] = given(side);
+    edges[(side + 1) % 2] += count;
+    partners[(side + 1) % 2] += named;
+  }
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::size_t by = edges[k] > 0 ? k : 1 - k;
+    frame.copies[k] = edges[by] == 0 || partners[by] > 0;
+  }
+}
+
 void build_frame(const std::string& path, const FrameRows& rows, const Ids& ids, Packing& packing) {
   const auto wrong = [&](const std::string& message) {
     throw Error(GRAINLAW_BAD_PACKING, fmt::format("{}: {}", path, message));
@@ -95,9 +117,6 @@ void build_frame(const std::string& path, const FrameRows& rows, const Ids& ids,
       wrong(fmt::format("frame_order has no {}, expected 0 to {} without a gap", place - 1,
                         rows.particle_at.size() - 1));
   Frame frame;
-  frame.copies = rows.partner_id.empty() || std::ranges::any_of(rows.partner_id, [](const auto& p) {
-                   return p.second != no_partner;
-                 });
   std::size_t corners = 0;
   for (const auto& [order, particle] : rows.particle_at) {
     frame.boundary.push_back(particle);
@@ -106,17 +125,20 @@ void build_frame(const std::string& path, const FrameRows& rows, const Ids& ids,
   packing.frame = std::move(frame);
   try {
     check_holes(packing);
+    find_copies(rows, *packing.frame);
     complete_frame(packing);
   } catch (const Error& error) {
     wrong(error.what());
   }
-  if (!packing.frame->copies) return;
   for (std::size_t q = 0; q < packing.frame->boundary.size(); ++q) {
     const auto given = rows.partner_id.find(packing.frame->boundary[q]);
     if (given == rows.partner_id.end()) continue;
     const auto found = ids.find(given->second);
-    if (found == ids.end() || found->second != packing.frame->partner[q])
-      wrong(fmt::format("the particle at frame_order {} has partner {}, expected its opposite copy",
+    const int partner = found == ids.end() ? -1 : found->second;
+    const bool none = packing.frame->partner[q] < 0;
+    if (none ? given->second != no_partner : partner != packing.frame->partner[q])
+      wrong(fmt::format("the particle at frame_order {} has partner {}, expected its opposite copy "
+                        "(or -1 on both sides that are no copies)",
                         q, given->second));
   }
 }

@@ -50,9 +50,12 @@ Packing as_packing(const Material& material, const Configuration& at) {
   }
   if (packing.frame) {
     // Sides that moved on their own are no copies any more.
-    const auto& copied = material.space.copied;
-    const bool alike = material.space.options.type == BoundaryType::frame_d;
-    packing.frame->copies = packing.frame->copies && (alike || (copied[0] && copied[1]));
+    const auto& space = material.space;
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (space.options.type != BoundaryType::frame_d && !space.copied[k]) {
+        packing.frame->copies[k] = false;
+      }
+    }
     complete_frame(packing);
   }
   return packing;

@@ -5,16 +5,16 @@ namespace grainlaw::test {
 namespace {
 
 const std::string header =
-    "dimension = 2\n"                                 // 1
-    "[packing]\n"                                     // 2
-    "particles = \"particles.csv\"\n"                 // 3
-    "cell = \"cell.csv\"\n"                           // 4
-    "[contact]\n"                                     // 5
-    "law = \"frictional\"\n"                          // 6
-    "kn = 1e5\n"                                      // 7
-    "ratio = 0.8\n"                                   // 8
-    "friction = 0.5\n"                                // 9
-    "[boundary]\n";                                   // 10
+    "dimension = 2\n"                                     // 1
+    "[packing]\n"                                         // 2
+    "particles = \"particles.csv\"\n"                     // 3
+    "cell = \"cell.csv\"\n"                               // 4
+    "[contact]\n"                                         // 5
+    "law = \"frictional\"\n"                              // 6
+    "kn = 1e5\n"                                          // 7
+    "ratio = 0.8\n"                                       // 8
+    "friction = 0.5\n"                                    // 9
+    "[boundary]\n";                                       // 10
 const std::string mixed = header + "type = \"mixed\"\n";  // 11
 
 const std::string columns = "id,x,y,r,role,partner,frame_order\n";
@@ -54,10 +54,11 @@ void expect_told(const std::string& text, const std::string& particles, grainlaw
 }
 
 TEST(bad_boundary, good_ones_are_taken) {
-  for (const auto& [text, particles] :
-       {std::pair(header + "type = \"frame-d\"\n", chain), {header + "type = \"frame-d\"\n", frame},
-        {header + "type = \"frame-p\"\n", frame}, {sides(p, p, d, d), frame},
-        {sides(d, d, d, d), chain}}) {
+  for (const auto& [text, particles] : {std::pair(header + "type = \"frame-d\"\n", chain),
+                                        {header + "type = \"frame-d\"\n", frame},
+                                        {header + "type = \"frame-p\"\n", frame},
+                                        {sides(p, p, d, d), frame},
+                                        {sides(d, d, d, d), chain}}) {
     const TemporaryDirectory directory;
     write_text(directory / "particles.csv", particles);
     write_text(directory / "cell.csv", "H00,H01,H10,H11,thickness\n2,0,0,2,0.1\n");
@@ -78,13 +79,15 @@ TEST(bad_boundary, keys_are_told_with_file_and_line) {
   wrong(header + "type = \"frame-q\"\n",
         ":11: boundary.type: found 'frame-q', expected one of \"periodic-cell\", \"frame-p\", "
         "\"frame-d\", \"frame-t\", \"mixed\"");
-  wrong(header + "type = \"frame-d\"\nleft = {x = \"P\"}\n", ":12: boundary.left: found an unknown");
+  wrong(header + "type = \"frame-d\"\nleft = {x = \"P\"}\n",
+        ":12: boundary.left: found an unknown");
   wrong(mixed, ":10: boundary.left: found nothing, expected a table");
   wrong(sides("", p, d, d), ":12: boundary.left.x: found nothing, expected one of \"D\"");
   wrong(sides("x = \"Q\"", p, d, d), ":12: boundary.left.x: found 'Q'");
   wrong(sides(p, p, d, d + ", z = 1"), ":15: boundary.top.z: found an unknown key");
-  wrong(sides(p, d, d, d), ":12: boundary.left: found another rule than on the opposite side, "
-                           "expected the same on right");
+  wrong(sides(p, d, d, d),
+        ":12: boundary.left: found another rule than on the opposite side, "
+        "expected the same on right");
   wrong(sides(d, d, p, t), ":14: boundary.bottom: found another rule");
   wrong(sides("x = \"P\", y = \"T\"", "x = \"P\", y = \"T\"", d, d),
         ":12: boundary.left.y: found \"T\" beside \"P\"");
@@ -118,10 +121,12 @@ TEST(bad_boundary, frames_are_told) {
             "0,0,0,0.5,corner,-1,0\n2,4,0,0.5,corner,-1,1\n4,4,2,0.5,corner,-1,2\n"
             "6,0,2,0.5,corner,-1,3\n",
         "particles.csv: frame: the boundary has a hole of 3 m after frame_order 0");
-  wrong("frame-d", columns + inner + "0,0,0,0.505,corner,-1,0\n6,2,0,0.505,corner,-1,6\n"
-                   "4,2,2,0.505,corner,-1,4\n2,0,2,0.505,corner,-1,2\n"
-                   "1,0,1,0.505,edge,-1,1\n3,1,2,0.505,edge,-1,3\n5,2,1,0.505,edge,-1,5\n"
-                   "7,1,0,0.505,edge,-1,7\n",
+  wrong("frame-d",
+        columns + inner +
+            "0,0,0,0.505,corner,-1,0\n6,2,0,0.505,corner,-1,6\n"
+            "4,2,2,0.505,corner,-1,4\n2,0,2,0.505,corner,-1,2\n"
+            "1,0,1,0.505,edge,-1,1\n3,1,2,0.505,edge,-1,3\n5,2,1,0.505,edge,-1,5\n"
+            "7,1,0,0.505,edge,-1,7\n",
         "anticlockwise");
   wrong("frame-p", chain, "are not copies of each other");
   expect_told(sides(p, p, d, d), chain, GRAINLAW_BAD_PACKING,

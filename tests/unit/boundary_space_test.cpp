@@ -88,20 +88,19 @@ TEST(boundary_space, homogeneous_deformation_moves_the_boundary_with_it) {  // e
 }
 
 TEST(boundary_space, moments_on_the_boundary_make_the_stress_asymmetric) {
-  at_equilibria(describe(small_packing(), rough_law(), BoundaryType::frame_d),
-                [](const State& state) {
-                  const auto around = surroundings(state);
-                  double moments = 0;
-                  for (const int q : state.material().packing.frame->boundary) {
-                    moments += around.moment[static_cast<std::size_t>(q)];
-                  }
-                  double cauchy[4];
-                  measure(state.material().problem(), state.current(), GRAINLAW_CAUCHY_STRESS,
-                          cauchy);
-                  const double couple = moments / measure(state, GRAINLAW_VOLUME);
-                  EXPECT_NEAR(cauchy[1] - cauchy[2], couple, 1e-8 * std::abs(cauchy[3]));
-                  EXPECT_GT(std::abs(couple), 1e-5 * std::abs(cauchy[3]));
-                });
+  at_equilibria(
+      describe(small_packing(), rough_law(), BoundaryType::frame_d), [](const State& state) {
+        const auto around = surroundings(state);
+        double moments = 0;
+        for (const int q : state.material().packing.frame->boundary) {
+          moments += around.moment[static_cast<std::size_t>(q)];
+        }
+        double cauchy[4];
+        measure(state.material().problem(), state.current(), GRAINLAW_CAUCHY_STRESS, cauchy);
+        const double couple = moments / measure(state, GRAINLAW_VOLUME);
+        EXPECT_NEAR(cauchy[1] - cauchy[2], couple, 1e-8 * std::abs(cauchy[3]));
+        EXPECT_GT(std::abs(couple), 1e-5 * std::abs(cauchy[3]));
+      });
 }
 
 TEST(boundary_space, uniform_stress_loads_every_boundary_particle_by_its_area) {  // eqs. 21-22
@@ -115,8 +114,8 @@ TEST(boundary_space, uniform_stress_loads_every_boundary_particle_by_its_area) {
                     const auto p = static_cast<std::size_t>(packing.frame->boundary[q]);
                     for (std::size_t i = 0; i < 2; ++i) {
                       const auto& a = packing.frame->area[q];
-                      const double force = packing.thickness *
-                                           (stress[2 * i] * a[0] + stress[2 * i + 1] * a[1]);
+                      const double force =
+                          packing.thickness * (stress[2 * i] * a[0] + stress[2 * i + 1] * a[1]);
                       EXPECT_NEAR(around.force[p][i], force, tolerance);
                     }
                     EXPECT_NEAR(around.moment[p] / packing.radius[p], 0, tolerance);

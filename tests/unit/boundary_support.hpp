@@ -34,8 +34,7 @@ inline Sides layer_sides(SideRow row = SideRow::discs) {
 }
 
 inline MaterialDescription describe_layer(const Packing& packing, double p22,
-                                          SideRow row = SideRow::discs,
-                                          double tolerance = 1e-10) {
+                                          SideRow row = SideRow::discs, double tolerance = 1e-10) {
   auto description = describe(packing, rough_law(), BoundaryType::mixed, tolerance);
   description.boundary.sides = layer_sides(row);
   description.boundary.stress[3] = p22;
@@ -132,8 +131,8 @@ inline Tensor average_deformation(const State& state) {
   for (std::size_t q = 0; q < packing.frame->boundary.size(); ++q) {
     const auto p = static_cast<std::size_t>(packing.frame->boundary[q]);
     for (std::size_t k = 0; k < 4; ++k) {
-      mean[k] += x[k / 2 * packing.size() + p] * packing.frame->area[q][k % 2] *
-                 packing.thickness / state.material().space.reference_volume;
+      mean[k] += x[k / 2 * packing.size() + p] * packing.frame->area[q][k % 2] * packing.thickness /
+                 state.material().space.reference_volume;
     }
   }
   return mean;
@@ -164,8 +163,7 @@ inline Motion random_motion(const State& state, std::mt19937& random) {
     for (std::size_t r = 0; r < average.rows; ++r) {
       double off = 0;
       for (std::size_t k = 0; k < average.node.size(); ++k) {
-        off += average.row[k][r] *
-               w[i * space.nodes + static_cast<std::size_t>(average.node[k])];
+        off += average.row[k][r] * w[i * space.nodes + static_cast<std::size_t>(average.node[k])];
       }
       for (std::size_t k = 0; k < average.node.size(); ++k) {
         w[i * space.nodes + static_cast<std::size_t>(average.node[k])] -= off * average.row[k][r];

@@ -2,6 +2,7 @@
 #include "boundary_support.hpp"
 #include "error.hpp"
 #include "packing/frame_geometry.hpp"
+#include "state/output.hpp"
 
 #include <cstdlib>
 #include <filesystem>
@@ -28,7 +29,7 @@ Packing regular(std::size_t n, double shift, double rise) {
   const double length = d * static_cast<double>(n - 1);
   packing.cell = {length, 0, 0, length * rise};
   Frame frame;
-  frame.copies = false;
+  frame.copies = {false, false};
   const auto id = [n](std::size_t row, std::size_t k) { return static_cast<int>(row * n + k); };
   for (std::size_t k = 0; k < n; ++k) frame.boundary.push_back(id(0, k));
   for (std::size_t k = 1; k < n; ++k) frame.boundary.push_back(id(k, n - 1));
@@ -69,8 +70,8 @@ TEST(chain_frame, averages_to_the_deformation) {
       for (std::size_t q = 0; q < packing.frame->boundary.size(); ++q) {
         const auto p = static_cast<std::size_t>(packing.frame->boundary[q]);
         for (std::size_t k = 0; k < 4; ++k) {
-          mean[k] += packing.position[k / 2 * packing.size() + p] *
-                     packing.frame->area[q][k % 2] / area;
+          mean[k] +=
+              packing.position[k / 2 * packing.size() + p] * packing.frame->area[q][k % 2] / area;
         }
       }
       EXPECT_LE(relative_difference(mean, identity), 1e-13);
@@ -82,7 +83,7 @@ TEST(chain_frame, comes_back_from_files) {
   const Packing packing = hexagonal(5);
   const Packing back = through_files(packing);
   ASSERT_TRUE(back.frame);
-  EXPECT_FALSE(back.frame->copies);
+  EXPECT_EQ(back.frame->copies, (std::array{false, false}));
   EXPECT_EQ(back.frame->boundary, packing.frame->boundary);
   EXPECT_EQ(back.frame->corner, packing.frame->corner);
   EXPECT_EQ(back.position, packing.position);
@@ -122,14 +123,39 @@ TEST(chain_frame, does_not_carry_periodic_sides) {
 
 TEST(chain_frame, of_a_square_packing_with_copies_carries_periodic_sides) {
   Packing packing = square(5);
-  packing.frame->copies = true;
+  packing.frame->copies = {true, true};
   complete_frame(packing);
   State state(make_material(describe(packing, paper_law(), BoundaryType::frame_p, 1e-8)));
   const auto result = advance(state, {0.9999, 2e-5, 2e-5, 0.9999});
   // Rows of springs kn along both axes, a row per spacing, at overlap squeeze + 1e-4 diameters.
   const double d = 2 * radius * (1 - squeeze);
   const double force = 1e4 * (2 * radius - 0.9999 * d);
-  EXPECT_NEAR(result.stress[0], -force / (d * packing.thickness), 1e-3 * std::abs(result.stress[0]));
+  EXPECT_NEAR(result.stress[0], -force / (d * packing.thickness),
+              1e-3 * std::abs(result.stress[0]));
+}
+
+TEST(chain_frame, copied_to_left_and_right_alone_carries_a_layer) {
+  Packing packing = square(5);
+  packing.frame->copies = {true, false};
+  complete_frame(packing);
+  packing = through_files(packing);
+  EXPECT_EQ(packing.frame->copies, (std::array{true, false}));
+  auto description = describe(packing, paper_law(), BoundaryType::mixed, 1e-8);
+  description.boundary.sides = layer_sides();
+  EXPECT_LT(
+      advance(*std::make_unique<State>(make_material(description)), {1, 1e-5, 0, 0.9999}).stress[3],
+      0);
+  description.boundary.type = BoundaryType::frame_p;
+  EXPECT_THROW(make_material(description), Error);
+}
+
+TEST(chain_frame, of_a_layer_is_written_with_its_copies) {
+  State state(make_material(describe_layer(small_packing(), -1e5)));
+  advance(state, {1, 5e-4, 0, 1});
+  const Packing written = through_files(as_packing(state.material(), state.committed()));
+  EXPECT_EQ(written.frame->copies, (std::array{true, false}));
+  State again(make_material(describe_layer(written, -1e5)));
+  EXPECT_NEAR(stress_of(again)[3], -1e5, 1);
 }
 
 TEST(chain_frame, escaped_particles_are_counted) {

@@ -59,7 +59,8 @@ TEST(servo_boundary, uniform_stress_averages_to_the_deformation) {  // eq. 15
 }
 
 TEST(servo_boundary, layer_reaches_the_prescribed_stress) {
-  State state(make_material(by_servo(describe_layer(small_packing(60), -1e5, SideRow::discs, 1e-4))));
+  State state(
+      make_material(by_servo(describe_layer(small_packing(60), -1e5, SideRow::discs, 1e-4))));
   EXPECT_NEAR(advance(state, {1, 5e-4, 0, 1}).stress[3], -1e5, 1e2);
 }
 
