@@ -83,6 +83,12 @@ void facts_of_228(PaperStudy& study) {
   const double ratio = mean(p->column("sigma11")) / mean(p->column("sigma22"));
   study.facts.agree("7", "P: the two normal stresses are similar", "similar",
                     fmt::format("mean σ11 / mean σ22 = {:.2f}", ratio), ratio > 0.8 && ratio < 1.25);
+  std::string escaped;
+  for (const double shear : {0.2, 0.3, 0.4, 0.5})
+    escaped += fmt::format("{}{:.0f} at {}", escaped.empty() ? "" : "; ",
+                           interpolate(p->history["F12"], p->history["escaped_particles"], shear),
+                           shear);
+  study.facts.add("8", "P: inner particles outside the frame", "not stated", escaped, "-");
   if (!d || !t || !d->particles || !p->particles || !t->particles) return;
   const std::size_t common = std::min({d->steps(), p->steps(), t->steps()});
   const auto at = [&](const PaperRun& run, const char* what) {
@@ -237,7 +243,7 @@ void figure_10(PaperStudy& study, const PaperUnits& units, const CaseEnds& ends)
 }  // namespace
 
 void study_irregular_packings(PaperStudy& study) {
-  const PaperUnits units = read_units(study.scenes / "irregular.toml");
+  const PaperUnits units = read_units(study.scenes / "pack_228.toml");
   const CaseEnds ends(study.results / "figure_10_cases.csv");
   figure_7(study, units);
   figure_9(study);

@@ -162,7 +162,7 @@ void sample_size(PaperStudy& study, const PaperUnits& units) {
 }  // namespace
 
 void study_regular_packings(PaperStudy& study) {
-  const PaperUnits units = read_units(study.scenes / "regular.toml");
+  const PaperUnits units = read_units(study.scenes / "pack_square_25.toml");
   figure_2(study, units);
   figure_4(study, units);
   figure_5(study, units);
