@@ -52,9 +52,8 @@ std::string discs(const Snapshot& snapshot, bool of_boundary) {
   std::string text;
   for (std::size_t p = 0; p < snapshot.size(); ++p)
     if ((on_boundary[p] != 0) == of_boundary)
-      fmt::format_to(std::back_inserter(text), "{:.4g} {:.4g} {:.4g}\n",
-                     millimetre * snapshot.x[p], millimetre * snapshot.y[p],
-                     millimetre * snapshot.radius[p]);
+      fmt::format_to(std::back_inserter(text), "{:.4g} {:.4g} {:.4g}\n", millimetre * snapshot.x[p],
+                     millimetre * snapshot.y[p], millimetre * snapshot.radius[p]);
   return text;
 }
 
@@ -71,8 +70,8 @@ std::string bars(const Snapshot& snapshot, double width_per_force, double widest
     const Point to{from[0] + contact.branch[0], from[1] + contact.branch[1]};
     const Point across{-contact.branch[1] / length * 0.5 * width,
                        contact.branch[0] / length * 0.5 * width};
-    for (const auto& [end, side] : {std::pair{&from, 1.0}, {&to, 1.0}, {&to, -1.0}, {&from, -1.0},
-                                    {&from, 1.0}})
+    for (const auto& [end, side] :
+         {std::pair{&from, 1.0}, {&to, 1.0}, {&to, -1.0}, {&from, -1.0}, {&from, 1.0}})
       fmt::format_to(std::back_inserter(text), "{:.5g} {:.5g}\n",
                      millimetre * ((*end)[0] + side * across[0]),
                      millimetre * ((*end)[1] + side * across[1]));
@@ -100,18 +99,17 @@ struct Layer {
 std::vector<Layer> layers(const Snapshot& snapshot, double width_per_force) {
   const double widest = 1.6 * mean(snapshot.radius);
   const auto bar = [&](auto&& choice) { return bars(snapshot, width_per_force, widest, choice); };
-  return {
-      {"inner", discs(snapshot, false),
-       "using 1:2:3 with circles fs solid border lc rgb '#b9b09d' fc rgb '#f1ede2'"},
-      {"boundary", discs(snapshot, true),
-       "using 1:2:3 with circles fs solid border lc rgb '#9a907c' fc rgb '#d9cfb6'"},
-      {"outline", outline(snapshot), "with lines lc rgb '#777777' lw 0.8 dt (4,3)"},
-      {"frictional", bar([](const SnapshotContact& c) { return !c.bonded; }),
-       "with filledcurves closed fc rgb '#0072b2'"},
-      {"bonded", bar([](const SnapshotContact& c) { return c.bonded && c.normal_force >= 0; }),
-       "with filledcurves closed fc rgb '#d1281a'"},
-      {"tension", bar([](const SnapshotContact& c) { return c.bonded && c.normal_force < 0; }),
-       "with filledcurves closed fc rgb '#e69f00'"}};
+  return {{"inner", discs(snapshot, false),
+           "using 1:2:3 with circles fs solid border lc rgb '#b9b09d' fc rgb '#f1ede2'"},
+          {"boundary", discs(snapshot, true),
+           "using 1:2:3 with circles fs solid border lc rgb '#9a907c' fc rgb '#d9cfb6'"},
+          {"outline", outline(snapshot), "with lines lc rgb '#777777' lw 0.8 dt (4,3)"},
+          {"frictional", bar([](const SnapshotContact& c) { return !c.bonded; }),
+           "with filledcurves closed fc rgb '#0072b2'"},
+          {"bonded", bar([](const SnapshotContact& c) { return c.bonded && c.normal_force >= 0; }),
+           "with filledcurves closed fc rgb '#d1281a'"},
+          {"tension", bar([](const SnapshotContact& c) { return c.bonded && c.normal_force < 0; }),
+           "with filledcurves closed fc rgb '#e69f00'"}};
 }
 
 }  // namespace

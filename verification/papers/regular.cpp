@@ -28,7 +28,7 @@ double largest_difference(const PaperRun& a, const PaperRun& b, const char* comp
                           double to) {
   double difference = 0, size = 0;
   const std::vector<double>&x = a.history["F12"], &u = a.history[component],
-                           &v = b.history[component];
+        &v = b.history[component];
   for (std::size_t k = 0; k < std::min(a.steps(), b.steps()); ++k) {
     size = std::max(size, std::abs(v[k]));
     if (-x[k] < from - 1e-9 || -x[k] > to + 1e-9) continue;
@@ -55,8 +55,8 @@ void figure_2(PaperStudy& study, const PaperUnits& units) {
       const char* first = normal ? colour::blue : colour::orange;
       panel.curves.push_back({fmt::format("{}, servo with prediction", name), shear(*predicted),
                               stress(*predicted), first, Stroke::solid});
-      panel.curves.push_back({fmt::format("{}, servo without", name), shear(*plain),
-                              stress(*plain), first, Stroke::dashed});
+      panel.curves.push_back({fmt::format("{}, servo without", name), shear(*plain), stress(*plain),
+                              first, Stroke::dashed});
       if (direct)
         panel.curves.push_back({fmt::format("{}, direct", name), shear(*direct), stress(*direct),
                                 normal ? colour::sky : colour::amber, Stroke::thin});
@@ -66,7 +66,8 @@ void figure_2(PaperStudy& study, const PaperUnits& units) {
     const double middle = largest_difference(*predicted, *plain, "sigma11", 0.05, 0.2);
     const double end = largest_difference(*predicted, *plain, "sigma11", 0.28, 0.3);
     study.facts.agree(
-        "2", fmt::format("{}: with and without prediction part and meet again at the end", condition),
+        "2",
+        fmt::format("{}: with and without prediction part and meet again at the end", condition),
         "branches near -F12 = 0.113, coalesced near 0.28",
         fmt::format("apart by {:.1f} % of the largest stress up to 0.05, {:.1f} % in 0.05-0.2, "
                     "{:.1f} % in 0.28-0.3",
@@ -106,8 +107,7 @@ void figure_5(PaperStudy& study, const PaperUnits& units) {
       const auto run = study.run(fmt::format("figure_05_{}{}", c.name, sizes[k]));
       if (run)
         panel.curves.push_back({fmt::format("{} discs", sizes[k]), shear(*run),
-                                run->column("sigma11", -units.stress()), shades[k],
-                                Stroke::solid});
+                                run->column("sigma11", -units.stress()), shades[k], Stroke::solid});
     }
     if (!panel.curves.empty()) figure.panels.push_back(panel);
   }
@@ -153,8 +153,8 @@ void sample_size(PaperStudy& study, const PaperUnits& units) {
     }
     study.facts.agree("5", fmt::format("{}: larger samples carry less", c.name),
                       "falls with size; D and P close for 100 and 225",
-                      fmt::format("mean -σ11 R / kn {:.4f}, {:.4f}, {:.4f} for 25, 100, 225", mean[0],
-                                  mean[1], mean[2]),
+                      fmt::format("mean -σ11 R / kn {:.4f}, {:.4f}, {:.4f} for 25, 100, 225",
+                                  mean[0], mean[1], mean[2]),
                       mean[0] >= mean[1] && mean[1] >= mean[2]);
   }
 }
