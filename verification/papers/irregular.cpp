@@ -117,10 +117,7 @@ struct CaseEnds {
     std::ifstream file(path);
     std::string line;
     std::getline(file, line);
-    while (std::getline(file, line)) {
-      name.push_back(line.substr(0, line.find(',')));
-      end.push_back(line.substr(line.rfind(',') + 1));
-    }
+    while (std::getline(file, line)) name.push_back(line.substr(0, line.find(',')));
   }
   [[nodiscard]] std::optional<std::size_t> find(const std::string& wanted) const {
     for (std::size_t k = 0; k < name.size(); ++k)
@@ -128,8 +125,15 @@ struct CaseEnds {
     return std::nullopt;
   }
   CsvTable table;
-  std::vector<std::string> name, end;
+  std::vector<std::string> name;
 };
+
+// The file with the paths of this machine has the whole text.
+std::string how(const CaseEnds& ends, std::size_t k) {
+  if (ends.table["steps"][k] == 0) return "no equilibrium at F = I";
+  return grainlaw_status_text(
+      static_cast<grainlaw_status>(static_cast<int>(ends.table["status"][k])));
+}
 
 void reach_of_t(PaperStudy& study, const CaseEnds& ends) {
   Table table(
@@ -143,7 +147,7 @@ void reach_of_t(PaperStudy& study, const CaseEnds& ends) {
       if (!k) continue;
       const double shear = ends.table["F12"][*k];
       table.row({pressure, fmt::format("{}", size), ends.table["particles"][*k], shear,
-                 ends.table["steps"][*k], ends.end[*k]});
+                 ends.table["steps"][*k], how(ends, *k)});
       reached += fmt::format("{}{:.3f}", reached.empty() ? "" : "; ", shear);
       all = all && shear > 0.4999;
     }

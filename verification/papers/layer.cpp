@@ -132,7 +132,9 @@ void compare_layers(PaperStudy& study) {
       } else if (std::string(law) == "cohesive") {
         gain.push_back(s.peak / base.peak);
         cohesive_at.push_back(s.peak_at);
-        broken.push_back(s.contacts > 0 ? s.broken_start / (s.broken_start + s.contacts) : 0);
+        // Bonds of the same packing, of which none breaks when they are 20 times as strong.
+        if (const auto strong = study.run(fmt::format("figure_12_strong_{}", k)))
+          broken.push_back(s.broken_start / strength(*strong).contacts);
       } else {
         strong_gain.push_back(s.peak / base.peak);
         strong_at.push_back(s.peak_at);
