@@ -225,6 +225,7 @@ Packing packing_of(const Problem& problem, const Configuration& at) {
                                 {view.shift[0], view.shift[1]},
                                 view.normal_force,
                                 {-t * view.branch_y, t * view.branch_x}});
+    packing.contacts.back().moment = view.moment;
   }
   return packing;
 }

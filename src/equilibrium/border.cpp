@@ -11,10 +11,13 @@ namespace grainlaw {
 void Border::find_columns(const BoundarySpace& space) {
   size_ = 0;
   for (std::size_t i = 0; i < 2; ++i) {
-    for (std::size_t r = 0; r < space.average[i].rows; ++r) columns_[size_++] = {true, i, r};
+    for (std::size_t r = 0; r < space.average[i].rows; ++r) {
+      columns_[size_++] = {Kind::average, i, r};
+      columns_[size_++] = {Kind::anchors, i, r};
+    }
   }
   for (std::size_t k = 0; k < 4; ++k) {
-    if (space.found[k]) columns_[size_++] = {false, k, 0};
+    if (space.found[k]) columns_[size_++] = {Kind::deformation, k, 0};
   }
 }
 
@@ -29,18 +32,19 @@ void Border::set_right_side(const Increment& increment, const Stiffness& stiffne
   const std::size_t first = group * lanes;
   const std::size_t last = std::min(first + lanes, size_);
   for (std::size_t c = first; c < last; ++c) {
-    if (!columns_[c].average) {
+    if (columns_[c].kind == Kind::deformation) {
       change[columns_[c].direction].lane[c - first] = 1 / increment.deformation_scale();
     }
   }
   if (space.finds_deformation) add_residual_changes(increment, stiffness, change, {}, right_);
   for (std::size_t c = first; c < last; ++c) {
     const auto& column = columns_[c];
-    if (!column.average) continue;
+    if (column.kind == Kind::deformation) continue;
     const auto& average = space.average[column.direction];
-    for (std::size_t k = 0; k < average.node.size(); ++k) {
+    const double mean = column.mean(average);
+    for (std::size_t k = 0; k < average.node.size(); k += column.stride(average)) {
       const auto q = static_cast<std::size_t>(average.node[k]);
-      right_[q * b + column.direction].lane[c - first] = average.row[k][column.row];
+      right_[q * b + column.direction].lane[c - first] = average.row[k][column.row] - mean;
     }
   }
   if (!residual.empty() && size_ >= first && size_ < first + lanes) {
@@ -67,12 +71,13 @@ Border::Values Border::values_of(const Increment& increment,
   Values values{};
   for (std::size_t f = 0; f < size_; ++f) {
     const auto& column = columns_[f];
-    if (!column.average) continue;
+    if (column.kind == Kind::deformation) continue;
     const auto& average = space.average[column.direction];
-    for (std::size_t k = 0; k < average.node.size(); ++k) {
+    const double mean = column.mean(average);
+    for (std::size_t k = 0; k < average.node.size(); k += column.stride(average)) {
       const auto& z = motion[static_cast<std::size_t>(average.node[k]) * b + column.direction];
       for (std::size_t l = 0; l < lanes; ++l) {
-        values[f].lane[l] += average.row[k][column.row] * z.lane[l];
+        values[f].lane[l] += (average.row[k][column.row] - mean) * z.lane[l];
       }
     }
   }
@@ -81,7 +86,7 @@ Border::Values Border::values_of(const Increment& increment,
     const auto branch = increment.fixed_branch(touching[c].index);
     for (std::size_t f = 0; f < size_; ++f) {
       const auto& column = columns_[f];
-      if (column.average) continue;
+      if (column.kind != Kind::deformation) continue;
       const double length = branch[column.direction % 2] / increment.deformation_scale();
       const Quad& force = column.direction < 2 ? changes[c].force_x : changes[c].force_y;
       for (std::size_t l = 0; l < lanes; ++l) values[f].lane[l] -= force.lane[l] * length;
@@ -105,7 +110,7 @@ bool Border::respond(Increment& increment, Stiffness& stiffness, double shift,
     DeformationChange change{};
     const std::size_t first = group * lanes;
     for (std::size_t c = first; c < std::min(first + lanes, size_); ++c) {
-      if (columns_[c].average) continue;
+      if (columns_[c].kind != Kind::deformation) continue;
       change[columns_[c].direction].lane[c - first] = 1 / increment.deformation_scale();
     }
     if (space.finds_deformation) {
@@ -120,7 +125,9 @@ bool Border::respond(Increment& increment, Stiffness& stiffness, double shift,
     }
   }
   for (std::size_t f = 0; f < size_; ++f) {
-    if (columns_[f].average) continue;
+    // The load on the anchors is what kn makes of their average.
+    if (columns_[f].kind == Kind::anchors) matrix_[f][f] -= 1 / increment.mean_stiffness();
+    if (columns_[f].kind != Kind::deformation) continue;
     matrix_[f][f] += shift * increment.mass[increment.node_unknowns() + columns_[f].direction];
   }
   return true;
@@ -159,7 +166,7 @@ bool Border::solve(Increment& increment, Stiffness& stiffness, double shift,
   Values values{};
   for (std::size_t f = 0; f < size_; ++f) {
     values[f].lane[0] = matrix_[f][size_];
-    if (columns_[f].average) continue;
+    if (columns_[f].kind != Kind::deformation) continue;
     values[f].lane[0] -= residual[increment.node_unknowns() + columns_[f].direction];
   }
   if (!eliminate(values)) return false;
@@ -177,7 +184,7 @@ bool Border::solve(Increment& increment, Stiffness& stiffness, double shift,
   }
   for (std::size_t k = increment.node_unknowns(); k < increment.unknowns(); ++k) step[k] = 0;
   for (std::size_t c = 0; c < size_; ++c) {
-    if (columns_[c].average) continue;
+    if (columns_[c].kind != Kind::deformation) continue;
     step[increment.node_unknowns() + columns_[c].direction] = values[c].lane[0];
   }
   return true;
@@ -197,7 +204,7 @@ bool Border::complete(const Increment& increment, std::span<const TouchingContac
       const double response = response_[c / lanes][k].lane[c % lanes];
       for (std::size_t l = 0; l < lanes; ++l) motion[k].lane[l] += values[c].lane[l] * response;
     }
-    if (columns_[c].average) continue;
+    if (columns_[c].kind != Kind::deformation) continue;
     for (std::size_t l = 0; l < lanes; ++l) {
       change[columns_[c].direction].lane[l] = values[c].lane[l] / increment.deformation_scale();
     }

@@ -34,14 +34,22 @@ class Border {
                 DeformationChange& change);
 
  private:
-  static constexpr std::size_t most = 8;  // four averages and four components of F
+  static constexpr std::size_t most = 12;  // four averages, of anchors too, four components of F
   static constexpr std::size_t lanes = 4;
   using Values = std::array<Quad, most>;  // per row of the border
 
+  enum class Kind { average, anchors, deformation };
   struct Column {
-    bool average;           // else a component of F
-    std::size_t direction;  // of the average, or that component
+    Kind kind;
+    std::size_t direction;  // of the average, or the component of F
     std::size_t row;        // of the average
+    // Places in the average: all, or those of the anchors.
+    [[nodiscard]] std::size_t stride(const AverageConstraint& average) const {
+      return kind == Kind::anchors ? anchor_stride(average) : 1;
+    }
+    [[nodiscard]] double mean(const AverageConstraint& average) const {
+      return kind == Kind::anchors ? anchor_mean(average)[row] : 0;
+    }
   };
 
   void find_columns(const BoundarySpace& space);
@@ -57,7 +65,7 @@ class Border {
 
   std::array<Column, most> columns_{};
   std::size_t size_ = 0;
-  std::array<std::vector<Quad>, 3> response_;  // to the columns, four in each, then to a residual
+  std::array<std::vector<Quad>, 4> response_;  // to the columns, four in each, then to a residual
   std::array<std::array<double, most + 1>, most> matrix_{};  // rows by responses
   std::vector<Quad> right_;
   std::vector<ContactChange> changes_;

@@ -178,7 +178,7 @@ void Stiffness::find_graph(const Increment& increment) {
     edge_of_contact_[c] = on_the_diagonal;
     if (a != b) pairs_.push_back({{a, b}, static_cast<std::int32_t>(c)});
   }
-  if (increment.problem->space->averages()) link_averaged_nodes(increment);
+  if (increment.problem->space->averages()) link_anchors(increment);
   keep_room(pairs_);
   if (!std::is_sorted(pairs_.begin(), pairs_.end())) std::sort(pairs_.begin(), pairs_.end());
   graph_.clear();
@@ -212,25 +212,26 @@ void Stiffness::assemble(const Increment& increment, double shift) {
   if (!moments_.empty()) add_moments();
   add_masses(increment, shift);
   if (increment.problem->space->identity) return;
-  if (increment.problem->space->averages()) add_averages(increment);
+  if (increment.problem->space->averages()) add_anchors(increment);
   hold_fixed_nodes(increment);
 }
 
-// Calls visit(number of the link, place of the one node, of the other) for all pairs of nodes that
-// are averaged in a direction.
+// Calls visit(number of the link, direction, place of the one node, of the other) for all pairs of
+// anchors.
 template <class Visit>
 void for_each_link(const BoundarySpace& space, Visit&& visit) {
   std::size_t link = 0;
   for (std::size_t i = 0; i < 2; ++i) {
     const auto& node = space.average[i].node;
-    for (std::size_t a = 0; a < node.size(); ++a) {
-      for (std::size_t b = a + 1; b < node.size(); ++b) visit(link++, i, a, b);
+    const std::size_t stride = anchor_stride(space.average[i]);
+    for (std::size_t a = 0; a < node.size(); a += stride) {
+      for (std::size_t b = a + stride; b < node.size(); b += stride) visit(link++, i, a, b);
     }
   }
 }
 
 // A negative number stands for a link where others have that of a contact.
-void Stiffness::link_averaged_nodes(const Increment& increment) {
+void Stiffness::link_anchors(const Increment& increment) {
   const auto& space = *increment.problem->space;
   std::size_t links = 0;
   for_each_link(space, [&](std::size_t link, std::size_t i, std::size_t a, std::size_t b) {
@@ -241,20 +242,24 @@ void Stiffness::link_averaged_nodes(const Increment& increment) {
   resize_with_room(edge_of_link_, links);
 }
 
-void Stiffness::add_averages(const Increment& increment) {
+void Stiffness::add_anchors(const Increment& increment) {
   const auto& space = *increment.problem->space;
   const double kn = increment.mean_stiffness();
-  const auto product = [kn](const auto& r, const auto& s) {
-    return kn * (r[0] * s[0] + r[1] * s[1]);
+  std::array<double, 2> mean{};
+  const auto product = [&](const auto& r, const auto& s) {
+    return kn * ((r[0] - mean[0]) * (s[0] - mean[0]) + (r[1] - mean[1]) * (s[1] - mean[1]));
   };
   for (std::size_t i = 0; i < 2; ++i) {
     const auto& [node, row, rows] = space.average[i];
-    for (std::size_t a = 0; a < node.size(); ++a) {
+    if (rows == 0) continue;
+    mean = anchor_mean(space.average[i]);
+    for (std::size_t a = 0; a < node.size(); a += anchor_stride(space.average[i])) {
       matrix_.block(static_cast<std::size_t>(node[a]))[i].lane[i] += product(row[a], row[a]);
     }
   }
   for_each_link(space, [&](std::size_t link, std::size_t i, std::size_t a, std::size_t b) {
     const auto& row = space.average[i].row;
+    if (a == 0) mean = anchor_mean(space.average[i]);
     const auto edge = static_cast<std::size_t>(edge_of_link_[link]);
     const double value = product(row[a], row[b]);
     matrix_.block(matrix_.upper(edge))[i].lane[i] += value;

@@ -5,6 +5,7 @@
 #include "equilibrium/block_matrix.hpp"
 #include "equilibrium/increment.hpp"
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -20,15 +21,32 @@ struct TouchingContact {
   std::array<double, 9> stiffness;  // contact_stiffness() of it
 };
 
+// Every so many nodes of an average is an anchor: enough to hold the frame, few enough to link.
+inline std::size_t anchor_stride(const AverageConstraint& average) {
+  constexpr std::size_t anchors = 8;
+  return std::max<std::size_t>(1, average.node.size() / anchors);
+}
+
+// Mean of the anchors' rows: without it they do not feel a translation, which nothing may hold.
+inline std::array<double, 2> anchor_mean(const AverageConstraint& average) {
+  std::array<double, 2> mean{};
+  double count = 0;
+  for (std::size_t k = 0; k < average.node.size(); k += anchor_stride(average), ++count) {
+    mean[0] += average.row[k][0];
+    mean[1] += average.row[k][1];
+  }
+  return {mean[0] / count, mean[1] / count};
+}
+
 // What one increment of deformation left here serves the rest of it: the graph while all contacts
 // that touch are in it, the factors for solve_four(). Nothing is carried from one increment to the
 // next that could change a bit there: Increment::factorisations is zero when one begins.
 class Stiffness {
  public:
   // K of the present coordinates plus shift x mass on the diagonal; rows of what is prescribed are
-  // the identity. Where fluctuations are constrained on average, kn row row^T is added for every
-  // row of the constraint: it changes no solution within (Border), and holds what is not in it. The
-  // factors are no longer those of K.
+  // the identity. Where fluctuations are constrained on average, kn row row^T over the anchors is
+  // added for every row of the constraint: it holds what only the constraint would hold, in the
+  // factors, and Border takes it out of the solutions. The factors are no longer those of K.
   void assemble(const Increment& increment, double shift);
 
   // Factorise what was assembled.
@@ -55,8 +73,8 @@ class Stiffness {
   void find_graph(const Increment& increment);
   void add_moments();
   void hold_fixed_nodes(const Increment& increment);
-  void link_averaged_nodes(const Increment& increment);
-  void add_averages(const Increment& increment);
+  void link_anchors(const Increment& increment);
+  void add_anchors(const Increment& increment);
   void add_masses(const Increment& increment, double factor);
   bool solve_four_by_factors(const Increment& increment, std::span<const Quad> b,
                              std::span<Quad> x);
@@ -72,7 +90,7 @@ class Stiffness {
   std::vector<ContactMoment> moments_;
   std::vector<Edge> graph_;
   std::vector<std::int32_t> edge_of_contact_;
-  std::vector<std::int32_t> edge_of_link_;         // between averaged nodes, as add_averages() goes
+  std::vector<std::int32_t> edge_of_link_;         // between anchors, as add_anchors() goes
   std::vector<std::int32_t> listed_i_, listed_j_;  // the contacts that the graph was made from
   std::vector<std::pair<Edge, std::int32_t>> pairs_;
   std::vector<Quad> ground_;

@@ -20,8 +20,20 @@ TEST(law_tangent, of_a_frame_matches_central_differences) {
 }
 
 TEST(law_tangent, without_tangential_forces_matches_central_differences) {
-  expect_derivative_along(describe_law(reference_packing(), compressive_law()));
   expect_derivative_along(describe_law(reference_packing(), smooth_hertz_law()));
+}
+
+// Whose tangent is tested with the frictional law.
+TEST(law_tangent, of_compressive_contacts_is_that_without_friction) {
+  const auto at_next = [](const ContactLaw& law) {
+    State state(make_material(describe_law(small_packing(), law)));
+    return evaluate(state, {1.0001, 0, 0, 0.9999}, TangentKind::exact);
+  };
+  const Evaluation compressive = at_next(compressive_law());
+  const Evaluation smooth = at_next(smooth_law());
+  ASSERT_EQ(compressive.status, GRAINLAW_OK);
+  EXPECT_EQ(compressive.stress, smooth.stress);
+  EXPECT_EQ(compressive.tangent, smooth.tangent);
 }
 
 TEST(law_tangent, through_sub_increments_matches_central_differences) {
