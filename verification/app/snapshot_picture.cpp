@@ -117,7 +117,7 @@ std::vector<Layer> layers(const Snapshot& snapshot, double width_per_force) {
 bool draw_snapshots(const std::vector<SnapshotPanel>& panels, double force,
                     const std::string& title, const std::filesystem::path& stem) {
   if (panels.empty()) return true;
-  constexpr double pixels_wide = 1200;
+  constexpr double pixels_wide = 860;
   constexpr double gap = 14, heading = 56, foot = 8;  // pixels
   const Snapshot& first = panels.front().snapshot;
   const double unit = force > 0 ? force : 2 * mean_force(first);
@@ -131,7 +131,7 @@ bool draw_snapshots(const std::vector<SnapshotPanel>& panels, double force,
     highest = std::max(highest, extents.back().height());
   }
   const double count = static_cast<double>(panels.size());
-  constexpr double tallest = 700;  // pixels
+  constexpr double tallest = 500;  // pixels
   const double scale = std::min((pixels_wide - gap * (count + 1)) / total, tallest / highest);
   const double wide = scale * total + gap * (count + 1);
   const double high = scale * highest + heading + foot;
