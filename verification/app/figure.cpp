@@ -140,7 +140,7 @@ bool run_gnuplot(const std::string& body, const std::filesystem::path& stem, int
 bool draw(const Figure& figure, const std::filesystem::path& stem) {
   constexpr double gap = 0.022;
   const double top = figure.title.empty() ? 0.975 : 0.935;
-  const double left = figure.logarithmic ? 0.135 : 0.115;  // powers of ten are wide
+  const double left = figure.logarithmic ? 0.135 : 0.12;  // powers of ten are wide
   const auto count = static_cast<double>(figure.panels.size());
   const double relative =
       std::accumulate(figure.panels.begin(), figure.panels.end(), 0.0,
@@ -166,7 +166,7 @@ bool draw(const Figure& figure, const std::filesystem::path& stem) {
     const double lower = upper - unit * panel.height;
     body +=
         fmt::format("set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n", upper, lower);
-    body += fmt::format("set label 2 {} at screen 0.03,{:.4f} center rotate by 90 noenhanced\n",
+    body += fmt::format("set label 2 {} at screen 0.02,{:.4f} center rotate by 90 noenhanced\n",
                         quoted(panel.ordinate), 0.5 * (upper + lower));
     body += titled(panel)
                 ? fmt::format("set key inside {} samplen 2.5 spacing 1.15\n", panel.legend)

@@ -63,8 +63,7 @@ Material make_material(const MaterialSource& source) {
   if (status != GRAINLAW_OK) {
     const std::string text =
         fmt::format("{}: {} ({})", origin, message.data(), grainlaw_status_text(status));
-    if (status == GRAINLAW_NOT_CONVERGED || status == GRAINLAW_CONTACTS_LOST)
-      throw ComputationError(text);
+    if (status > 0) throw ComputationError(text);
     throw InputError(text);
   }
   Material result(material);

@@ -40,6 +40,7 @@ Record make_record(const grainlaw_state* state, const Tensor& deformation, const
   record.elastic_energy = measure_scalar(state, GRAINLAW_ELASTIC_ENERGY);
   record.dissipated_energy = measure_scalar(state, GRAINLAW_DISSIPATED_ENERGY);
   record.broken_bonds = measure_scalar(state, GRAINLAW_BROKEN_BONDS);
+  record.escaped_particles = measure_scalar(state, GRAINLAW_ESCAPED_PARTICLES);
   record.contacts = report.contacts;
   record.sliding = report.sliding;
   record.status_changes = report.status_changes;
@@ -62,7 +63,7 @@ Record mean(const std::vector<Record>& records) {
         &Record::fabric_intensity, &Record::anisotropy, &Record::mean_overlap,
         &Record::mean_rotation, &Record::elastic_energy, &Record::dissipated_energy,
         &Record::external_work, &Record::contacts, &Record::sliding, &Record::status_changes,
-        &Record::broken_bonds})
+        &Record::broken_bonds, &Record::escaped_particles})
     add(member);
   return sum;
 }
@@ -79,7 +80,7 @@ std::vector<std::string> record_columns() {
           "contacts[-]", "sliding[-]", "status_changes[-]",
           "newton_iterations[-]", "evaluations[-]", "step_cuts[-]", "loose_parts[-]",
           "relaxation_steps[-]", "servo_corrections[-]", "factorisations[-]", "subincrements[-]",
-          "history_advanced[-]", "broken_bonds[-]"};
+          "history_advanced[-]", "broken_bonds[-]", "escaped_particles[-]"};
   // clang-format on
 }
 
@@ -98,6 +99,7 @@ std::vector<double> record_values(const Record& r) {
                            long{e.subincrements}, long{e.history_advanced}})
     values.push_back(static_cast<double>(count));
   values.push_back(r.broken_bonds);
+  values.push_back(r.escaped_particles);
   return values;
 }
 

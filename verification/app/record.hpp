@@ -42,7 +42,8 @@ struct Record {
   double contacts = 0;
   double sliding = 0;
   double status_changes = 0;
-  double broken_bonds = 0;  // since F = I
+  double broken_bonds = 0;       // since F = I
+  double escaped_particles = 0;  // inner ones outside the polygon of a frame
   Effort effort;
 
   // Compression positive: 1 - F22; dilation positive: det F - 1; -sigma22 / -sigma11.

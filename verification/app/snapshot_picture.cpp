@@ -52,9 +52,8 @@ std::string discs(const Snapshot& snapshot, bool of_boundary) {
   std::string text;
   for (std::size_t p = 0; p < snapshot.size(); ++p)
     if ((on_boundary[p] != 0) == of_boundary)
-      fmt::format_to(std::back_inserter(text), "{:.4g} {:.4g} {:.4g}\n",
-                     millimetre * snapshot.x[p], millimetre * snapshot.y[p],
-                     millimetre * snapshot.radius[p]);
+      fmt::format_to(std::back_inserter(text), "{:.4g} {:.4g} {:.4g}\n", millimetre * snapshot.x[p],
+                     millimetre * snapshot.y[p], millimetre * snapshot.radius[p]);
   return text;
 }
 
@@ -71,8 +70,8 @@ std::string bars(const Snapshot& snapshot, double width_per_force, double widest
     const Point to{from[0] + contact.branch[0], from[1] + contact.branch[1]};
     const Point across{-contact.branch[1] / length * 0.5 * width,
                        contact.branch[0] / length * 0.5 * width};
-    for (const auto& [end, side] : {std::pair{&from, 1.0}, {&to, 1.0}, {&to, -1.0}, {&from, -1.0},
-                                    {&from, 1.0}})
+    for (const auto& [end, side] :
+         {std::pair{&from, 1.0}, {&to, 1.0}, {&to, -1.0}, {&from, -1.0}, {&from, 1.0}})
       fmt::format_to(std::back_inserter(text), "{:.5g} {:.5g}\n",
                      millimetre * ((*end)[0] + side * across[0]),
                      millimetre * ((*end)[1] + side * across[1]));
@@ -100,18 +99,17 @@ struct Layer {
 std::vector<Layer> layers(const Snapshot& snapshot, double width_per_force) {
   const double widest = 1.6 * mean(snapshot.radius);
   const auto bar = [&](auto&& choice) { return bars(snapshot, width_per_force, widest, choice); };
-  return {
-      {"inner", discs(snapshot, false),
-       "using 1:2:3 with circles fs solid border lc rgb '#b9b09d' fc rgb '#f1ede2'"},
-      {"boundary", discs(snapshot, true),
-       "using 1:2:3 with circles fs solid border lc rgb '#9a907c' fc rgb '#d9cfb6'"},
-      {"outline", outline(snapshot), "with lines lc rgb '#777777' lw 0.8 dt (4,3)"},
-      {"frictional", bar([](const SnapshotContact& c) { return !c.bonded; }),
-       "with filledcurves closed fc rgb '#0072b2'"},
-      {"bonded", bar([](const SnapshotContact& c) { return c.bonded && c.normal_force >= 0; }),
-       "with filledcurves closed fc rgb '#d1281a'"},
-      {"tension", bar([](const SnapshotContact& c) { return c.bonded && c.normal_force < 0; }),
-       "with filledcurves closed fc rgb '#e69f00'"}};
+  return {{"inner", discs(snapshot, false),
+           "using 1:2:3 with circles fs solid border lc rgb '#b9b09d' fc rgb '#f1ede2'"},
+          {"boundary", discs(snapshot, true),
+           "using 1:2:3 with circles fs solid border lc rgb '#9a907c' fc rgb '#d9cfb6'"},
+          {"outline", outline(snapshot), "with lines lc rgb '#777777' lw 0.8 dt (4,3)"},
+          {"frictional", bar([](const SnapshotContact& c) { return !c.bonded; }),
+           "with filledcurves closed fc rgb '#0072b2'"},
+          {"bonded", bar([](const SnapshotContact& c) { return c.bonded && c.normal_force >= 0; }),
+           "with filledcurves closed fc rgb '#d1281a'"},
+          {"tension", bar([](const SnapshotContact& c) { return c.bonded && c.normal_force < 0; }),
+           "with filledcurves closed fc rgb '#e69f00'"}};
 }
 
 }  // namespace
@@ -119,7 +117,7 @@ std::vector<Layer> layers(const Snapshot& snapshot, double width_per_force) {
 bool draw_snapshots(const std::vector<SnapshotPanel>& panels, double force,
                     const std::string& title, const std::filesystem::path& stem) {
   if (panels.empty()) return true;
-  constexpr double pixels_wide = 1200;
+  constexpr double pixels_wide = 860;
   constexpr double gap = 14, heading = 56, foot = 8;  // pixels
   const Snapshot& first = panels.front().snapshot;
   const double unit = force > 0 ? force : 2 * mean_force(first);
@@ -133,7 +131,7 @@ bool draw_snapshots(const std::vector<SnapshotPanel>& panels, double force,
     highest = std::max(highest, extents.back().height());
   }
   const double count = static_cast<double>(panels.size());
-  constexpr double tallest = 700;  // pixels
+  constexpr double tallest = 500;  // pixels
   const double scale = std::min((pixels_wide - gap * (count + 1)) / total, tallest / highest);
   const double wide = scale * total + gap * (count + 1);
   const double high = scale * highest + heading + foot;

@@ -30,9 +30,9 @@ std::optional<PaperRun> shear_run(const PaperStudy& study, const char* condition
 
 void figure_7(const PaperStudy& study, const PaperUnits& units) {
   Figure figure{"Fig. 7: simple shear of the packing near 228 discs", "F12 [-]", {}};
-  for (const auto& [component, name] :
-       {std::pair{"sigma11", "-σ11 R / kn [-]"}, {"sigma22", "-σ22 R / kn [-]"},
-        {"sigma12", "σ12 R / kn [-]"}}) {
+  for (const auto& [component, name] : {std::pair{"sigma11", "-σ11 R / kn [-]"},
+                                        {"sigma22", "-σ22 R / kn [-]"},
+                                        {"sigma12", "σ12 R / kn [-]"}}) {
     Panel panel{name, {}, 1, "top right"};
     const double sign = std::string(component) == "sigma12" ? 1 : -1;
     for (const Condition& c : conditions)
@@ -55,8 +55,8 @@ void figure_9(const PaperStudy& study) {
     std::vector<double> percent = particles["normalised_overlap"];
     for (double& value : percent) value *= 100;
     overlap.curves.push_back({c.name, particles["F12"], percent, c.colour, Stroke::solid});
-    rotation.curves.push_back({c.name, particles["F12"], particles["mean_rotation_magnitude"],
-                               c.colour, Stroke::solid});
+    rotation.curves.push_back(
+        {c.name, particles["F12"], particles["mean_rotation_magnitude"], c.colour, Stroke::solid});
   }
   if (!overlap.curves.empty())
     draw({"Fig. 9: simple shear of the packing near 228 discs", "F12 [-]", {overlap, rotation}},
@@ -74,15 +74,21 @@ void facts_of_228(PaperStudy& study) {
   const auto p = study.run("figure_08_P");
   const auto t = study.run("figure_08_T");
   if (!p) return;
-  const double normal =
-      0.5 * (mean(p->column("sigma11", -1)) + mean(p->column("sigma22", -1)));
+  const double normal = 0.5 * (mean(p->column("sigma11", -1)) + mean(p->column("sigma22", -1)));
   const double shear = mean(p->column("sigma12"));
-  study.facts.agree("7", "P: shear stress / normal stress, mean over the path",
-                    "about one third", fmt::format("{:.2f}", shear / normal),
+  study.facts.agree("7", "P: shear stress / normal stress, mean over the path", "about one third",
+                    fmt::format("{:.2f}", shear / normal),
                     shear / normal > 0.25 && shear / normal < 0.42);
   const double ratio = mean(p->column("sigma11")) / mean(p->column("sigma22"));
   study.facts.agree("7", "P: the two normal stresses are similar", "similar",
-                    fmt::format("mean σ11 / mean σ22 = {:.2f}", ratio), ratio > 0.8 && ratio < 1.25);
+                    fmt::format("mean σ11 / mean σ22 = {:.2f}", ratio),
+                    ratio > 0.8 && ratio < 1.25);
+  std::string escaped;
+  for (const double shear : {0.2, 0.3, 0.4, 0.5})
+    escaped +=
+        fmt::format("{}{:.0f} at {}", escaped.empty() ? "" : "; ",
+                    interpolate(p->history["F12"], p->history["escaped_particles"], shear), shear);
+  study.facts.add("8", "P: inner particles outside the frame", "not stated", escaped, "-");
   if (!d || !t || !d->particles || !p->particles || !t->particles) return;
   const std::size_t common = std::min({d->steps(), p->steps(), t->steps()});
   const auto at = [&](const PaperRun& run, const char* what) {
@@ -99,7 +105,8 @@ void facts_of_228(PaperStudy& study) {
                       falling ? a >= b && b >= c : a <= b && b <= c);
   };
   row("mean overlap / R [%]", "largest for D, smallest for T", "normalised_overlap", 100, true);
-  row("mean |rotation| [rad]", "largest for T, smallest for D", "mean_rotation_magnitude", 1, false);
+  row("mean |rotation| [rad]", "largest for T, smallest for D", "mean_rotation_magnitude", 1,
+      false);
 }
 
 // Of a table with the case's name in its first column, which read_csv takes for a number.
@@ -110,10 +117,7 @@ struct CaseEnds {
     std::ifstream file(path);
     std::string line;
     std::getline(file, line);
-    while (std::getline(file, line)) {
-      name.push_back(line.substr(0, line.find(',')));
-      end.push_back(line.substr(line.rfind(',') + 1));
-    }
+    while (std::getline(file, line)) name.push_back(line.substr(0, line.find(',')));
   }
   [[nodiscard]] std::optional<std::size_t> find(const std::string& wanted) const {
     for (std::size_t k = 0; k < name.size(); ++k)
@@ -121,13 +125,20 @@ struct CaseEnds {
     return std::nullopt;
   }
   CsvTable table;
-  std::vector<std::string> name, end;
+  std::vector<std::string> name;
 };
 
+// The file with the paths of this machine has the whole text.
+std::string how(const CaseEnds& ends, std::size_t k) {
+  if (ends.table["steps"][k] == 0) return "no equilibrium at F = I";
+  return grainlaw_status_text(
+      static_cast<grainlaw_status>(static_cast<int>(ends.table["status"][k])));
+}
+
 void reach_of_t(PaperStudy& study, const CaseEnds& ends) {
-  Table table("How far T carries in simple shear to 0.5",
-              {"initial_pressure[kPa]", "packing[-]", "particles[-]", "F12_reached[-]", "steps[-]",
-               "end"});
+  Table table(
+      "How far T carries in simple shear to 0.5",
+      {"initial_pressure[kPa]", "packing[-]", "particles[-]", "F12_reached[-]", "steps[-]", "end"});
   for (const auto& [suffix, pressure] : {std::pair{"", "10"}, {"_100kPa", "100"}}) {
     std::string reached;
     bool all = true;
@@ -136,12 +147,13 @@ void reach_of_t(PaperStudy& study, const CaseEnds& ends) {
       if (!k) continue;
       const double shear = ends.table["F12"][*k];
       table.row({pressure, fmt::format("{}", size), ends.table["particles"][*k], shear,
-                 ends.table["steps"][*k], ends.end[*k]});
+                 ends.table["steps"][*k], how(ends, *k)});
       reached += fmt::format("{}{:.3f}", reached.empty() ? "" : "; ", shear);
       all = all && shear > 0.4999;
     }
     if (reached.empty()) continue;
-    study.facts.agree("10", fmt::format("T from {} kPa: F12 reached by the five packings", pressure),
+    study.facts.agree("10",
+                      fmt::format("T from {} kPa: F12 reached by the five packings", pressure),
                       "0.5", reached, all);
   }
   table.print();
@@ -159,12 +171,12 @@ void order(PaperStudy& study, const PaperUnits& units) {
     const Order dp = compare(*d, *p, units), pt = compare(*p, *t, units);
     table.row({fmt::format("{}", size), dp.share, dp.mean_ratio, dp.until, pt.share, pt.mean_ratio,
                pt.until});
-    study.facts.agree("7, 10", fmt::format("packing {}: D >= P >= T", size), "bounds",
-                      fmt::format("D >= P in {:.0f} % of the steps, P >= T in {:.0f} % to F12 = "
-                                  "{:.3f}; means D/P {:.2f}, P/T {:.2f}",
-                                  100 * dp.share, 100 * pt.share, pt.until, dp.mean_ratio,
-                                  pt.mean_ratio),
-                      dp.mean_ratio >= 1 && pt.mean_ratio >= 1);
+    study.facts.agree(
+        "7, 10", fmt::format("packing {}: D >= P >= T", size), "bounds",
+        fmt::format("D >= P in {:.0f} % of the steps, P >= T in {:.0f} % to F12 = "
+                    "{:.3f}; means D/P {:.2f}, P/T {:.2f}",
+                    100 * dp.share, 100 * pt.share, pt.until, dp.mean_ratio, pt.mean_ratio),
+        dp.mean_ratio >= 1 && pt.mean_ratio >= 1);
   }
   table.print();
   table.write(study.results / "order_irregular.csv");
@@ -190,8 +202,8 @@ void figure_10(PaperStudy& study, const PaperUnits& units, const CaseEnds& ends)
       norms[c].push_back(integrated_norm(*run, units));
       const double start = stress_norm(*run, units).front();
       if (c == 1) starts.push_back(run->history["sigma11"].front());
-      table.row({weighted ? condition.name : "P; weight 1", fmt::format("{}", size), count.back(), norms[c].back(),
-                 run->history["F12"].back(), start});
+      table.row({weighted ? condition.name : "P; weight 1", fmt::format("{}", size), count.back(),
+                 norms[c].back(), run->history["F12"].back(), start});
     }
     if (!count.empty())
       panel.curves.push_back({weighted ? condition.name : "P, contact weight 1", count, norms[c],
@@ -199,8 +211,11 @@ void figure_10(PaperStudy& study, const PaperUnits& units, const CaseEnds& ends)
                               condition.marker});
   }
   if (panel.curves.empty()) return;
-  panel.curves.push_back({"0.011 of the paper for P", {sizes.front() * 1.0, sizes.back() * 1.0},
-                          {paper_norm, paper_norm}, colour::grey, Stroke::dashed});
+  panel.curves.push_back({"0.011 of the paper for P",
+                          {sizes.front() * 1.0, sizes.back() * 1.0},
+                          {paper_norm, paper_norm},
+                          colour::grey,
+                          Stroke::dashed});
   draw({"Fig. 10: simple shear to F12 = 0.5", "particles of the frame [-]", {panel}},
        study.results / "figure_10");
   table.print();
@@ -237,7 +252,7 @@ void figure_10(PaperStudy& study, const PaperUnits& units, const CaseEnds& ends)
 }  // namespace
 
 void study_irregular_packings(PaperStudy& study) {
-  const PaperUnits units = read_units(study.scenes / "irregular.toml");
+  const PaperUnits units = read_units(study.scenes / "pack_228.toml");
   const CaseEnds ends(study.results / "figure_10_cases.csv");
   figure_7(study, units);
   figure_9(study);

@@ -57,8 +57,8 @@ double integrated_norm(const PaperRun& run, const PaperUnits& units) {
   const std::vector<double> norm = stress_norm(run, units);
   double sum = 0;
   for (std::size_t k = 1; k < norm.size(); ++k)
-    sum += 0.5 * (norm[k] * norm[k] + norm[k - 1] * norm[k - 1]) *
-           std::abs(shear[k] - shear[k - 1]);
+    sum +=
+        0.5 * (norm[k] * norm[k] + norm[k - 1] * norm[k - 1]) * std::abs(shear[k] - shear[k - 1]);
   return std::sqrt(sum);
 }
 

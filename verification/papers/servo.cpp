@@ -28,12 +28,9 @@ std::map<std::string, CaseCost> read_costs(const std::filesystem::path& path) {
   std::string line;
   std::getline(file, line);
   for (std::size_t k = 0; std::getline(file, line); ++k)
-    costs[line.substr(0, line.find(','))] = {table["particles"][k],
-                                             table["steps"][k],
-                                             table["relaxation_steps"][k],
-                                             table["servo_corrections"][k],
-                                             table["factorisations"][k],
-                                             table["cpu"][k]};
+    costs[line.substr(0, line.find(','))] = {
+        table["particles"][k],         table["steps"][k],          table["relaxation_steps"][k],
+        table["servo_corrections"][k], table["factorisations"][k], table["cpu"][k]};
   return costs;
 }
 

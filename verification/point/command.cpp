@@ -32,9 +32,9 @@ std::vector<PointScene> chosen(std::vector<PointScene> scenes, const std::string
   if (wanted.empty()) return scenes;
   std::vector<PointScene> result;
   for (const std::string& name : wanted) {
-    const auto found = std::find_if(
-        scenes.begin(), scenes.end(),
-        [&](const PointScene& scene) { return scene.name == prefix + "_" + name; });
+    const auto found = std::find_if(scenes.begin(), scenes.end(), [&](const PointScene& scene) {
+      return scene.name == prefix + "_" + name;
+    });
     if (found == scenes.end())
       throw InputError(fmt::format("--case {}: the scene has no such case", name));
     result.push_back(*found);
@@ -66,8 +66,7 @@ void write_ends(const std::vector<PointScene>& scenes, const std::vector<PointEn
 
 void run_command(const PointArguments& arguments) {
   const SceneFile file(arguments.scene);
-  const std::string prefix =
-      file.content["name"].value_or(file.path.stem().string());
+  const std::string prefix = file.content["name"].value_or(file.path.stem().string());
   std::vector<PointScene> scenes = chosen(read_point_scenes(file), prefix, arguments.cases);
   for (PointScene& scene : scenes) scene.options.max_steps = arguments.steps;
   std::vector<PointEnd> ends(scenes.size());
@@ -102,8 +101,8 @@ void run_command(const PointArguments& arguments) {
 }  // namespace
 
 void add_point_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "point", "lead representative volumes along paths of strain and stress");
+  CLI::App* command =
+      app.add_subcommand("point", "lead representative volumes along paths of strain and stress");
   auto arguments = std::make_shared<PointArguments>();
   command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
   command->add_option("--output", arguments->output, "directory for the results")
