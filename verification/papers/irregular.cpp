@@ -33,7 +33,7 @@ void figure_7(const PaperStudy& study, const PaperUnits& units) {
   for (const auto& [component, name] : {std::pair{"sigma11", "-σ11 R / kn [-]"},
                                         {"sigma22", "-σ22 R / kn [-]"},
                                         {"sigma12", "σ12 R / kn [-]"}}) {
-    Panel panel{name, {}, 1, "top right"};
+    Panel panel{name, {}, 1, "top left"};
     const double sign = std::string(component) == "sigma12" ? 1 : -1;
     for (const Condition& c : conditions)
       if (const auto run = study.run(std::string("figure_08_") + c.name))
