@@ -79,17 +79,28 @@ void check(const GeneratorOptions& options, const ContactLaw& law, double radius
     wrong("friction", options.friction, "a number >= 0");
 }
 
-// Both lattices: fn = kn overlap at distance d; square p t = fn / d, hexagonal p t = sqrt(3) fn / d.
+// The overlap of equal discs in a lattice under p t = share fn / distance [m].
+double lattice_overlap(const ContactLaw& law, double radius, double load, double share) {
+  double low = 0;
+  double high = most_overlap * 2 * radius;
+  for (int halving = 0; halving < 100; ++halving) {
+    const double overlap = 0.5 * (low + high);
+    const double force = share * law.normal_force(radius, radius, overlap);
+    (force > load * (2 * radius - overlap) ? high : low) = overlap;
+  }
+  return high;
+}
+
+// Square: p t = fn / d, hexagonal: p t = sqrt(3) fn / d.
 Packing make_regular(const GeneratorOptions& options, const ContactLaw& law) {
   const double radius = options.radius_max;
   const double diameter = 2 * radius;
   const bool square = options.kind == GeneratorKind::square;
-  const double kn = law.stiffness(radius, radius);
   double overlap = options.overlap;
   if (!(overlap > 0)) {
     check(options, law, radius);
-    const double load = options.pressure * options.thickness / (square ? 1 : std::numbers::sqrt3);
-    overlap = diameter * load / (kn + load);
+    overlap = lattice_overlap(law, radius, options.pressure * options.thickness,
+                              square ? 1 : std::numbers::sqrt3);
   }
   if (!(overlap < most_overlap * diameter))
     wrong("overlap", overlap, fmt::format("a length > 0 and below {} m", most_overlap * diameter));
