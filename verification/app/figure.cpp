@@ -73,19 +73,20 @@ std::string log_commands(const Figure& figure, const Panel& panel) {
                             : std::string("unset logscale y\nset format y '% h'\n"));
 }
 
-// Logarithmic abscissae of all panels, with room for the markers at the ends.
+// Abscissae of all panels; logarithmic ones with room for the markers at the ends.
 std::string common_range(const Figure& figure) {
   constexpr double room = 1.25;
   double low = std::numeric_limits<double>::infinity();
-  double high = 0;
+  double high = -low;
   for (const Panel& panel : figure.panels)
     for (const Curve& curve : panel.curves)
       for (const double x : curve.x) {
         low = std::min(low, x);
         high = std::max(high, x);
       }
-  if (high <= 0) return "";
-  return fmt::format("set xrange [{}:{}]\n", low / room, high * room);
+  if (!(high > low)) return "";
+  if (!figure.logarithmic) return fmt::format("set xrange [{}:{}]\n", low, high);
+  return high > 0 ? fmt::format("set xrange [{}:{}]\n", low / room, high * room) : "";
 }
 
 // Gnuplot's own range, or one around a constant, of which it would complain.
@@ -156,7 +157,7 @@ bool draw(const Figure& figure, const std::filesystem::path& stem) {
       "set grid lc rgb '#e4e4e4' lw 1 dt solid\n"
       "set rmargin at screen 0.97\nset autoscale xfix\n";
   body += fmt::format("set lmargin at screen {}\n", left);
-  if (figure.logarithmic) body += common_range(figure);
+  body += common_range(figure);
   if (!figure.title.empty())
     body += fmt::format("set label 1 {} at screen {},0.968 left noenhanced\n", quoted(figure.title),
                         left);

@@ -33,7 +33,7 @@ void figure_7(const PaperStudy& study, const PaperUnits& units) {
   for (const auto& [component, name] : {std::pair{"sigma11", "-σ11 R / kn [-]"},
                                         {"sigma22", "-σ22 R / kn [-]"},
                                         {"sigma12", "σ12 R / kn [-]"}}) {
-    Panel panel{name, {}, 1, "top right"};
+    Panel panel{name, {}, 1, "top left"};
     const double sign = std::string(component) == "sigma12" ? 1 : -1;
     for (const Condition& c : conditions)
       if (const auto run = study.run(std::string("figure_08_") + c.name))
@@ -105,8 +105,8 @@ void facts_of_228(PaperStudy& study) {
                       falling ? a >= b && b >= c : a <= b && b <= c);
   };
   row("mean overlap / R [%]", "largest for D, smallest for T", "normalised_overlap", 100, true);
-  row("mean |rotation| [rad]", "largest for T, smallest for D", "mean_rotation_magnitude", 1,
-      false);
+  row("mean rotation magnitude [rad]", "largest for T, smallest for D", "mean_rotation_magnitude",
+      1, false);
 }
 
 // Of a table with the case's name in its first column, which read_csv takes for a number.
@@ -232,13 +232,13 @@ void figure_10(PaperStudy& study, const PaperUnits& units, const CaseEnds& ends)
     study.facts.agree("10", "D: norm falls with size", "falls", list(d), d.front() > d.back());
   if (p.size() == sizes.size()) {
     const auto [low, high] = std::minmax_element(p.begin(), p.end());
-    study.facts.agree("10", "P: norm, nearly constant", "near 0.011",
-                      fmt::format("{}; mean {:.4f}, largest / smallest {:.2f}; start -σ11 between "
-                                  "{:.1f} and {:.1f} kPa",
-                                  list(p), mean(p), *high / *low,
-                                  -1e-3 * *std::max_element(starts.begin(), starts.end()),
-                                  -1e-3 * *std::min_element(starts.begin(), starts.end())),
-                      std::abs(mean(p) / paper_norm - 1) < 0.1 && *high / *low < 1.3);
+    study.facts.agree(
+        "10", "P: norm, nearly constant", "near 0.011",
+        fmt::format("{}; mean {:.4f}, of the three largest packings {:.4f}; largest / "
+                    "smallest {:.2f}; from {:.1f} kPa, p t / kn = {:.1g}",
+                    list(p), mean(p), mean({p[2], p[3], p[4]}), *high / *low, -1e-3 * mean(starts),
+                    -mean(starts) * units.thickness / units.stiffness),
+        std::abs(mean(p) / paper_norm - 1) < 0.1 && *high / *low < 1.3);
   }
   if (one.size() == sizes.size())
     study.facts.add("10", "P, contact weight 1 as published: norm", "near 0.011",

@@ -216,9 +216,8 @@ void study_layer(PaperStudy& study) {
   compare_layers(study);
   tabulate(study, "layer_strength", "Layer: bond strength",
            {"frictional", "x1", "x2", "x5", "x10", "x20", "x50"});
-  tabulate(
-      study, "layer_rows", "Layer: top and bottom rows",
-      {"discs", "without_contacts", "rigid", "discs_low", "without_contacts_low", "rigid_low"});
+  tabulate(study, "layer_rows", "Layer: top and bottom rows",
+           {"discs", "rigid", "discs_low", "rigid_low"});
   locked_rotation(study);
 }
 

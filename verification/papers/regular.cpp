@@ -114,8 +114,9 @@ void figure_5(PaperStudy& study, const PaperUnits& units) {
     for (std::size_t k = 0; k < sizes.size(); ++k) {
       const auto run = study.run(fmt::format("figure_05_{}{}", c.name, sizes[k]));
       if (run)
-        panel.curves.push_back({fmt::format("{} discs", sizes[k]), shear(*run),
-                                run->column("sigma11", -units.stress()), shades[k], Stroke::solid});
+        panel.curves.push_back({figure.panels.empty() ? fmt::format("{} discs", sizes[k]) : "",
+                                shear(*run), run->column("sigma11", -units.stress()), shades[k],
+                                Stroke::solid});
     }
     if (!panel.curves.empty()) figure.panels.push_back(panel);
   }
