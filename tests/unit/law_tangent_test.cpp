@@ -1,4 +1,5 @@
 // The exact tangent of every contact law is the derivative of its stress.
+#include "boundary_support.hpp"
 #include "law_support.hpp"
 #include "tangent_support.hpp"
 
@@ -16,6 +17,20 @@ TEST(law_tangent, of_a_frame_matches_central_differences) {
   for (const auto& [name, law] : composite_laws()) {
     SCOPED_TRACE(name);
     expect_derivative_along(describe_law(small_packing(), law, BoundaryType::frame_p));
+  }
+}
+
+// F22 is found, and the averages of the top row are held: the border sees the moments too.
+TEST(law_tangent, of_a_layer_matches_central_differences) {
+  for (const auto& [name, law] : composite_laws()) {
+    SCOPED_TRACE(name);
+    MaterialDescription description = describe_law(small_packing(), law, BoundaryType::mixed);
+    description.boundary.sides = layer_sides();
+    description.boundary.stress[3] = -1e5;
+    const auto material = make_material(description);
+    State state(material);
+    advance(state, {1, 0.004, 0, 1}, 4);
+    expect_derivative(state, {1.0001, 0.005, 0.0001, 1});
   }
 }
 

@@ -33,7 +33,7 @@ inline Statuses statuses(const State& state) {
 }
 
 // Central differences by all four components of F; none when a contact changes status on the way.
-inline std::optional<Tangent> central_differences(State& state, const Tensor& F, double step) {
+inline std::optional<Tangent> differences_without_change(State& state, const Tensor& F, double step) {
   EXPECT_EQ(evaluate(state, F).status, GRAINLAW_OK);
   const auto centre = statuses(state);
   Tangent result{};
@@ -61,7 +61,7 @@ inline void expect_derivative(State& state, const Tensor& F) {
   EXPECT_EQ(at.report.tangent_exact, 1);
   double least = std::numeric_limits<double>::infinity();
   for (const double step : {1e-6, 3e-7, 1e-7, 3e-8}) {
-    const auto differences = central_differences(state, F, step);
+    const auto differences = differences_without_change(state, F, step);
     if (differences) least = std::min(least, relative_difference(at.tangent, *differences));
     if (least <= bar) break;
   }
