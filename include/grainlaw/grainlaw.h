@@ -59,7 +59,14 @@ extern "C" {
   X(GRAINLAW_OUT_OF_MEMORY, -14, "out of memory")                                                  \
   X(GRAINLAW_INTERNAL_FAULT, -15, "internal fault; please report it")
 
-typedef enum grainlaw_status {
+/* A host may pass any int, also one that names nothing. */
+#ifdef __cplusplus
+#define GRAINLAW_ENUM(name) enum name : int
+#else
+#define GRAINLAW_ENUM(name) enum name
+#endif
+
+typedef GRAINLAW_ENUM(grainlaw_status) {
 #define GRAINLAW_X(name, value, text) name = (value),
   GRAINLAW_STATUS_LIST(GRAINLAW_X)
 #undef GRAINLAW_X
@@ -217,7 +224,7 @@ GRAINLAW_API grainlaw_status grainlaw_state_load(grainlaw_state*, const void* by
   X(GRAINLAW_DEFORMATION_GRADIENT, 16, -2, "F of this state, found components included [-]")      \
   X(GRAINLAW_ESCAPED_PARTICLES, 17, 1, "inner particles outside the polygon of the frame [-]")
 
-typedef enum grainlaw_measure {
+typedef GRAINLAW_ENUM(grainlaw_measure) {
 #define GRAINLAW_X(name, value, count, text) name = (value),
   GRAINLAW_MEASURE_LIST(GRAINLAW_X)
 #undef GRAINLAW_X

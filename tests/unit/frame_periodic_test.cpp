@@ -18,34 +18,6 @@ Tensor stress_of(const State& state) {
   return {p[0], p[1], p[2], p[3]};
 }
 
-// The packing without its rattlers, discs that are in no contact. Where they end is not determined,
-// and cell and frame part once one of them comes to bear.
-Packing without_rattlers(const Packing& packing) {
-  std::vector<int> place(packing.size(), -1);
-  for (const auto& contact : packing.contacts) {
-    place[static_cast<std::size_t>(contact.i)] = place[static_cast<std::size_t>(contact.j)] = 0;
-  }
-  Packing held = packing;
-  held.radius.clear();
-  held.position.clear();
-  int count = 0;
-  for (std::size_t p = 0; p < packing.size(); ++p) {
-    if (place[p] < 0) continue;
-    place[p] = count++;
-    held.radius.push_back(packing.radius[p]);
-  }
-  for (std::size_t c = 0; c < 2; ++c) {
-    for (std::size_t p = 0; p < packing.size(); ++p) {
-      if (place[p] >= 0) held.position.push_back(packing.position[c * packing.size() + p]);
-    }
-  }
-  for (auto& contact : held.contacts) {
-    contact.i = place[static_cast<std::size_t>(contact.i)];
-    contact.j = place[static_cast<std::size_t>(contact.j)];
-  }
-  return held;
-}
-
 TEST(frame_periodic, stress_is_that_of_the_cell_along_a_path) {
   const Packing packing = without_rattlers(reference_packing());
   EXPECT_EQ(packing.size(), 388);

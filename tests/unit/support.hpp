@@ -109,6 +109,34 @@ inline const Packing& small_packing(std::size_t count = 80, std::uint64_t seed =
   return place->second;
 }
 
+// The packing without its rattlers, discs that are in no contact. Where they end is not determined,
+// and what rounding decides decides more once one of them comes to bear.
+inline Packing without_rattlers(const Packing& packing) {
+  std::vector<int> place(packing.size(), -1);
+  for (const auto& contact : packing.contacts) {
+    place[static_cast<std::size_t>(contact.i)] = place[static_cast<std::size_t>(contact.j)] = 0;
+  }
+  Packing held = packing;
+  held.radius.clear();
+  held.position.clear();
+  int count = 0;
+  for (std::size_t p = 0; p < packing.size(); ++p) {
+    if (place[p] < 0) continue;
+    place[p] = count++;
+    held.radius.push_back(packing.radius[p]);
+  }
+  for (std::size_t c = 0; c < 2; ++c) {
+    for (std::size_t p = 0; p < packing.size(); ++p) {
+      if (place[p] >= 0) held.position.push_back(packing.position[c * packing.size() + p]);
+    }
+  }
+  for (auto& contact : held.contacts) {
+    contact.i = place[static_cast<std::size_t>(contact.i)];
+    contact.j = place[static_cast<std::size_t>(contact.j)];
+  }
+  return held;
+}
+
 inline MaterialDescription describe(const Packing& packing, const ContactLaw& law,
                                     BoundaryType boundary = BoundaryType::periodic_cell,
                                     double tolerance = 1e-10) {
