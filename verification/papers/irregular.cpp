@@ -176,7 +176,7 @@ void order(PaperStudy& study, const PaperUnits& units) {
         fmt::format("D >= P in {:.0f} % of the steps, P >= T in {:.0f} % to F12 = "
                     "{:.3f}; means D/P {:.2f}, P/T {:.2f}",
                     100 * dp.share, 100 * pt.share, pt.until, dp.mean_ratio, pt.mean_ratio),
-        dp.mean_ratio >= 1 && pt.mean_ratio >= 1);
+        dp.share == 1 && pt.share == 1);
   }
   table.print();
   table.write(study.results / "order_irregular.csv");
