@@ -71,7 +71,8 @@ void run_solve(const std::string& path, const std::string& directory) {
   CsvWriter forces(stem.string() + "_force.csv", force_columns);
   Progress progress(scene.name);
   CostMeter cost;
-  const auto observe = [&](const LoadStep& step, const PointField& points) {
+  const auto observe = [&](const LoadStep& step, const Solver& solver) {
+    const PointField& points = solver.points();
     const int number = step.record.step;
     cost.add(step, points);
     history.add(step.record);
@@ -90,7 +91,8 @@ void run_solve(const std::string& path, const std::string& directory) {
                                 100 * step.record.axial_strain(), step.record.cauchy(1, 1) / 1e3));
   };
   try {
-    run_load_steps(scene.model, material, scene.options, scene.steps, scene.steps, observe);
+    const auto solver = make_solver(scene, material);
+    run_load_steps(*solver, scene.duration, scene.steps, scene.steps, observe);
   } catch (const ComputationError& error) {
     history.draw_figure(scene.abscissa, scene.name);
     throw ComputationError(fmt::format("{}: {}", path, error.what()));

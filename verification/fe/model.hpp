@@ -3,7 +3,7 @@
 
 #include "app/library.hpp"
 #include "app/record.hpp"
-#include "fe/conditions.hpp"
+#include "fe/conditions/conditions.hpp"
 
 #include <vector>
 
