@@ -4,6 +4,8 @@
 #include "app/history.hpp"
 #include "app/output.hpp"
 #include "app/progress.hpp"
+#include "fe/output/energy.hpp"
+#include "fe/output/probe.hpp"
 #include "fe/scene.hpp"
 
 #include <fmt/format.h>
@@ -69,6 +71,8 @@ void run_solve(const std::string& path, const std::string& directory) {
     force_columns.push_back(condition.name + "_force[N/m]");
   }
   CsvWriter forces(stem.string() + "_force.csv", force_columns);
+  ProbeHistory probes(stem, scene.probes);
+  EnergyHistory energies(stem);
   Progress progress(scene.name);
   CostMeter cost;
   const auto observe = [&](const LoadStep& step, const Solver& solver) {
@@ -76,6 +80,8 @@ void run_solve(const std::string& path, const std::string& directory) {
     const int number = step.record.step;
     cost.add(step, points);
     history.add(step.record);
+    probes.add(step, solver.displacement());
+    energies.add(step);
     for (std::size_t k = 0; k < step.residuals.size(); ++k)
       newton.row({static_cast<double>(number), static_cast<double>(k), step.residuals[k]});
     std::vector<double> force_row{static_cast<double>(number)};
@@ -91,8 +97,8 @@ void run_solve(const std::string& path, const std::string& directory) {
                                 100 * step.record.axial_strain(), step.record.cauchy(1, 1) / 1e3));
   };
   try {
-    const auto solver = make_solver(scene, material);
-    run_load_steps(*solver, scene.duration, scene.steps, scene.steps, observe);
+    const auto solver = make_solver(scene.solver, scene.model, material, scene.threads);
+    run_load_steps(*solver, scene.solver.duration(), scene.steps, scene.steps, observe);
   } catch (const ComputationError& error) {
     history.draw_figure(scene.abscissa, scene.name);
     throw ComputationError(fmt::format("{}: {}", path, error.what()));
