@@ -71,7 +71,7 @@ Dofs number_dofs(std::size_t nodes, const std::vector<PrescribedDisplacement>& d
 
 void add_pressure(const Pressure& pressure, double value, const Mesh& mesh,
                   const Eigen::VectorXd& displacement, Eigen::VectorXd& force,
-                  Triplets& stiffness) {
+                  Triplets* stiffness) {
   for (const auto& [first, second] : pressure.sides) {
     const auto position = [&](int node) -> Eigen::Vector2d {
       const Eigen::Vector2d& reference = mesh.nodes[static_cast<std::size_t>(node)];
@@ -83,10 +83,10 @@ void add_pressure(const Pressure& pressure, double value, const Mesh& mesh,
     const Eigen::Vector2d half(-0.5 * value * side.y(), 0.5 * value * side.x());
     for (const int node : {first, second}) {
       force.segment<2>(2 * node) += half;
-      if (!pressure.follows) continue;
+      if (!pressure.follows || stiffness == nullptr) continue;
       for (const auto& [end, sign] : {std::pair{second, 1.0}, std::pair{first, -1.0}}) {
-        stiffness.emplace_back(2 * node, 2 * end + 1, sign * 0.5 * value);
-        stiffness.emplace_back(2 * node + 1, 2 * end, -sign * 0.5 * value);
+        stiffness->emplace_back(2 * node, 2 * end + 1, sign * 0.5 * value);
+        stiffness->emplace_back(2 * node + 1, 2 * end, -sign * 0.5 * value);
       }
     }
   }

@@ -56,9 +56,9 @@ struct Pressure {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-// Adds the nodal forces of the pressure of this value [N/m], and minus their derivative with respect to the
-// displacements (the load stiffness), which is exact for straight sides.
+// Adds the nodal forces of the pressure of this value [N/m]. With `stiffness`, also minus their
+// derivative with respect to the displacements (the load stiffness), exact for straight sides.
 void add_pressure(const Pressure& pressure, double value, const Mesh& mesh,
-                  const Eigen::VectorXd& displacement, Eigen::VectorXd& force, Triplets& stiffness);
+                  const Eigen::VectorXd& displacement, Eigen::VectorXd& force, Triplets* stiffness);
 
 }  // namespace verification
