@@ -20,7 +20,8 @@ struct FiniteElementScene {
   int steps = 1;
   std::string abscissa;
   std::vector<DisplacementProbe> probes;
-  int vtk_every = 0;  // particles of the first integration point, every so many steps
+  int checkpoint_every = 0;  // load steps; 0: only when the run is interrupted
+  int vtk_every = 0;         // particles of the first integration point, every so many steps
 };
 
 // Throws InputError that names file, line, key and what was expected.

@@ -29,7 +29,7 @@ Run solve_drained(FiniteElementScene scene, const std::string& tangent, int step
   Progress progress(tangent + " tangent");
   const Material material = make_material(scene.material);
   try {
-    const auto solver = make_solver(scene.solver, scene.model, material);
+    const auto solver = make_solver(scene.solver, scene.model, material, scene.threads);
     run_load_steps(*solver, scene.solver.duration(), scene.steps, steps,
                    [&](const LoadStep& step, const Solver&) {
                      progress.update(static_cast<double>(step.record.step) / steps, "");

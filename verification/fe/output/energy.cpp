@@ -1,19 +1,21 @@
 #include "fe/output/energy.hpp"
 
-#include <string>
-#include <vector>
-
 namespace verification {
 
-void EnergyHistory::add(const LoadStep& step) {
-  if (!step.energies) return;
-  if (!csv_)
-    csv_.emplace(stem_.string() + "_energy.csv",
-                 std::vector<std::string>{"time[s]", "kinetic[J/m]", "internal[J/m]",
-                                          "external[J/m]", "damped[J/m]", "balance[J/m]"});
-  const Energies& energies = *step.energies;
-  csv_->row({step.time, energies.kinetic, energies.internal, energies.external, energies.damped,
-             energies.balance()});
+std::vector<std::string> energy_columns() {
+  return {"step[-]",       "time[s]",     "kinetic[J/m]", "internal[J/m]",
+          "external[J/m]", "damped[J/m]", "balance[J/m]"};
+}
+
+std::vector<double> energy_values(const LoadStep& step) {
+  const Energies& energies = step.energies.value();
+  return {static_cast<double>(step.record.step),
+          step.time,
+          energies.kinetic,
+          energies.internal,
+          energies.external,
+          energies.damped,
+          energies.balance()};
 }
 
 }  // namespace verification

@@ -1,23 +1,14 @@
 // Energies of a dynamic run as a table.
 #pragma once
 
-#include "app/csv.hpp"
 #include "fe/solver/solver.hpp"
 
-#include <filesystem>
-#include <optional>
+#include <string>
+#include <vector>
 
 namespace verification {
 
-// Writes STEM_energy.csv, a row per step, from the first step on that has energies.
-class EnergyHistory {
- public:
-  explicit EnergyHistory(std::filesystem::path stem) : stem_(std::move(stem)) {}
-  void add(const LoadStep& step);
-
- private:
-  std::filesystem::path stem_;
-  std::optional<CsvWriter> csv_;
-};
+std::vector<std::string> energy_columns();
+std::vector<double> energy_values(const LoadStep& step);  // of a step that has energies
 
 }  // namespace verification

@@ -1,11 +1,8 @@
 // Displacement histories of chosen places.
 #pragma once
 
-#include "app/csv.hpp"
 #include "fe/solver/solver.hpp"
 
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,17 +14,12 @@ struct DisplacementProbe {
 };
 
 // Mean displacement over the nodes [m].
-Eigen::Vector2d mean_displacement(const DisplacementProbe& probe, const Eigen::VectorXd& displacement);
+Eigen::Vector2d mean_displacement(const DisplacementProbe& probe,
+                                  const Eigen::VectorXd& displacement);
 
-// Writes STEM_probes.csv, a row per step, two columns per probe; nothing without probes.
-class ProbeHistory {
- public:
-  ProbeHistory(const std::filesystem::path& stem, std::vector<DisplacementProbe> probes);
-  void add(const LoadStep& step, const Eigen::VectorXd& displacement);
-
- private:
-  std::vector<DisplacementProbe> probes_;
-  std::optional<CsvWriter> csv_;
-};
+// A row of their table: step, time of the run, and two components for every probe.
+std::vector<std::string> probe_columns(const std::vector<DisplacementProbe>& probes);
+std::vector<double> probe_values(const std::vector<DisplacementProbe>& probes, const LoadStep& step,
+                                 const Eigen::VectorXd& displacement);
 
 }  // namespace verification

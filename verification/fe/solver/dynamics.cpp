@@ -102,6 +102,25 @@ class DynamicsSolver final : public Solver {
     return step;
   }
 
+  void save(CheckpointWriter& out) const override {
+    const Motion& now = motion_;
+    for (const double value : {now.time, now.last_step, now.turnover, now.critical_step,
+                               now.work.internal, now.work.external, now.work.damped})
+      out.write(value);
+    for (const auto* field : {&now.displacement, &now.velocity, &now.internal_force})
+      out.write(*field);
+    points_.save(out);
+  }
+
+  void restore(CheckpointReader& in) override {
+    Motion& now = motion_;
+    for (double* value : {&now.time, &now.last_step, &now.turnover, &now.critical_step,
+                          &now.work.internal, &now.work.external, &now.work.damped})
+      in.read(*value);
+    for (auto* field : {&now.displacement, &now.velocity, &now.internal_force}) in.read(*field);
+    points_.restore(in);
+  }
+
   [[nodiscard]] const PointField& points() const override { return points_; }
   [[nodiscard]] const Eigen::VectorXd& displacement() const override {
     return motion_.displacement;
