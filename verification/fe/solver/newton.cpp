@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace verification {
 namespace {
@@ -31,9 +32,7 @@ System assemble(const Model& model, const PointField& points, const Eigen::Vecto
   const Eigen::VectorXd internal = points.internal_force();
   system.residual = -internal;
   points.add_stiffness(triplets);
-  for (const Pressure& pressure : model.pressures)
-    add_pressure(pressure, pressure.value.at(time), model.mesh, displacement, system.residual,
-                 triplets);
+  add_loads(model.loads, time, 1, model.mesh, displacement, system.residual, &triplets);
   system.stiffness.resize(internal.size(), internal.size());
   system.stiffness.setFromTriplets(triplets.begin(), triplets.end());
   system.scale = std::max(internal.norm(), std::numeric_limits<double>::min());
@@ -68,7 +67,7 @@ class NewtonSolver final : public Solver {
         options_(options),
         threads_(threads),
         dofs_(number_dofs(model.mesh.nodes.size(), model.displacements, model.ties)),
-        points_(model.mesh, material),
+        points_(model.mesh, material, model.hourglass),
         displacement_(
             Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * model.mesh.nodes.size()))) {
     if (dofs_.unknowns == 0) throw InputError("every displacement is prescribed: nothing to solve");
@@ -182,9 +181,8 @@ class NewtonSolver final : public Solver {
   // The committed system carries the load of its own time; the difference to the new one.
   void add_load_increment(System& system, double time) const {
     Triplets triplets;
-    for (const Pressure& pressure : model_.pressures)
-      add_pressure(pressure, pressure.value.at(time) - pressure.value.at(time_), model_.mesh,
-                   displacement_, system.residual, triplets);
+    for (const auto& [at, factor] : {std::pair{time, 1.0}, std::pair{time_, -1.0}})
+      add_loads(model_.loads, at, factor, model_.mesh, displacement_, system.residual, &triplets);
     Eigen::SparseMatrix<double> change(system.stiffness.rows(), system.stiffness.cols());
     change.setFromTriplets(triplets.begin(), triplets.end());
     system.stiffness += change;
