@@ -21,7 +21,7 @@ class side_loads : public testing::TestWithParam<ElementKind> {
   }
   Eigen::VectorXd force(const Loads& loads, const Eigen::VectorXd& displacement) const {
     Eigen::VectorXd result = Eigen::VectorXd::Zero(dofs);
-    add_loads(loads, 0.5, 1, mesh, displacement, result, nullptr);
+    add_loads(loads, 0.5, mesh, displacement, result, nullptr);
     return result;
   }
   static Eigen::Vector2d sum(const Eigen::VectorXd& force) {
@@ -67,7 +67,7 @@ TEST_P(side_loads, the_load_stiffness_is_minus_the_derivative_of_the_force) {
   const Eigen::VectorXd displacement = random_displacement();
   Eigen::VectorXd unused = Eigen::VectorXd::Zero(dofs);
   Triplets triplets;
-  add_loads(loads, 0.5, 1, mesh, displacement, unused, &triplets);
+  add_loads(loads, 0.5, mesh, displacement, unused, &triplets);
   Eigen::SparseMatrix<double> stiffness(dofs, dofs);
   stiffness.setFromTriplets(triplets.begin(), triplets.end());
   const Eigen::MatrixXd dense(stiffness);

@@ -56,12 +56,12 @@ std::array<double, 3> lengths(const Side& side, const Mesh& mesh) {
 
 }  // namespace
 
-void add_loads(const Loads& loads, double time, double factor, const Mesh& mesh,
+void add_loads(const Loads& loads, double time, const Mesh& mesh,
                const Eigen::VectorXd& displacement, Eigen::VectorXd& force, Triplets* stiffness) {
   for (const Pressure& pressure : loads.pressures)
-    add_pressure(pressure, factor * pressure.value.at(time), mesh, displacement, force, stiffness);
+    add_pressure(pressure, pressure.value.at(time), mesh, displacement, force, stiffness);
   for (const Traction& traction : loads.tractions) {
-    const double value = factor * traction.value.at(time);
+    const double value = traction.value.at(time);
     for (const Side& side : traction.sides) {
       const auto share = lengths(side, mesh);
       for (std::size_t a = 0; a < side.size(); ++a)

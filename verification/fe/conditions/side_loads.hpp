@@ -32,9 +32,9 @@ struct Loads {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-// Adds `factor` times the nodal forces of the loads at this time [N/m] and, unless null, minus
+// Adds the nodal forces of the loads at this time [N/m] and, when wanted, minus
 // their derivative with respect to the displacements, which is exact.
-void add_loads(const Loads& loads, double time, double factor, const Mesh& mesh,
+void add_loads(const Loads& loads, double time, const Mesh& mesh,
                const Eigen::VectorXd& displacement, Eigen::VectorXd& force, Triplets* stiffness);
 
 }  // namespace verification

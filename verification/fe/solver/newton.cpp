@@ -1,5 +1,7 @@
 #include "fe/solver/newton.hpp"
 
+#include "fe/solver/forces.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/SparseLU>
@@ -7,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace verification {
 namespace {
@@ -32,7 +33,7 @@ System assemble(const Model& model, const PointField& points, const Eigen::Vecto
   const Eigen::VectorXd internal = points.internal_force();
   system.residual = -internal;
   points.add_stiffness(triplets);
-  add_loads(model.loads, time, 1, model.mesh, displacement, system.residual, &triplets);
+  add_external_force(model, time, displacement, system.residual, &triplets);
   system.stiffness.resize(internal.size(), internal.size());
   system.stiffness.setFromTriplets(triplets.begin(), triplets.end());
   system.scale = std::max(internal.norm(), std::numeric_limits<double>::min());
@@ -120,12 +121,7 @@ class NewtonSolver final : public Solver {
     step.record.effort.iterations = iterations;
     step.record.effort.cuts = cuts;
     step.record.effort.loose = loose_parts;
-    for (const PrescribedDisplacement& condition : model_.displacements) {
-      step.displacements.push_back(condition.value.at(to));
-      step.reactions.push_back(0);
-      for (const int node : condition.nodes)
-        step.reactions.back() -= system_.residual(2 * node + condition.component);
-    }
+    report_supports(model_, to, system_.residual, step);
     return step;
   }
 
@@ -180,11 +176,14 @@ class NewtonSolver final : public Solver {
 
   // The committed system carries the load of its own time; the difference to the new one.
   void add_load_increment(System& system, double time) const {
-    Triplets triplets;
-    for (const auto& [at, factor] : {std::pair{time, 1.0}, std::pair{time_, -1.0}})
-      add_loads(model_.loads, at, factor, model_.mesh, displacement_, system.residual, &triplets);
+    Triplets now, before;
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(system.residual.size());
+    add_external_force(model_, time_, displacement_, force, &before);
+    system.residual -= force;
+    add_external_force(model_, time, displacement_, system.residual, &now);
+    for (const auto& entry : before) now.emplace_back(entry.row(), entry.col(), -entry.value());
     Eigen::SparseMatrix<double> change(system.stiffness.rows(), system.stiffness.cols());
-    change.setFromTriplets(triplets.begin(), triplets.end());
+    change.setFromTriplets(now.begin(), now.end());
     system.stiffness += change;
   }
 
