@@ -18,6 +18,7 @@ struct FiniteElementScene {
   double duration = 1;  // of the run; seconds in dynamic ones
   int steps = 1;
   std::string abscissa;
+  int checkpoint_every = 0;  // load steps; 0: only when the run is interrupted
   int vtk_every = 0;  // particles of the first integration point, every so many steps
 };
 

@@ -125,6 +125,19 @@ class NewtonSolver final : public Solver {
     return step;
   }
 
+  void save(CheckpointWriter& out) const override {
+    out.write(time_);
+    out.write(displacement_);
+    points_.save(out);
+  }
+
+  void restore(CheckpointReader& in) override {
+    in.read(time_);
+    in.read(displacement_);
+    points_.restore(in);
+    system_ = assemble(model_, points_, displacement_, time_);
+  }
+
   [[nodiscard]] const PointField& points() const override { return points_; }
   [[nodiscard]] const Eigen::VectorXd& displacement() const override { return displacement_; }
 
@@ -143,7 +156,10 @@ class NewtonSolver final : public Solver {
     double best = std::numeric_limits<double>::infinity();
     int best_iteration = 0;
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
-      displacement += solve(system, dofs_, prescribed);
+      {
+        const auto measure = points_.cost().measure(Stage::linear_solve);
+        displacement += solve(system, dofs_, prescribed);
+      }
       prescribed.setZero();
       if (!displacement.allFinite()) {
         reason = "the stiffness is singular";
