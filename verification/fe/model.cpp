@@ -129,6 +129,7 @@ void PointField::save(CheckpointWriter& out) const {
     out.write(points_[p].committed_stress);
     out.write(points_[p].work);
   }
+  out.write(displacement_);
   out.write(deformation_);
   out.write(stress_);
   out.write(tangent_);
@@ -148,6 +149,7 @@ void PointField::restore(CheckpointReader& in) {
     in.read(points_[p].work);
     points_[p].effort = {};
   }
+  in.read(displacement_);
   in.read(deformation_);
   in.read(stress_);
   in.read(tangent_);
