@@ -63,14 +63,13 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
   scene.threads = table.integer_or("threads", 0, 0);
   scene.steps = table.integer("steps", 1);
   scene.abscissa = table.choice_or("abscissa", axial_abscissa, {axial_abscissa, shear_abscissa});
-  scene.checkpoint_every = table.integer_or("checkpoint_every", 0, 0);
-  scene.vtk_every = table.integer_or("vtk_every", 0, 0);
 
   Model& model = scene.model;
   SceneTable mesh = table.table("mesh");
   model.mesh = read_mesh(mesh);
   model.hourglass = mesh.number_or("hourglass", model.hourglass, not_negative);
   mesh.close();
+  scene.output = read_output(table, model.mesh, scene.steps);
   for (SceneTable& entry : table.tables("displacement")) {
     PrescribedDisplacement condition;
     const std::string edge = read_edge(entry);

@@ -126,11 +126,11 @@ bool draw_mesh(const std::vector<MeshPanel>& panels, const std::string& title,
     body += fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n",
                         millimetre * b.low.x(), millimetre * b.high.x(), millimetre * b.low.y(),
                         millimetre * b.high.y());
-    body += fmt::format("set cbrange [{:.6g}:{:.6g}]\nset cbtics scale 0.5 format '%.3g'\n",
+    body += fmt::format("set cbrange [{:.6g}:{:.6g}]\nset cbtics scale 0.5 format '%g'\n",
                         range[0], range[1]);
     body += fmt::format(
-        "set colorbox user origin screen {:.5f},{:.5f} size screen {:.5f},{:.5f} border "
-        "lt -1\n",
+        "set colorbox user origin screen {:.5f},{:.5f} size screen {:.5f},{:.5f} "
+        "border\n",
         (right + 12) / wide, foot / high, 12 / wide, std::min(size.y(), 260.0) / high);
     body += fmt::format("set label 2 \"{}\" at screen {:.5f},{:.5f} left noenhanced\n",
                         panels[k].title, left / wide, 1 - 42 / high);
