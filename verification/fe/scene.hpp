@@ -3,6 +3,7 @@
 
 #include "app/material.hpp"
 #include "app/scene.hpp"
+#include "fe/output/output_options.hpp"
 #include "fe/output/probe.hpp"
 #include "fe/solver/solver_scene.hpp"
 
@@ -20,8 +21,7 @@ struct FiniteElementScene {
   int steps = 1;
   std::string abscissa;
   std::vector<DisplacementProbe> probes;
-  int checkpoint_every = 0;  // load steps; 0: only when the run is interrupted
-  int vtk_every = 0;         // particles of the first integration point, every so many steps
+  OutputOptions output;
 };
 
 // Throws InputError that names file, line, key and what was expected.
