@@ -25,6 +25,7 @@ PointField::PointField(const Mesh& mesh, const Material& material) {
 
 grainlaw_status PointField::evaluate(const Eigen::VectorXd& displacement, unsigned want,
                                      int threads) {
+  const auto measure = cost_.measure(Stage::points);
   for (std::size_t p = 0; p < points_.size(); ++p) {
     deformation_[p].setIdentity();
     for (std::size_t a = 0; a < points_[p].nodes.size(); ++a)
@@ -55,6 +56,7 @@ std::string PointField::message() const {
 }
 
 Eigen::VectorXd PointField::internal_force() const {
+  const auto measure = cost_.measure(Stage::assembly);
   int last = 0;
   for (const Point& point : points_)
     last = std::max(last, *std::max_element(point.nodes.begin(), point.nodes.end()));
@@ -69,6 +71,7 @@ Eigen::VectorXd PointField::internal_force() const {
 }
 
 void PointField::add_stiffness(Triplets& triplets) const {
+  const auto measure = cost_.measure(Stage::assembly);
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const auto& [gradient, weight] = points_[p].geometry;
     // dN_a/dX_J A_iJkL dN_b/dX_L for every pair of nodes a, b and components i, k.
@@ -99,6 +102,45 @@ void PointField::commit() {
 
 void PointField::revert() {
   for (grainlaw_state* state : handles_) check(grainlaw_revert(state), "dropping a trial");
+}
+
+void PointField::save(CheckpointWriter& out) const {
+  out.write(points_.size());
+  std::string bytes;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    std::size_t size = 0;
+    check(grainlaw_state_save(handles_[p], nullptr, &size), "saving an integration point");
+    bytes.resize(size);
+    check(grainlaw_state_save(handles_[p], bytes.data(), &size), "saving an integration point");
+    out.write(bytes);
+    out.write(points_[p].committed_deformation);
+    out.write(points_[p].committed_stress);
+    out.write(points_[p].work);
+  }
+  out.write(deformation_);
+  out.write(stress_);
+  out.write(tangent_);
+}
+
+void PointField::restore(CheckpointReader& in) {
+  if (in.get<std::size_t>() != points_.size()) in.fail();
+  std::string bytes;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    in.read(bytes);
+    const grainlaw_status status = grainlaw_state_load(handles_[p], bytes.data(), bytes.size());
+    if (status == GRAINLAW_WRONG_MATERIAL)
+      throw InputError(in.path().string() + ": was made with another material or packing");
+    check(status, "restoring an integration point from " + in.path().string());
+    in.read(points_[p].committed_deformation);
+    in.read(points_[p].committed_stress);
+    in.read(points_[p].work);
+    points_[p].effort = {};
+  }
+  in.read(deformation_);
+  in.read(stress_);
+  in.read(tangent_);
+  if (deformation_.size() != size() || stress_.size() != size() || tangent_.size() != size())
+    in.fail();
 }
 
 Record PointField::record() {

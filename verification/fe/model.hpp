@@ -3,7 +3,9 @@
 
 #include "app/library.hpp"
 #include "app/record.hpp"
-#include "fe/conditions.hpp"
+#include "fe/checkpoint.hpp"
+#include "fe/conditions/conditions.hpp"
+#include "fe/cost.hpp"
 
 #include <vector>
 
@@ -36,6 +38,14 @@ class PointField {
   void commit();
   void revert();
 
+  // The committed states, and what the last evaluation left. To be called after `commit` and
+  // `record`, when that is the committed equilibrium.
+  void save(CheckpointWriter& out) const;
+  void restore(CheckpointReader& in);
+
+  // Of evaluations and assembly; the solver adds its own.
+  [[nodiscard]] Cost& cost() const { return cost_; }
+
   [[nodiscard]] std::size_t size() const { return points_.size(); }
   // Mean over the points of the last evaluation; the effort since the last call of this function.
   Record record();
@@ -61,6 +71,7 @@ class PointField {
   std::vector<Tensor> deformation_;
   std::vector<Tensor> stress_;
   std::vector<Tangent> tangent_;
+  mutable Cost cost_;
   double volume_ = 0;  // of one representative volume at F = I [m3]
 };
 

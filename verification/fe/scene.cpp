@@ -1,6 +1,7 @@
 #include "fe/scene.hpp"
 
 #include "app/history.hpp"
+#include "fe/conditions/program_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -34,6 +35,18 @@ int read_component(SceneTable& table) {
   return table.choice_or("component", component, {"x", "y"}) == "x" ? 0 : 1;
 }
 
+NewtonOptions read_newton(SceneTable table) {
+  NewtonOptions options;
+  options.tangent =
+      tangent_bit(table.choice_or("tangent", "exact", {"exact", "elastic", "perturbed"}));
+  options.tolerance = table.number_or("tolerance", options.tolerance, positive);
+  options.max_cuts = table.integer_or("max_cuts", options.max_cuts, 0);
+  options.loose_tolerance = table.number_or("loose_tolerance", 0, not_negative);
+  options.max_iterations = table.integer_or("max_iterations", options.max_iterations, 1);
+  table.close();
+  return options;
+}
+
 }  // namespace
 
 FiniteElementScene read_fe_scene(const SceneFile& file) {
@@ -41,16 +54,11 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
   FiniteElementScene scene;
   scene.name = table.text_or("name", file.path.stem().string());
   scene.material = read_material_source(table);
-  scene.options.tangent =
-      tangent_bit(table.choice_or("tangent", "exact", {"exact", "elastic", "perturbed"}));
-  scene.options.tolerance = table.number_or("tolerance", scene.options.tolerance, positive);
-  scene.options.max_cuts = table.integer_or("max_cuts", scene.options.max_cuts, 0);
-  scene.options.loose_tolerance = table.number_or("loose_tolerance", 0, not_negative);
-  scene.options.max_iterations =
-      table.integer_or("max_iterations", scene.options.max_iterations, 1);
-  scene.options.threads = table.integer_or("threads", 0, 0);
+  if (table.has("newton")) scene.newton = read_newton(table.table("newton"));
+  scene.threads = table.integer_or("threads", 0, 0);
   scene.steps = table.integer("steps", 1);
   scene.abscissa = table.choice_or("abscissa", axial_abscissa, {axial_abscissa, shear_abscissa});
+  scene.checkpoint_every = table.integer_or("checkpoint_every", 0, 0);
   scene.vtk_every = table.integer_or("vtk_every", 0, 0);
 
   Model& model = scene.model;
@@ -61,7 +69,7 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
     condition.nodes = model.mesh.node_sets[edge];
     condition.component = read_component(entry);
     condition.name = edge + (condition.component == 0 ? "_x" : "_y");
-    condition.value = entry.number("value");
+    condition.value = read_program(entry, scene.duration, Rise::from_zero);
     entry.close();
     model.displacements.push_back(condition);
   }
@@ -72,14 +80,17 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
   for (SceneTable& entry : table.tables("pressure")) {
     Pressure pressure;
     pressure.sides = model.mesh.side_sets[read_edge(entry)];
-    pressure.end = entry.number("value");
-    pressure.start = entry.number_or("start", pressure.end);
+    pressure.value = read_program(entry, scene.duration, Rise::none);
     pressure.follows = entry.choice_or("kind", "follower", {"follower", "dead"}) == "follower";
     entry.close();
     model.pressures.push_back(pressure);
   }
   table.close();
   return scene;
+}
+
+std::unique_ptr<Solver> make_solver(const FiniteElementScene& scene, const Material& material) {
+  return make_newton_solver(scene.model, material, scene.newton, scene.threads);
 }
 
 }  // namespace verification

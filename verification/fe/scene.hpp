@@ -3,7 +3,7 @@
 
 #include "app/material.hpp"
 #include "app/scene.hpp"
-#include "fe/solver.hpp"
+#include "fe/solver/newton.hpp"
 
 #include <string>
 
@@ -13,13 +13,19 @@ struct FiniteElementScene {
   std::string name;
   MaterialSource material;
   Model model;
-  SolverOptions options;
+  NewtonOptions newton;
+  int threads = 0;      // <= 0: as many as the library takes
+  double duration = 1;  // of the run; seconds in dynamic ones
   int steps = 1;
   std::string abscissa;
+  int checkpoint_every = 0;  // load steps; 0: only when the run is interrupted
   int vtk_every = 0;  // particles of the first integration point, every so many steps
 };
 
 // Throws InputError that names file, line, key and what was expected.
 FiniteElementScene read_fe_scene(const SceneFile& file);
+
+// The solver that the scene asks for. Errors as the solvers have them. The scene must outlive it.
+std::unique_ptr<Solver> make_solver(const FiniteElementScene& scene, const Material& material);
 
 }  // namespace verification

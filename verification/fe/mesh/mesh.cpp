@@ -1,4 +1,4 @@
-#include "fe/mesh.hpp"
+#include "fe/mesh/mesh.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,6 @@
-#include "fe/solver.hpp"
+#include "fe/solver/newton.hpp"
+
+#include "fe/solver/forces.hpp"
 
 #include <fmt/format.h>
 
@@ -25,14 +27,13 @@ struct System {
 };
 
 System assemble(const Model& model, const PointField& points, const Eigen::VectorXd& displacement,
-                double fraction) {
+                double time) {
   System system;
   Triplets triplets;
   const Eigen::VectorXd internal = points.internal_force();
   system.residual = -internal;
   points.add_stiffness(triplets);
-  for (const Pressure& pressure : model.pressures)
-    add_pressure(pressure, fraction, model.mesh, displacement, system.residual, triplets);
+  add_external_force(model, time, displacement, system.residual, &triplets);
   system.stiffness.resize(internal.size(), internal.size());
   system.stiffness.setFromTriplets(triplets.begin(), triplets.end());
   system.scale = std::max(internal.norm(), std::numeric_limits<double>::min());
@@ -59,26 +60,28 @@ Eigen::VectorXd solve(const System& system, const Dofs& dofs, const Eigen::Vecto
   return prescribed + dofs.expand(factor.solve(force));
 }
 
-class LoadStepper {
+class NewtonSolver final : public Solver {
  public:
-  LoadStepper(const Model& model, const Material& material, const SolverOptions& options)
+  NewtonSolver(const Model& model, const Material& material, const NewtonOptions& options,
+               int threads)
       : model_(model),
         options_(options),
+        threads_(threads),
         dofs_(number_dofs(model.mesh.nodes.size(), model.displacements, model.ties)),
         points_(model.mesh, material),
         displacement_(
             Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * model.mesh.nodes.size()))) {
     if (dofs_.unknowns == 0) throw InputError("every displacement is prescribed: nothing to solve");
-    check(points_.evaluate(displacement_, options_.tangent, options_.threads),
+    check(points_.evaluate(displacement_, options_.tangent, threads_),
           "evaluating the integration points at F = I");
     system_ = assemble(model_, points_, displacement_, 0);
     points_.commit();
     points_.record();  // the start is not part of step 0's effort
   }
 
-  // From the committed load to this fraction of the run, cutting where needed.
-  LoadStep advance(double from, double to, int number) {
+  LoadStep advance(double to, int number) override {
     LoadStep step;
+    const double from = time_;
     int cuts = 0;
     int iterations = 0;
     int loose_parts = 0;
@@ -112,55 +115,68 @@ class LoadStepper {
       ++loose_parts;
       part = to - done;
     } while (done < to);
+    step.time = to;
     step.record = points_.record();
     step.record.step = number;
     step.record.effort.iterations = iterations;
     step.record.effort.cuts = cuts;
     step.record.effort.loose = loose_parts;
-    for (const PrescribedDisplacement& condition : model_.displacements) {
-      step.displacements.push_back(to * condition.value);
-      step.reactions.push_back(0);
-      for (const int node : condition.nodes)
-        step.reactions.back() -= system_.residual(2 * node + condition.component);
-    }
+    report_supports(model_, to, system_.residual, step);
     return step;
   }
 
-  [[nodiscard]] const PointField& points() const { return points_; }
+  void save(CheckpointWriter& out) const override {
+    out.write(time_);
+    out.write(displacement_);
+    points_.save(out);
+  }
+
+  void restore(CheckpointReader& in) override {
+    in.read(time_);
+    in.read(displacement_);
+    points_.restore(in);
+    system_ = assemble(model_, points_, displacement_, time_);
+  }
+
+  [[nodiscard]] const PointField& points() const override { return points_; }
+  [[nodiscard]] const Eigen::VectorXd& displacement() const override { return displacement_; }
 
  private:
   // Increments of prescribed displacement enter through the right-hand side of the first solve,
   // which extrapolates the committed equilibrium by its tangent; boundary values never jump ahead
   // alone.
-  bool attempt(double fraction, double tolerance, std::vector<double>& residuals, double& ratio,
+  bool attempt(double time, double tolerance, std::vector<double>& residuals, double& ratio,
                std::string& reason) {
     Eigen::VectorXd displacement = displacement_;
     System system = system_;
-    const Eigen::VectorXd target = dofs_.prescribed_at(fraction);
-    Eigen::VectorXd prescribed = target - dofs_.prescribed_at(committed_fraction_);
-    add_load_increment(system, fraction);
+    const Eigen::VectorXd target = dofs_.prescribed_at(time);
+    Eigen::VectorXd prescribed = target - dofs_.prescribed_at(time_);
+    add_load_increment(system, time);
     residuals.push_back(error(system, prescribed));
     double best = std::numeric_limits<double>::infinity();
     int best_iteration = 0;
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
-      displacement += solve(system, dofs_, prescribed);
+      {
+        const auto measure = points_.cost().measure(Stage::linear_solve);
+        displacement += solve(system, dofs_, prescribed);
+      }
       prescribed.setZero();
       if (!displacement.allFinite()) {
         reason = "the stiffness is singular";
         return false;
       }
-      if (points_.evaluate(displacement, options_.tangent, options_.threads) != GRAINLAW_OK) {
+      if (points_.evaluate(displacement, options_.tangent, threads_) != GRAINLAW_OK) {
         ratio = points_.step_ratio();
         reason = points_.message();
         residuals.push_back(std::numeric_limits<double>::quiet_NaN());
         return false;
       }
-      system = assemble(model_, points_, displacement, fraction);
+      system = assemble(model_, points_, displacement, time);
       residuals.push_back(error(system, prescribed));
       if (residuals.back() <= tolerance) {
         displacement_ = displacement;
         system_ = system;
-        committed_fraction_ = fraction;
+        time_ = time;
         return true;
       }
       if (residuals.back() < 0.5 * best) {
@@ -174,17 +190,16 @@ class LoadStepper {
     return false;
   }
 
-  // The committed system carries the load of its own fraction; the difference to the new one.
-  void add_load_increment(System& system, double fraction) const {
-    Triplets triplets;
-    for (Pressure pressure : model_.pressures) {
-      pressure.end -= pressure.start;
-      pressure.start = 0;
-      add_pressure(pressure, fraction - committed_fraction_, model_.mesh, displacement_,
-                   system.residual, triplets);
-    }
+  // The committed system carries the load of its own time; the difference to the new one.
+  void add_load_increment(System& system, double time) const {
+    Triplets now, before;
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(system.residual.size());
+    add_external_force(model_, time_, displacement_, force, &before);
+    system.residual -= force;
+    add_external_force(model_, time, displacement_, system.residual, &now);
+    for (const auto& entry : before) now.emplace_back(entry.row(), entry.col(), -entry.value());
     Eigen::SparseMatrix<double> change(system.stiffness.rows(), system.stiffness.cols());
-    change.setFromTriplets(triplets.begin(), triplets.end());
+    change.setFromTriplets(now.begin(), now.end());
     system.stiffness += change;
   }
 
@@ -193,23 +208,20 @@ class LoadStepper {
   }
 
   const Model& model_;
-  SolverOptions options_;
+  NewtonOptions options_;
+  int threads_;
   Dofs dofs_;
   PointField points_;
   Eigen::VectorXd displacement_;  // committed [m]
   System system_;                 // at the committed displacement and load
-  double committed_fraction_ = 0;
+  double time_ = 0;               // committed
 };
 
 }  // namespace
 
-void run_load_steps(const Model& model, const Material& material, const SolverOptions& options,
-                    int steps, int last, const LoadObserver& observe) {
-  LoadStepper stepper(model, material, options);
-  for (int step = 0; step <= std::min(steps, last); ++step) {
-    const double from = std::max(step - 1, 0) / static_cast<double>(steps);
-    observe(stepper.advance(from, step / static_cast<double>(steps), step), stepper.points());
-  }
+std::unique_ptr<Solver> make_newton_solver(const Model& model, const Material& material,
+                                           const NewtonOptions& options, int threads) {
+  return std::make_unique<NewtonSolver>(model, material, options, threads);
 }
 
 }  // namespace verification

@@ -1,4 +1,4 @@
-#include "fe/conditions.hpp"
+#include "fe/conditions/conditions.hpp"
 
 #include "app/library.hpp"
 
@@ -23,10 +23,11 @@ Eigen::VectorXd Dofs::reduce(const Eigen::VectorXd& full) const {
   return reduced;
 }
 
-Eigen::VectorXd Dofs::prescribed_at(double fraction) const {
-  Eigen::VectorXd full(static_cast<Eigen::Index>(unknown.size()));
+Eigen::VectorXd Dofs::prescribed_at(double time) const {
+  Eigen::VectorXd full = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(unknown.size()));
   for (std::size_t d = 0; d < unknown.size(); ++d)
-    full(static_cast<Eigen::Index>(d)) = fraction * prescribed[d];
+    if (program[d] >= 0)
+      full(static_cast<Eigen::Index>(d)) = programs[static_cast<std::size_t>(program[d])].at(time);
   return full;
 }
 
@@ -35,15 +36,17 @@ Dofs number_dofs(std::size_t nodes, const std::vector<PrescribedDisplacement>& d
   constexpr int free = -2;
   Dofs dofs;
   dofs.unknown.assign(2 * nodes, free);
-  dofs.prescribed.assign(2 * nodes, 0);
+  dofs.program.assign(2 * nodes, -1);
   const auto dof = [](int node, int component) {
     return static_cast<std::size_t>(2 * node + component);
   };
-  for (const PrescribedDisplacement& condition : displacements)
+  for (const PrescribedDisplacement& condition : displacements) {
     for (const int node : condition.nodes) {
       dofs.unknown[dof(node, condition.component)] = -1;
-      dofs.prescribed[dof(node, condition.component)] = condition.value;
+      dofs.program[dof(node, condition.component)] = static_cast<int>(dofs.programs.size());
     }
+    dofs.programs.push_back(condition.value);
+  }
   std::vector<std::size_t> leader(2 * nodes);
   std::iota(leader.begin(), leader.end(), std::size_t{0});
   std::vector<bool> tied(2 * nodes, false);
@@ -66,10 +69,9 @@ Dofs number_dofs(std::size_t nodes, const std::vector<PrescribedDisplacement>& d
   return dofs;
 }
 
-void add_pressure(const Pressure& pressure, double fraction, const Mesh& mesh,
+void add_pressure(const Pressure& pressure, double value, const Mesh& mesh,
                   const Eigen::VectorXd& displacement, Eigen::VectorXd& force,
-                  Triplets& stiffness) {
-  const double value = pressure.start + fraction * (pressure.end - pressure.start);
+                  Triplets* stiffness) {
   for (const auto& [first, second] : pressure.sides) {
     const auto position = [&](int node) -> Eigen::Vector2d {
       const Eigen::Vector2d& reference = mesh.nodes[static_cast<std::size_t>(node)];
@@ -81,10 +83,10 @@ void add_pressure(const Pressure& pressure, double fraction, const Mesh& mesh,
     const Eigen::Vector2d half(-0.5 * value * side.y(), 0.5 * value * side.x());
     for (const int node : {first, second}) {
       force.segment<2>(2 * node) += half;
-      if (!pressure.follows) continue;
+      if (!pressure.follows || stiffness == nullptr) continue;
       for (const auto& [end, sign] : {std::pair{second, 1.0}, std::pair{first, -1.0}}) {
-        stiffness.emplace_back(2 * node, 2 * end + 1, sign * 0.5 * value);
-        stiffness.emplace_back(2 * node + 1, 2 * end, -sign * 0.5 * value);
+        stiffness->emplace_back(2 * node, 2 * end + 1, sign * 0.5 * value);
+        stiffness->emplace_back(2 * node + 1, 2 * end, -sign * 0.5 * value);
       }
     }
   }

@@ -1,7 +1,8 @@
 // Boundary conditions of a finite element model: prescribed and tied displacements, pressure.
 #pragma once
 
-#include "fe/mesh.hpp"
+#include "fe/conditions/program.hpp"
+#include "fe/mesh/mesh.hpp"
 
 #include <Eigen/Sparse>
 
@@ -15,22 +16,23 @@ namespace verification {
 //
 // Every component is either prescribed or follows one unknown; tied components share theirs.
 struct Dofs {
-  std::vector<int> unknown;        // [dofs] number of its unknown, -1: prescribed
-  std::vector<double> prescribed;  // [dofs] value at the end of the run, else 0 [m]
+  std::vector<int> unknown;       // [dofs] number of its unknown, -1: prescribed
+  std::vector<int> program;       // [dofs] entry of `programs` that prescribes it, -1: none
+  std::vector<Program> programs;  // [m]
   int unknowns = 0;
 
   // Values of the unknowns as a field over all components, prescribed ones zero.
   [[nodiscard]] Eigen::VectorXd expand(const Eigen::VectorXd& reduced) const;
   // Forces on the unknowns: the sum over the components that follow each.
   [[nodiscard]] Eigen::VectorXd reduce(const Eigen::VectorXd& full) const;
-  // Prescribed displacements at this fraction of the run, unknowns zero [m].
-  [[nodiscard]] Eigen::VectorXd prescribed_at(double fraction) const;
+  // Prescribed displacements at this time, unknowns zero [m].
+  [[nodiscard]] Eigen::VectorXd prescribed_at(double time) const;
 };
 
 struct PrescribedDisplacement {
   std::vector<int> nodes;
   int component = 0;
-  double value = 0;  // at the end of the run, linear from 0 [m]
+  Program value;     // [m]
   std::string name;  // for tables, e.g. "top_y"
 };
 
@@ -44,20 +46,19 @@ struct Tie {
 Dofs number_dofs(std::size_t nodes, const std::vector<PrescribedDisplacement>& displacements,
                  const std::vector<Tie>& ties);
 
-// Pressure on sides [Pa], linear over the run: as Cauchy pressure it stays normal to the deformed
+// Pressure on sides: as Cauchy pressure it stays normal to the deformed
 // sides and acts on their length; as a dead load it keeps the force it has on the undeformed ones.
 struct Pressure {
   std::vector<std::array<int, 2>> sides;  // the element on the left
-  double start = 0;
-  double end = 0;
+  Program value;                          // [Pa]
   bool follows = true;
 };
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-// Adds the nodal forces of the pressure [N/m], and minus their derivative with respect to the
-// displacements (the load stiffness), which is exact for straight sides.
-void add_pressure(const Pressure& pressure, double fraction, const Mesh& mesh,
-                  const Eigen::VectorXd& displacement, Eigen::VectorXd& force, Triplets& stiffness);
+// Adds the nodal forces of the pressure of this value [N/m]. With `stiffness`, also minus their
+// derivative with respect to the displacements (the load stiffness), exact for straight sides.
+void add_pressure(const Pressure& pressure, double value, const Mesh& mesh,
+                  const Eigen::VectorXd& displacement, Eigen::VectorXd& force, Triplets* stiffness);
 
 }  // namespace verification

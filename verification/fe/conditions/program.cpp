@@ -1,0 +1,33 @@
+#include "fe/conditions/program.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace verification {
+namespace {
+
+double interpolate(const std::vector<std::array<double, 2>>& points, double time) {
+  if (time <= points.front()[0]) return points.front()[1];
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    const auto& [t0, v0] = points[k - 1];
+    const auto& [t1, v1] = points[k];
+    if (time <= t1) return v0 + (time - t0) / (t1 - t0) * (v1 - v0);
+  }
+  return points.back()[1];
+}
+
+}  // namespace
+
+double Sine::at(double time) const {
+  const double turns = (time - start) / period;
+  if (amplitude == 0 || turns <= 0 || turns >= periods) return 0;
+  return amplitude * std::sin(2 * std::numbers::pi * turns);
+}
+
+double Program::at(double time) const { return interpolate(points, time) + sine.at(time); }
+
+Program Program::linear(double start, double end, double duration) {
+  return {{{0, start}, {duration, end}}, {}};
+}
+
+}  // namespace verification

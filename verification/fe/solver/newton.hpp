@@ -1,0 +1,23 @@
+// Newton's method for the equilibrium of a finite element model at the end of every load step.
+#pragma once
+
+#include "fe/solver/solver.hpp"
+
+namespace verification {
+
+struct NewtonOptions {
+  unsigned tangent = GRAINLAW_WANT_TANGENT_EXACT;
+  double tolerance = 1e-8;  // |force on the unknowns| / |nodal forces of the stresses| [-]
+  int max_iterations = 20;  // of one attempt, then the step is cut
+  int max_cuts = 10;        // halvings of one step, at most
+  // Where contacts collapse P(F) jumps, and no displacement balances the loads to the last digit. A
+  // step at its smallest cut is then taken whole to this residual, and the record counts it as a
+  // loose part; 0: never [-].
+  double loose_tolerance = 0;
+};
+
+// Throws InputError for contradictory conditions, ComputationError when F = I cannot be evaluated.
+std::unique_ptr<Solver> make_newton_solver(const Model& model, const Material& material,
+                                           const NewtonOptions& options, int threads);
+
+}  // namespace verification

@@ -1,0 +1,52 @@
+// What the three solvers of a finite element model have in common.
+#pragma once
+
+#include "fe/checkpoint.hpp"
+#include "fe/model.hpp"
+
+#include <functional>
+#include <memory>
+
+namespace verification {
+
+// One solved load step. Residuals: of every attempt one after the other; entry 0 of an attempt is
+// the imbalance after the load increment, entry k the one after k corrections.
+struct LoadStep {
+  Record record;  // means over the integration points
+  double time = 0;
+  std::vector<double> residuals;
+  // Of every prescribed displacement: its value [m], and the force that holds it, summed over its
+  // nodes, per metre of thickness [N/m].
+  std::vector<double> displacements;
+  std::vector<double> reactions;
+};
+
+// A model on its way through a run: everything up to the committed time is done.
+class Solver {
+ public:
+  Solver() = default;
+  virtual ~Solver() = default;
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
+
+  // From the committed time to this one (at time 0: brings the loads of time 0 to equilibrium), in
+  // as many parts as it takes. Throws ComputationError, saying where, when that is not possible.
+  virtual LoadStep advance(double to, int number) = 0;
+
+  // Everything that the next `advance` depends on, between two calls of it: a solver of the same
+  // scene that restores it goes on to the same bits. Throws as CheckpointReader does.
+  virtual void save(CheckpointWriter& out) const = 0;
+  virtual void restore(CheckpointReader& in) = 0;
+
+  [[nodiscard]] virtual const PointField& points() const = 0;
+  [[nodiscard]] virtual const Eigen::VectorXd& displacement() const = 0;  // committed [m]
+};
+
+using LoadObserver = std::function<void(const LoadStep&, const Solver&)>;
+
+// Step 0 brings the loads at time 0 to equilibrium; steps 1..steps divide the duration evenly.
+// Stops after step `last`; a restored solver goes on with the step after the one it was saved at.
+void run_load_steps(Solver& solver, double duration, int steps, int last,
+                    const LoadObserver& observe, int first = 0);
+
+}  // namespace verification
