@@ -1,6 +1,7 @@
 #include "fe/output/run_output.hpp"
 
 #include "app/history.hpp"
+#include "fe/conditions/monitors.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +10,9 @@ namespace {
 
 std::vector<std::string> force_columns(const Model& model) {
   std::vector<std::string> columns{"step[-]"};
-  for (const PrescribedDisplacement& condition : model.displacements) {
-    columns.push_back(condition.name + "_displacement[m]");
-    columns.push_back(condition.name + "_force[N/m]");
+  for (const Monitor& monitor : make_monitors(model)) {
+    columns.push_back(monitor.name + "_displacement[m]");
+    columns.push_back(monitor.name + "_force[N/m]");
   }
   return columns;
 }
