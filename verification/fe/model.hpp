@@ -56,6 +56,16 @@ class PointField {
   [[nodiscard]] std::size_t size() const { return points_.size(); }
   // Mean over the points of the last evaluation; the effort since the last call of this function.
   Record record();
+  [[nodiscard]] const std::vector<int>& nodes(std::size_t point) const {
+    return points_[point].nodes;
+  }
+  [[nodiscard]] const QuadPoint& geometry(std::size_t point) const {
+    return points_[point].geometry;
+  }
+  // Of the last evaluation.
+  [[nodiscard]] const Tensor& deformation(std::size_t point) const { return deformation_[point]; }
+  [[nodiscard]] const Tensor& stress(std::size_t point) const { return stress_[point]; }
+  [[nodiscard]] const grainlaw_report& report(std::size_t point) const { return reports_[point]; }
   [[nodiscard]] const grainlaw_state* state(std::size_t point) const {
     return states_[point].get();
   }
