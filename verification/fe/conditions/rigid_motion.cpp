@@ -21,8 +21,9 @@ std::string motion_text(const Eigen::Vector3d& motion, double size, const Eigen:
     if (std::abs(motion(0)) < 1e-6) return "translation along y";
     return fmt::format("translation along ({:.3g}, {:.3g})", motion(0), motion(1));
   }
-  return fmt::format("rotation about ({:.6g}, {:.6g})", centre.x() - motion(1) / turn,
-                     centre.y() + motion(0) / turn);
+  const auto shown = [&](double place) { return std::abs(place) < 1e-9 * size ? 0 : place; };
+  return fmt::format("rotation about ({:.6g}, {:.6g})", shown(centre.x() - motion(1) / turn),
+                     shown(centre.y() + motion(0) / turn));
 }
 
 }  // namespace
