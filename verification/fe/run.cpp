@@ -4,7 +4,6 @@
 #include "app/interrupt.hpp"
 #include "app/output.hpp"
 #include "app/progress.hpp"
-#include "fe/output/cost_report.hpp"
 #include "fe/output/run_output.hpp"
 
 #include <fmt/format.h>
@@ -88,37 +87,43 @@ class Run {
     try {
       run_load_steps(*solver_, scene_.duration, scene_.steps, scene_.steps, observe, done_ + 1);
     } catch (const ComputationError& error) {
-      output_->finish();
+      try {
+        finish();
+      } catch (const std::exception&) {  // says no more than the error that is reported
+      }
       throw ComputationError(fmt::format("{}: {}", file_.string(), error.what()));
     }
-    output_->finish();
-    fmt::print("{}: {}\n{}wrote {}\n", scene_.name, output_->history(), cost_.summary(*solver_),
-               output_->written());
+    finish();
   }
 
  private:
+  void finish() {
+    if (done_ < 0) return;
+    progress_.clear();
+    output_->finish();
+    fmt::print("{}: {}wrote {}\n", scene_.name, output_->summary(), output_->written());
+  }
+
   void after(const LoadStep& step) {
     done_ = step.record.step;
-    {
-      const auto measure = solver_->points().cost().measure(Stage::output);
-      output_->add(step);
-      const bool last = done_ == scene_.steps;
-      const int signal = last ? 0 : Interrupt::signal();
-      if (signal != 0 || (every_ > 0 && (last || (done_ > 0 && done_ % every_ == 0)))) save();
-      if (signal != 0) {
-        fmt::print("{}: ended after step {} of {} as asked; go on with\n  grainlaw solve {} "
-                   "--output {} --restart\n",
-                   scene_.name, done_, scene_.steps, file_.string(), directory_);
-        throw Interrupted{signal};
-      }
+    output_->add(step);
+    const bool last = done_ == scene_.steps;
+    const int signal = last ? 0 : Interrupt::signal();
+    if (signal != 0 || (every_ > 0 && (last || (done_ > 0 && done_ % every_ == 0)))) save();
+    if (signal != 0) {
+      progress_.clear();
+      fmt::print("{}: ended after step {} of {} as asked; go on with\n  grainlaw solve {} "
+                 "--output {} --restart\n",
+                 scene_.name, done_, scene_.steps, file_.string(), directory_);
+      throw Interrupted{signal};
     }
-    cost_.add(step, *solver_);
     progress_.update(static_cast<double>(done_) / scene_.steps,
                      fmt::format("axial strain {:.2f} %, sigma22 {:.1f} kPa",
                                  100 * step.record.axial_strain(), step.record.cauchy(1, 1) / 1e3));
   }
 
   void save() {
+    const auto measure = solver_->points().cost().measure(Stage::output);
     CheckpointWriter out;
     out.write(identity_.scene);
     out.write(identity_.mesh);
@@ -138,7 +143,6 @@ class Run {
   std::filesystem::path checkpoint_;
   std::unique_ptr<Solver> solver_;
   std::optional<RunOutput> output_;
-  CostReport cost_;
   Progress progress_;
   int done_ = -1;  // last step that is done
 };
