@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+
 #include <sstream>
 
 namespace verification {
@@ -71,6 +73,7 @@ class Run {
       output_.emplace(scene_, std::move(tables), *solver_);
       output_->restore(in);
       fmt::print("{}: goes on after step {} of {}\n", scene_.name, done_, scene_.steps);
+      std::fflush(stdout);
     } else {
       if (options.restart)
         fmt::print("{}: there is no {}, so this starts from the beginning\n", scene_.name,
