@@ -68,7 +68,7 @@ class Run {
         throw InputError(checkpoint_.string() + ": was made with another mesh");
       in.read(done_);
       RunTables tables(stem_, in);
-      solver_ = make_solver(scene_, material);
+      solver_ = make_solver(scene_.solver, scene_.model, material, scene_.threads);
       solver_->restore(in);
       output_.emplace(scene_, std::move(tables), *solver_);
       output_->restore(in);
@@ -78,7 +78,7 @@ class Run {
       if (options.restart)
         fmt::print("{}: there is no {}, so this starts from the beginning\n", scene_.name,
                    checkpoint_.string());
-      solver_ = make_solver(scene_, material);
+      solver_ = make_solver(scene_.solver, scene_.model, material, scene_.threads);
       if (found) std::filesystem::remove(checkpoint_);  // its tables are about to be overwritten
       output_.emplace(scene_, RunTables(stem_), *solver_);
     }
@@ -88,7 +88,8 @@ class Run {
     const Interrupt interrupt;
     const auto observe = [&](const LoadStep& step, const Solver&) { after(step); };
     try {
-      run_load_steps(*solver_, scene_.duration, scene_.steps, scene_.steps, observe, done_ + 1);
+      run_load_steps(*solver_, scene_.solver.duration(), scene_.steps, scene_.steps, observe,
+                     done_ + 1);
     } catch (const ComputationError& error) {
       try {
         finish();
