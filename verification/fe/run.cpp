@@ -8,7 +8,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <limits>
 
 #include <sstream>
 
@@ -55,6 +57,7 @@ class Run {
         identity_(identity(file, scene_.model.mesh)),
         file_(file.path),
         every_(options.checkpoint_every.value_or(scene_.output.checkpoint_every)),
+        stop_after_(options.stop_after.value_or(std::numeric_limits<int>::max())),
         directory_(options.directory),
         stem_(output_stem(options.directory, scene_.name)),
         checkpoint_(stem_.string() + ".checkpoint"),
@@ -87,8 +90,9 @@ class Run {
   void go() {
     const Interrupt interrupt;
     const auto observe = [&](const LoadStep& step, const Solver&) { after(step); };
+    const int last = std::min(stop_after_, scene_.steps);
     try {
-      run_load_steps(*solver_, scene_.solver.duration(), scene_.steps, scene_.steps, observe,
+      run_load_steps(*solver_, scene_.solver.duration(), scene_.steps, last, observe,
                      done_ + 1);
     } catch (const ComputationError& error) {
       try {
@@ -113,17 +117,21 @@ class Run {
     output_->add(step);
     const bool last = done_ == scene_.steps;
     const int signal = last ? 0 : Interrupt::signal();
-    if (signal != 0 || (every_ > 0 && (last || (done_ > 0 && done_ % every_ == 0)))) save();
-    if (signal != 0) {
+    const bool stops = !last && (signal != 0 || done_ >= stop_after_);
+    const bool regular = every_ > 0 && (last || (done_ > 0 && done_ % every_ == 0));
+    if (stops || regular || (last && std::filesystem::exists(checkpoint_))) save();
+    if (stops) {
       progress_.clear();
       fmt::print("{}: ended after step {} of {} as asked; go on with\n  grainlaw solve {} "
                  "--output {} --restart\n",
                  scene_.name, done_, scene_.steps, file_.string(), directory_);
-      throw Interrupted{signal};
     }
-    progress_.update(static_cast<double>(done_) / scene_.steps,
-                     fmt::format("axial strain {:.2f} %, sigma22 {:.1f} kPa",
-                                 100 * step.record.axial_strain(), step.record.cauchy(1, 1) / 1e3));
+    if (signal != 0) throw Interrupted{signal};
+    if (!stops)
+      progress_.update(
+          static_cast<double>(done_) / scene_.steps,
+          fmt::format("axial strain {:.2f} %, sigma22 {:.1f} kPa", 100 * step.record.axial_strain(),
+                      step.record.cauchy(1, 1) / 1e3));
   }
 
   void save() {
@@ -142,6 +150,7 @@ class Run {
   Identity identity_;
   std::filesystem::path file_;
   int every_;
+  int stop_after_;
   std::string directory_;
   std::filesystem::path stem_;
   std::filesystem::path checkpoint_;

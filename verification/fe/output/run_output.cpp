@@ -22,7 +22,7 @@ std::vector<std::string> force_columns(const Model& model) {
 }
 
 std::vector<std::string> point_columns() {
-  std::vector<std::string> names{"step[-]", "time[-]", "x[m]", "y[m]"};
+  std::vector<std::string> names{"step[-]", "time[s]", "x[m]", "y[m]"};
   for (const Field& field : fields())
     for (const std::string& name : columns(field)) names.push_back(name);
   return names;
@@ -118,13 +118,9 @@ std::string RunOutput::summary() const {
 std::string RunOutput::written() const {
   const OutputOptions& output = scene_.output;
   std::string text =
-<<<<<<< HEAD
       fmt::format("{}.csv, _newton.csv, _force.csv, _cost.csv, .svg, .png", tables_.stem().string());
-=======
-      fmt::format("{}.csv, _newton.csv, _force.csv, .svg, .png", tables_.stem().string());
   if (energies_ != nullptr) text += ", _energy.csv";
   if (probes_ != nullptr) text += ", _probes.csv";
->>>>>>> integrate
   if (!output.points.empty()) text += ", _pointN.csv";
   if (output.vtk_every > 0) text += ", _mesh.pvd, _points.pvd";
   if (!output.packings.empty()) text += ", _packingN.pvd";

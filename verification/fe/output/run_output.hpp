@@ -39,13 +39,10 @@ class RunOutput {
   CsvWriter& history_;
   CsvWriter& newton_;
   CsvWriter& forces_;
-<<<<<<< HEAD
   CsvWriter& costs_;
   CostReport cost_;
-=======
   CsvWriter* energies_ = nullptr;  // of dynamic runs
   CsvWriter* probes_ = nullptr;    // of scenes with probes
->>>>>>> integrate
   std::vector<CsvWriter*> points_;
   VtkSeries series_;
 };
