@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <sstream>
 
@@ -19,18 +21,46 @@ std::vector<std::string> split(const std::string& line) {
   return fields;
 }
 
+std::string header(const std::vector<std::string>& columns) {
+  return fmt::format("{}\n", fmt::join(columns, ","));
+}
+
 }  // namespace
 
 CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns)
-    : stream_(path), columns_(columns.size()) {
+    : path_(path), stream_(path), columns_(columns.size()) {
+  write(header(columns));
+}
+
+CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns,
+                     std::uintmax_t length)
+    : path_(path), length_(length), columns_(columns.size()) {
+  std::ifstream old(path);
+  std::string line;
+  std::getline(old, line);
+  std::error_code error;
+  const std::uintmax_t found = std::filesystem::file_size(path, error);
+  if (error || found < length || line + "\n" != header(columns))
+    throw InputError(fmt::format("{}: cannot be continued: found {}, expected the table of the "
+                                 "interrupted run with at least {} bytes",
+                                 path.string(),
+                                 error ? error.message() : fmt::format("{} bytes", found), length));
+  std::filesystem::resize_file(path, length);
+  stream_.open(path, std::ios::app);
   if (!stream_) throw ComputationError(fmt::format("{}: cannot be written", path.string()));
-  stream_ << fmt::format("{}\n", fmt::join(columns, ","));
+}
+
+void CsvWriter::write(const std::string& line) {
+  // Flushed, so that an interrupted run leaves all of its finished steps.
+  if (!(stream_ << line << std::flush))
+    throw ComputationError(
+        fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(errno)));
+  length_ += line.size();
 }
 
 void CsvWriter::row(const std::vector<double>& values) {
   if (values.size() != columns_) throw std::logic_error("csv: a row of another length");
-  // Flushed, so that an interrupted run leaves all of its finished steps.
-  stream_ << fmt::format("{:.12g}\n", fmt::join(values, ",")) << std::flush;
+  write(fmt::format("{:.12g}\n", fmt::join(values, ",")));
 }
 
 const std::vector<double>& CsvTable::operator[](std::string_view name) const {

@@ -1,6 +1,7 @@
 // Tables on disk: comma-separated values with one header line of "name[unit]" columns.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -15,10 +16,22 @@ class CsvWriter {
   // be written.
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns);
 
-  // One line; values in the order of the columns.
+  // Goes on with a file of these columns after its first `length` bytes; what came after them is
+  // dropped. Throws InputError when the file is shorter or has other columns.
+  CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns,
+            std::uintmax_t length);
+
+  // One line; values in the order of the columns. Throws ComputationError when it cannot be written.
   void row(const std::vector<double>& values);
+  // Bytes written so far, header included.
+  [[nodiscard]] std::uintmax_t length() const { return length_; }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
+  void write(const std::string& line);
+
+  std::filesystem::path path_;
+  std::uintmax_t length_ = 0;
   std::ofstream stream_;
   std::size_t columns_;
 };

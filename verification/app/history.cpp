@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace verification {
@@ -10,25 +11,29 @@ namespace verification {
 History::History(std::filesystem::path stem)
     : stem_(std::move(stem)), csv_(stem_.string() + ".csv", record_columns()) {}
 
-void History::add(const Record& record) {
-  csv_.row(record_values(record));
-  records_.push_back(record);
+void History::draw_figure(const std::string& abscissa, const std::string& title) const {
+  draw_history(read_csv(csv_.path()), abscissa, title, stem_);
 }
 
-void History::draw_figure(const std::string& abscissa, const std::string& title) const {
+std::string History::summary() const { return history_summary(read_csv(csv_.path())); }
+
+void draw_history(const CsvTable& table, const std::string& abscissa, const std::string& title,
+                  const std::filesystem::path& stem) {
   constexpr double percent = 100;
   constexpr double kilopascal = 1e-3;
   const bool shear = abscissa == shear_abscissa;
-  std::vector<double> x, normal_1, normal_2, shear_stress, volumetric, coordination, mechanical;
-  for (const Record& record : records_) {
-    x.push_back(shear ? record.deformation(0, 1) : percent * record.axial_strain());
-    normal_1.push_back(-kilopascal * record.cauchy(0, 0));
-    normal_2.push_back(-kilopascal * record.cauchy(1, 1));
-    shear_stress.push_back(kilopascal * record.cauchy(0, 1));
-    volumetric.push_back(percent * record.volumetric_strain());
-    coordination.push_back(record.coordination);
-    mechanical.push_back(record.coordination_no_rattlers);
-  }
+  const auto column = [&](const char* name, double unit) {
+    std::vector<double> values = table[name];
+    for (double& value : values) value *= unit;
+    return values;
+  };
+  const auto x = shear ? column("F12", 1) : column("axial_strain", percent);
+  const auto normal_1 = column("sigma11", -kilopascal);
+  const auto normal_2 = column("sigma22", -kilopascal);
+  const auto shear_stress = column("sigma12", kilopascal);
+  const auto volumetric = column("volumetric_strain", percent);
+  const auto coordination = column("coordination", 1);
+  const auto mechanical = column("coordination_no_rattlers", 1);
   Figure figure{title, shear ? "shear F12 [-]" : "axial strain 1 - F22 [%]", {}};
   figure.panels.push_back({"Cauchy stress [kPa]",
                            {{"-σ11", x, normal_1, colour::blue, Stroke::solid},
@@ -36,6 +41,7 @@ void History::draw_figure(const std::string& abscissa, const std::string& title)
                             {"σ12", x, shear_stress, colour::green, Stroke::solid}},
                            1.3,
                            "top left"});
+  if (table.rows() == 0) return;
   const auto [least, most] = std::minmax_element(volumetric.begin(), volumetric.end());
   constexpr double isochoric = 1e-9;  // %, below this there is nothing to see
   if (*most - *least > isochoric)
@@ -46,26 +52,20 @@ void History::draw_figure(const std::string& abscissa, const std::string& title)
                            {{"all particles", x, coordination, colour::blue, Stroke::solid},
                             {"without rattlers", x, mechanical, colour::orange, Stroke::dashed}},
                            1});
-  draw(figure, stem_);
+  draw(figure, stem);
 }
 
-std::string History::summary() const {
-  Effort sum;
-  long iterations = 0, evaluations = 0, factorisations = 0;
-  for (const Record& record : records_) {
-    iterations += record.effort.iterations;
-    evaluations += record.effort.evaluations;
-    factorisations += record.effort.factorisations;
-    sum.relaxation_steps += record.effort.relaxation_steps;
-    sum.cuts += record.effort.cuts;
-    sum.loose += record.effort.loose;
-    sum.history_advanced += record.effort.history_advanced;
-  }
+std::string history_summary(const CsvTable& table) {
+  const auto sum = [&](const char* name) {
+    const std::vector<double>& values = table[name];
+    return std::accumulate(values.begin(), values.end(), 0.0);
+  };
   return fmt::format(
-      "{} steps, {} iterations, {} evaluations, {} relaxation steps, {} factorisations, {} cuts, "
-      "{} loose, {} with advanced history",
-      records_.empty() ? 0 : records_.back().step, iterations, evaluations, sum.relaxation_steps,
-      factorisations, sum.cuts, sum.loose, sum.history_advanced);
+      "{:.0f} steps, {:.0f} iterations, {:.0f} evaluations, {:.0f} relaxation steps, "
+      "{:.0f} factorisations, {:.0f} cuts, {:.0f} loose, {:.0f} with advanced history",
+      table.rows() == 0 ? 0 : table["step"].back(), sum("newton_iterations"), sum("evaluations"),
+      sum("relaxation_steps"), sum("factorisations"), sum("step_cuts"), sum("loose_parts"),
+      sum("history_advanced"));
 }
 
 void write_vtk(const grainlaw_state* state, const std::filesystem::path& stem, int step) {

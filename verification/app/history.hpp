@@ -15,21 +15,26 @@ namespace verification {
 inline constexpr const char* axial_abscissa = "axial_strain";
 inline constexpr const char* shear_abscissa = "F12";
 
+// Of a table with record_columns(): stem.svg and stem.png with stress, volumetric strain and
+// coordination number.
+void draw_history(const CsvTable& table, const std::string& abscissa, const std::string& title,
+                  const std::filesystem::path& stem);
+
+// One line about what the run of such a table cost.
+std::string history_summary(const CsvTable& table);
+
 class History {
  public:
   // Opens stem.csv.
   explicit History(std::filesystem::path stem);
 
-  void add(const Record& record);
-  // stem.svg and stem.png: stress, volumetric strain and coordination number.
+  void add(const Record& record) { csv_.row(record_values(record)); }
   void draw_figure(const std::string& abscissa, const std::string& title) const;
-  // One line about what the run cost.
   [[nodiscard]] std::string summary() const;
 
  private:
   std::filesystem::path stem_;
   CsvWriter csv_;
-  std::vector<Record> records_;
 };
 
 // stem_0010.vtp: particles and force chains of the state. Throws ComputationError.

@@ -1,7 +1,8 @@
 // grainlaw: the command line of the verification drivers.
-// Exit codes: 0 done, 1 a computation failed, 2 the input is wrong.
+// Exit codes: 0 done, 1 a computation failed, 2 the input is wrong, 128 + signal: asked to end.
 
 #include "app/commands.hpp"
+#include "app/interrupt.hpp"
 #include "app/library.hpp"
 
 #include <fmt/format.h>
@@ -25,6 +26,8 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
+  } catch (const verification::Interrupted& interrupted) {
+    return 128 + interrupted.signal;
   } catch (const verification::InputError& error) {
     fmt::print(stderr, "grainlaw: {}\n", error.what());
     return 2;

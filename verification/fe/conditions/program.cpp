@@ -1,8 +1,12 @@
 #include "fe/conditions/program.hpp"
 
-namespace verification {
+#include <cmath>
+#include <numbers>
 
-double Program::at(double time) const {
+namespace verification {
+namespace {
+
+double interpolate(const std::vector<std::array<double, 2>>& points, double time) {
   if (time <= points.front()[0]) return points.front()[1];
   for (std::size_t k = 1; k < points.size(); ++k) {
     const auto& [t0, v0] = points[k - 1];
@@ -12,8 +16,18 @@ double Program::at(double time) const {
   return points.back()[1];
 }
 
+}  // namespace
+
+double Sine::at(double time) const {
+  const double turns = (time - start) / period;
+  if (amplitude == 0 || turns <= 0 || turns >= periods) return 0;
+  return amplitude * std::sin(2 * std::numbers::pi * turns);
+}
+
+double Program::at(double time) const { return interpolate(points, time) + sine.at(time); }
+
 Program Program::linear(double start, double end, double duration) {
-  return {{{0, start}, {duration, end}}};
+  return {{{0, start}, {duration, end}}, {}};
 }
 
 }  // namespace verification

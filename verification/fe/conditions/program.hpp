@@ -6,10 +6,21 @@
 
 namespace verification {
 
-// Piecewise linear in time, constant before the first and after the last point. Time runs from 0 to
-// 1 in quasi-static runs, and in seconds in dynamic ones.
+// amplitude sin(2 pi (time - start) / period) from `start` on for so many periods, zero elsewhere.
+struct Sine {
+  double amplitude = 0;
+  double period = 1;
+  double start = 0;
+  double periods = 0.5;
+
+  [[nodiscard]] double at(double time) const;
+};
+
+// Piecewise linear in time, constant before the first and after the last point, plus a sine. Time
+// runs from 0 to 1 in quasi-static runs, and in seconds in dynamic ones.
 struct Program {
   std::vector<std::array<double, 2>> points;  // (time, value), times increasing, at least one
+  Sine sine{};
 
   [[nodiscard]] double at(double time) const;
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 namespace verification {
 namespace {
 
@@ -23,16 +25,35 @@ std::vector<std::array<double, 2>> read_path(SceneTable& table) {
   return points;
 }
 
+Program read_sine(SceneTable table, bool half) {
+  Program program{{{0, 0}}, {}};
+  program.sine.amplitude = table.number("amplitude");
+  program.sine.period = table.number("period", positive);
+  program.sine.start = table.number_or("start", 0, not_negative);
+  if (!half)
+    program.sine.periods =
+        table.number_or("periods", std::numeric_limits<double>::infinity(), positive);
+  table.close();
+  return program;
+}
+
 }  // namespace
 
 Program read_program(SceneTable& table, double duration, Rise rise) {
-  if (!table.has("path")) {
+  std::string_view kind = "value";
+  for (const std::string_view key : {"path", "sine", "half_sine"}) {
+    if (!table.has(key)) continue;
+    if (table.has(kind)) table.fail(kind, fmt::format("both {} and {}", kind, key), "one of them");
+    kind = key;
+  }
+  if (kind == "sine" || kind == "half_sine")
+    return read_sine(table.table(kind), kind == "half_sine");
+  if (kind == "value") {
     const double end = table.number("value");
     const double start = table.number_or("start", rise == Rise::none ? end : 0);
     return Program::linear(start, end, duration);
   }
-  if (table.has("value")) table.fail("value", "both value and path", "one of them");
-  const Program program{read_path(table)};
+  const Program program{read_path(table), {}};
   for (std::size_t k = 0; k < program.points.size(); ++k) {
     const double time = program.points[k][0];
     if (time < 0 || time > duration)

@@ -1,5 +1,7 @@
 #include "fe/solver/newton.hpp"
 
+#include "fe/solver/forces.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/SparseLU>
@@ -31,9 +33,7 @@ System assemble(const Model& model, const PointField& points, const Eigen::Vecto
   const Eigen::VectorXd internal = points.internal_force();
   system.residual = -internal;
   points.add_stiffness(triplets);
-  for (const Pressure& pressure : model.pressures)
-    add_pressure(pressure, pressure.value.at(time), model.mesh, displacement, system.residual,
-                 triplets);
+  add_external_force(model, time, displacement, system.residual, &triplets);
   system.stiffness.resize(internal.size(), internal.size());
   system.stiffness.setFromTriplets(triplets.begin(), triplets.end());
   system.scale = std::max(internal.norm(), std::numeric_limits<double>::min());
@@ -68,7 +68,7 @@ class NewtonSolver final : public Solver {
         options_(options),
         threads_(threads),
         dofs_(number_dofs(model.mesh.nodes.size(), model.displacements, model.ties)),
-        points_(model.mesh, material),
+        points_(model.mesh, material, model.hourglass),
         displacement_(
             Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * model.mesh.nodes.size()))) {
     if (dofs_.unknowns == 0) throw InputError("every displacement is prescribed: nothing to solve");
@@ -121,13 +121,21 @@ class NewtonSolver final : public Solver {
     step.record.effort.iterations = iterations;
     step.record.effort.cuts = cuts;
     step.record.effort.loose = loose_parts;
-    for (const PrescribedDisplacement& condition : model_.displacements) {
-      step.displacements.push_back(condition.value.at(to));
-      step.reactions.push_back(0);
-      for (const int node : condition.nodes)
-        step.reactions.back() -= system_.residual(2 * node + condition.component);
-    }
+    report_supports(model_, to, system_.residual, step);
     return step;
+  }
+
+  void save(CheckpointWriter& out) const override {
+    out.write(time_);
+    out.write(displacement_);
+    points_.save(out);
+  }
+
+  void restore(CheckpointReader& in) override {
+    in.read(time_);
+    in.read(displacement_);
+    points_.restore(in);
+    system_ = assemble(model_, points_, displacement_, time_);
   }
 
   [[nodiscard]] const PointField& points() const override { return points_; }
@@ -148,7 +156,10 @@ class NewtonSolver final : public Solver {
     double best = std::numeric_limits<double>::infinity();
     int best_iteration = 0;
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
-      displacement += solve(system, dofs_, prescribed);
+      {
+        const auto measure = points_.cost().measure(Stage::linear_solve);
+        displacement += solve(system, dofs_, prescribed);
+      }
       prescribed.setZero();
       if (!displacement.allFinite()) {
         reason = "the stiffness is singular";
@@ -181,12 +192,14 @@ class NewtonSolver final : public Solver {
 
   // The committed system carries the load of its own time; the difference to the new one.
   void add_load_increment(System& system, double time) const {
-    Triplets triplets;
-    for (const Pressure& pressure : model_.pressures)
-      add_pressure(pressure, pressure.value.at(time) - pressure.value.at(time_), model_.mesh,
-                   displacement_, system.residual, triplets);
+    Triplets now, before;
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(system.residual.size());
+    add_external_force(model_, time_, displacement_, force, &before);
+    system.residual -= force;
+    add_external_force(model_, time, displacement_, system.residual, &now);
+    for (const auto& entry : before) now.emplace_back(entry.row(), entry.col(), -entry.value());
     Eigen::SparseMatrix<double> change(system.stiffness.rows(), system.stiffness.cols());
-    change.setFromTriplets(triplets.begin(), triplets.end());
+    change.setFromTriplets(now.begin(), now.end());
     system.stiffness += change;
   }
 

@@ -5,8 +5,8 @@
 namespace verification {
 
 void run_load_steps(Solver& solver, double duration, int steps, int last,
-                    const LoadObserver& observe) {
-  for (int step = 0; step <= std::min(steps, last); ++step)
+                    const LoadObserver& observe, int first) {
+  for (int step = first; step <= std::min(steps, last); ++step)
     observe(solver.advance(duration * step / steps, step), solver);
 }
 

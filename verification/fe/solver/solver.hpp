@@ -1,6 +1,7 @@
 // What the three solvers of a finite element model have in common.
 #pragma once
 
+#include "fe/checkpoint.hpp"
 #include "fe/model.hpp"
 
 #include <functional>
@@ -32,6 +33,11 @@ class Solver {
   // as many parts as it takes. Throws ComputationError, saying where, when that is not possible.
   virtual LoadStep advance(double to, int number) = 0;
 
+  // Everything that the next `advance` depends on, between two calls of it: a solver of the same
+  // scene that restores it goes on to the same bits. Throws as CheckpointReader does.
+  virtual void save(CheckpointWriter& out) const = 0;
+  virtual void restore(CheckpointReader& in) = 0;
+
   [[nodiscard]] virtual const PointField& points() const = 0;
   [[nodiscard]] virtual const Eigen::VectorXd& displacement() const = 0;  // committed [m]
 };
@@ -39,8 +45,8 @@ class Solver {
 using LoadObserver = std::function<void(const LoadStep&, const Solver&)>;
 
 // Step 0 brings the loads at time 0 to equilibrium; steps 1..steps divide the duration evenly.
-// Stops after step `last`.
+// Stops after step `last`; a restored solver goes on with the step after the one it was saved at.
 void run_load_steps(Solver& solver, double duration, int steps, int last,
-                    const LoadObserver& observe);
+                    const LoadObserver& observe, int first = 0);
 
 }  // namespace verification

@@ -1,0 +1,112 @@
+// Checkpoints: everything the next load step of a run depends on, in one file.
+#pragma once
+
+#include "app/library.hpp"
+
+#include <Eigen/Dense>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace verification {
+
+template <class T>
+concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+// Collects the bytes of a checkpoint. What writes a value reads it back in the same order and type:
+//
+//   void save(CheckpointWriter& out) const { out.write(time_); out.write(velocity_); }
+//   void restore(CheckpointReader& in) { in.read(time_); in.read(velocity_); }
+class CheckpointWriter {
+ public:
+  template <Number T>
+  void write(const T& value) {
+    append(&value, sizeof value);
+  }
+  // A vector or matrix of numbers, and a list of numbers or of matrices of fixed size.
+  template <class Derived>
+  void write(const Eigen::PlainObjectBase<Derived>& values) {
+    write(static_cast<std::int64_t>(values.rows()));
+    write(static_cast<std::int64_t>(values.cols()));
+    append(values.data(), sizeof(typename Derived::Scalar) * static_cast<std::size_t>(values.size()));
+  }
+  template <class T>
+  void write(const std::vector<T>& values) {
+    write(static_cast<std::uint64_t>(values.size()));
+    for (const T& value : values) write(value);
+  }
+  void write(const std::string& text);
+
+  [[nodiscard]] const std::string& bytes() const { return bytes_; }
+
+ private:
+  void append(const void* data, std::size_t size) {
+    bytes_.append(static_cast<const char*>(data), size);
+  }
+
+  std::string bytes_;
+};
+
+// Gives the values back. Throws InputError when a value is not there or has another size than the
+// thing that is to take it.
+class CheckpointReader {
+ public:
+  CheckpointReader(std::string bytes, std::filesystem::path path)
+      : bytes_(std::move(bytes)), path_(std::move(path)) {}
+
+  template <Number T>
+  void read(T& value) {
+    take(&value, sizeof value);
+  }
+  template <class Derived>
+  void read(Eigen::PlainObjectBase<Derived>& values) {
+    std::int64_t rows = 0, columns = 0;
+    read(rows);
+    read(columns);
+    constexpr bool fixed = Derived::SizeAtCompileTime != Eigen::Dynamic;
+    if (fixed ? rows != values.rows() || columns != values.cols() : !plausible(rows, columns))
+      fail();
+    values.derived().resize(rows, columns);
+    take(values.data(), sizeof(typename Derived::Scalar) * static_cast<std::size_t>(values.size()));
+  }
+  template <class T>
+  void read(std::vector<T>& values) {
+    std::uint64_t size = 0;
+    read(size);
+    if (size > bytes_.size()) fail();
+    values.resize(size);
+    for (T& value : values) read(value);
+  }
+  void read(std::string& text);
+
+  template <class T>
+  T get() {
+    T value{};
+    read(value);
+    return value;
+  }
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[noreturn]] void fail() const;
+
+ private:
+  void take(void* data, std::size_t size);
+  [[nodiscard]] bool plausible(std::int64_t rows, std::int64_t columns) const;
+
+  std::string bytes_;
+  std::filesystem::path path_;
+  std::size_t position_ = 0;
+};
+
+// The file has a version and a checksum, and replaces an older one in one go. Throws
+// ComputationError when it cannot be written; the older one is then kept.
+void write_checkpoint(const std::filesystem::path& path, const CheckpointWriter& content);
+
+// Throws InputError for a file that cannot be read, is damaged or of another version.
+CheckpointReader read_checkpoint(const std::filesystem::path& path);
+
+}  // namespace verification

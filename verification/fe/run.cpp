@@ -1,0 +1,150 @@
+#include "fe/run.hpp"
+
+#include "app/history.hpp"
+#include "app/interrupt.hpp"
+#include "app/output.hpp"
+#include "app/progress.hpp"
+#include "fe/output/cost_report.hpp"
+#include "fe/output/run_output.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+
+namespace verification {
+namespace {
+
+// What a checkpoint belongs to: the scene without the keys that do not change results, and the mesh.
+struct Identity {
+  std::string scene;
+  std::string mesh;
+};
+
+Identity identity(const SceneFile& file, const Mesh& mesh) {
+  toml::table content = file.content;
+  for (const char* key : {"threads", "checkpoint_every"}) content.erase(key);
+  std::ostringstream scene;
+  scene << content;
+  CheckpointWriter bytes;
+  for (const auto& node : mesh.nodes) bytes.write(node);
+  bytes.write(mesh.elements);
+  return {scene.str(), bytes.bytes()};
+}
+
+// Throws InputError with the first line that differs.
+void check_same_scene(const CheckpointReader& in, const std::string& saved,
+                      const std::string& scene) {
+  if (saved == scene) return;
+  std::istringstream before(saved), now(scene);
+  std::string line_before, line_now;
+  while (line_before == line_now) {
+    if (!std::getline(before, line_before)) line_before = "the end of the scene";
+    if (!std::getline(now, line_now)) line_now = "the end of the scene";
+  }
+  throw InputError(
+      fmt::format("{}: was made with another scene: found `{}` now, expected `{}`; start anew "
+                  "without --restart",
+                  in.path().string(), line_now, line_before));
+}
+
+class Run {
+ public:
+  Run(const SceneFile& file, const RunOptions& options)
+      : scene_(read_fe_scene(file)),
+        identity_(identity(file, scene_.model.mesh)),
+        file_(file.path),
+        every_(options.checkpoint_every.value_or(scene_.output.checkpoint_every)),
+        directory_(options.directory),
+        stem_(output_stem(options.directory, scene_.name)),
+        checkpoint_(stem_.string() + ".checkpoint"),
+        progress_(scene_.name) {
+    const Material material = make_material(scene_.material);
+    const bool found = std::filesystem::exists(checkpoint_);
+    if (options.restart && found) {
+      CheckpointReader in = read_checkpoint(checkpoint_);
+      check_same_scene(in, in.get<std::string>(), identity_.scene);
+      if (in.get<std::string>() != identity_.mesh)
+        throw InputError(checkpoint_.string() + ": was made with another mesh");
+      in.read(done_);
+      RunTables tables(stem_, in);
+      solver_ = make_solver(scene_, material);
+      solver_->restore(in);
+      output_.emplace(scene_, std::move(tables), *solver_);
+      output_->restore(in);
+      fmt::print("{}: goes on after step {} of {}\n", scene_.name, done_, scene_.steps);
+    } else {
+      if (options.restart)
+        fmt::print("{}: there is no {}, so this starts from the beginning\n", scene_.name,
+                   checkpoint_.string());
+      solver_ = make_solver(scene_, material);
+      if (found) std::filesystem::remove(checkpoint_);  // its tables are about to be overwritten
+      output_.emplace(scene_, RunTables(stem_), *solver_);
+    }
+  }
+
+  void go() {
+    const Interrupt interrupt;
+    const auto observe = [&](const LoadStep& step, const Solver&) { after(step); };
+    try {
+      run_load_steps(*solver_, scene_.duration, scene_.steps, scene_.steps, observe, done_ + 1);
+    } catch (const ComputationError& error) {
+      output_->finish();
+      throw ComputationError(fmt::format("{}: {}", file_.string(), error.what()));
+    }
+    output_->finish();
+    fmt::print("{}: {}\n{}wrote {}\n", scene_.name, output_->history(), cost_.summary(*solver_),
+               output_->written());
+  }
+
+ private:
+  void after(const LoadStep& step) {
+    done_ = step.record.step;
+    {
+      const auto measure = solver_->points().cost().measure(Stage::output);
+      output_->add(step);
+      const bool last = done_ == scene_.steps;
+      const int signal = last ? 0 : Interrupt::signal();
+      if (signal != 0 || (every_ > 0 && (last || (done_ > 0 && done_ % every_ == 0)))) save();
+      if (signal != 0) {
+        fmt::print("{}: ended after step {} of {} as asked; go on with\n  grainlaw solve {} "
+                   "--output {} --restart\n",
+                   scene_.name, done_, scene_.steps, file_.string(), directory_);
+        throw Interrupted{signal};
+      }
+    }
+    cost_.add(step, *solver_);
+    progress_.update(static_cast<double>(done_) / scene_.steps,
+                     fmt::format("axial strain {:.2f} %, sigma22 {:.1f} kPa",
+                                 100 * step.record.axial_strain(), step.record.cauchy(1, 1) / 1e3));
+  }
+
+  void save() {
+    CheckpointWriter out;
+    out.write(identity_.scene);
+    out.write(identity_.mesh);
+    out.write(done_);
+    output_->save_tables(out);
+    solver_->save(out);
+    output_->save(out);
+    write_checkpoint(checkpoint_, out);
+  }
+
+  FiniteElementScene scene_;
+  Identity identity_;
+  std::filesystem::path file_;
+  int every_;
+  std::string directory_;
+  std::filesystem::path stem_;
+  std::filesystem::path checkpoint_;
+  std::unique_ptr<Solver> solver_;
+  std::optional<RunOutput> output_;
+  CostReport cost_;
+  Progress progress_;
+  int done_ = -1;  // last step that is done
+};
+
+}  // namespace
+
+void run_fe_scene(const SceneFile& file, const RunOptions& options) { Run(file, options).go(); }
+
+}  // namespace verification

@@ -1,0 +1,22 @@
+// A run of a finite element scene from beginning to end, or from where an interrupted one was left.
+#pragma once
+
+#include "fe/scene.hpp"
+
+#include <optional>
+#include <string>
+
+namespace verification {
+
+struct RunOptions {
+  std::string directory = ".";          // for the results
+  bool restart = false;                 // go on from the checkpoint, if there is one
+  std::optional<int> checkpoint_every;  // instead of the scene's; 0: when interrupted only
+};
+
+// Writes the files that `grainlaw solve` documents. Between two load steps it looks whether it has
+// been asked to end: it then leaves NAME.checkpoint and throws Interrupted. Throws InputError and
+// ComputationError.
+void run_fe_scene(const SceneFile& file, const RunOptions& options);
+
+}  // namespace verification
