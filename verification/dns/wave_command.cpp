@@ -71,8 +71,8 @@ void run_case(const WaveCase& one, const std::string& directory) {
   for (const int divisions : one.divisions) runs.push_back(run_mesh(one, domain, divisions));
   runs.push_back(run_particles(one));
   const WaveRun& reference = runs.back();
-  std::vector<std::string> columns{"elements[-]",  "points[-]",       "particles[-]", "steps[-]",
-                                   "time_step[s]", "core_seconds[s]", "wall[s]"};
+  std::vector<std::string> columns{"elements[-]", "points[-]",    "particles[-]",    "steps[-]",
+                                   "cuts[-]",     "time_step[s]", "core_seconds[s]", "wall[s]"};
   for (std::size_t k = 0; k < one.sections.size(); ++k) {
     columns.push_back(fmt::format("largest_error_{}[-]", k + 1));
     columns.push_back(fmt::format("rms_error_{}[-]", k + 1));
@@ -85,6 +85,7 @@ void run_case(const WaveCase& one, const std::string& directory) {
                             static_cast<double>(run.points),
                             static_cast<double>(run.particles),
                             static_cast<double>(run.steps),
+                            static_cast<double>(run.cuts),
                             run.time_step,
                             run.cpu,
                             run.wall};

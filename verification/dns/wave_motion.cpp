@@ -46,6 +46,7 @@ WaveMotion::WaveMotion(const WaveSpecimen& specimen, const grainlaw::ContactLaw&
     inverse_mass_[p] = {free(held_x) / specimen.mass[p], free(held_y) / specimen.mass[p],
                         law.rotating() ? 2 * free(held_rotation) / specimen.mass[p] : 0, 0};
     if (specimen.right[p]) right_.push_back(p);
+    rest_.push_back(specimen.position[p]);
   }
   list_contacts();
   find_forces();
@@ -157,6 +158,43 @@ void WaveMotion::break_bonds() {
   dissipated_ += before - grainlaw::stored_energy(list_, z, particles_.size(), law_);
 }
 
+void WaveMotion::settle() {
+  constexpr long most_steps = 200000;
+  // A wave's forces are above a thousandth of this force, its tables show six digits of them.
+  const double r = specimen_->mean_radius();
+  const double rest = 1e-8 * law_.stiffness(r, r) * r;
+  double largest = 0;
+  for (long step = 0; step < most_steps; ++step) {
+    largest = 0;
+    for (std::size_t p = 0; p < particles_.size(); ++p) {
+      const ForceRecord &f = forces_[p], &w = inverse_mass_[p];
+      ForceRecord& v = velocity_[p];
+      // What moves against its force stops.
+      const auto move = [&](double& velocity, double force, double by_mass, double& position) {
+        if (by_mass == 0) return;
+        largest = std::max(largest, std::abs(force));
+        velocity = (velocity * force < 0 ? 0 : velocity) + time_step_ * by_mass * force;
+        position += time_step_ * velocity;
+      };
+      move(v.x, f.x, w.x, particles_[p].x);
+      move(v.y, f.y, w.y, particles_[p].y);
+      move(v.roll, f.roll, w.roll, particles_[p].roll);
+    }
+    if (largest <= rest) break;
+    keep_list();
+    find_forces();
+  }
+  if (largest > rest)
+    throw ComputationError(
+        fmt::format("the specimen did not come to rest before the wave: an unbalanced force of "
+                    "{:.3g} N is left "
+                    "after {} steps, expected at most {:.3g} N",
+                    largest, most_steps, rest));
+  std::fill(velocity_.begin(), velocity_.end(), ForceRecord{});
+  for (std::size_t p = 0; p < particles_.size(); ++p) rest_[p] = particles_[p].x;
+  dissipated_ = 0;
+}
+
 void WaveMotion::step(double end_displacement) {
   const double dt = time_step_;
   for (std::size_t p = 0; p < particles_.size(); ++p) {
@@ -169,6 +207,7 @@ void WaveMotion::step(double end_displacement) {
     particles_[p].y += dt * v.y;
     particles_[p].roll += dt * v.roll;
   }
+  if (damping_.rate > 0) damp_agitation();
   const double moved = end_displacement - end_;
   end_ = end_displacement;
   double force = 0;
@@ -181,40 +220,6 @@ void WaveMotion::step(double end_displacement) {
   find_forces();
   for (const std::size_t p : right_) force -= forces_[p].x;
   work_ += 0.5 * force * moved;
-}
-
-WaveEnergy WaveMotion::energy(double slice) const {
-  const WaveSpecimen& specimen = *specimen_;
-  const std::size_t n = particles_.size();
-  WaveEnergy energy;
-  energy.work = work_;
-  energy.dissipated = dissipated_;
-  energy.stored = grainlaw::stored_energy(list_, coordinates(), n, law_);
-  const double left = specimen.right_end() - specimen.length;
-  struct Slice {
-    double mass = 0, x = 0, y = 0;
-  };
-  std::vector<Slice> slices(static_cast<std::size_t>(specimen.length / slice) + 3);
-  for (std::size_t p = 0; p < n; ++p) {
-    // Velocities half a step before and behind the positions: their product is what is conserved.
-    const ForceRecord &v = velocity_[p], &f = forces_[p], &w = inverse_mass_[p];
-    const double dt = time_step_, m = specimen.mass[p];
-    const auto free = [&](Held direction) { return (specimen.held[p] & direction) == 0; };
-    double twice = 0;
-    if (free(held_x)) twice += m * v.x * (v.x + dt * w.x * f.x);
-    if (free(held_y)) twice += m * v.y * (v.y + dt * w.y * f.y);
-    if (free(held_rotation)) twice += 0.5 * m * v.roll * (v.roll + dt * w.roll * f.roll);
-    energy.kinetic += 0.5 * twice;
-    if (!free(held_x)) continue;
-    const double place = std::max((specimen.position[p] - left) / slice + 1, 0.0);
-    Slice& at = slices[std::min(static_cast<std::size_t>(place), slices.size() - 1)];
-    at.mass += m;
-    at.x += m * (v.x + 0.5 * dt * w.x * f.x);
-    if (free(held_y)) at.y += m * (v.y + 0.5 * dt * w.y * f.y);
-  }
-  for (const Slice& at : slices)
-    if (at.mass > 0) energy.coherent += 0.5 * (at.x * at.x + at.y * at.y) / at.mass;
-  return energy;
 }
 
 int WaveMotion::touching() const {

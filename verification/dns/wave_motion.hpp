@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace verification {
@@ -18,7 +19,14 @@ struct WaveEnergy {
   double kinetic = 0;     // [J]
   double coherent = 0;    // of it, in the mean motion of cross-sections [J]
   double stored = 0;      // in contacts [J]
-  double dissipated = 0;  // by friction and broken bonds [J]
+  double dissipated = 0;  // by friction, broken bonds and damping [J]
+};
+
+// Damping that single grains feel and waves do not: the velocity of every particle decays towards
+// the mean of its cross-section at this rate. Momentum is conserved.
+struct AgitationDamping {
+  double rate = 0;   // [1/s]
+  double slice = 0;  // width of cross-sections [m]
 };
 
 // First-order finite differences as in eqs. 4.18-4.20, which are central ones with velocities half a
@@ -33,9 +41,14 @@ class WaveMotion {
   // ComputationError when positions are lost.
   void step(double end_displacement);
 
+  // Bring to rest what the supports left unbalanced, before the first step. Throws ComputationError
+  // when that takes too long.
+  void settle();
+  void damp(const AgitationDamping& damping) { damping_ = damping; }
+
   [[nodiscard]] const WaveSpecimen& specimen() const { return *specimen_; }
-  [[nodiscard]] double displacement(std::size_t p) const {  // in x [m]
-    return particles_[p].x - specimen_->position[p];
+  [[nodiscard]] double displacement(std::size_t p) const {  // in x, since it was at rest [m]
+    return particles_[p].x - rest_[p];
   }
   // Sum of the contact forces on a particle [N].
   [[nodiscard]] const grainlaw::ForceRecord& force(std::size_t p) const { return forces_[p]; }
@@ -47,22 +60,34 @@ class WaveMotion {
   [[nodiscard]] double largest_time_step() const { return largest_time_step_; }
 
  private:
+  // Mean velocities of cross-sections, and which one a particle is in.
+  struct Slices {
+    std::vector<std::array<double, 2>> velocity;
+    std::vector<double> mass;
+    std::vector<std::uint32_t> of;
+  };
   void list_contacts();
   void keep_list();
   void find_forces();
   void break_bonds();
+  void damp_agitation();
   void find_largest_time_step();
+  void find_slices(double width, Slices& slices) const;
+  void add_to_slices(double half_step, Slices& slices) const;
   [[nodiscard]] std::vector<double> coordinates() const;
 
   const WaveSpecimen* specimen_;
   grainlaw::ContactLaw law_;
   double time_step_;
-  double gap_;  // neighbours are listed within it [m]
+  AgitationDamping damping_;
+  Slices slices_;  // of the damping
+  double gap_;     // neighbours are listed within it [m]
   double end_ = 0;
   double work_ = 0, dissipated_ = 0, broken_ = 0, largest_time_step_ = 0;
   std::vector<grainlaw::ParticleRecord> particles_;
   std::vector<grainlaw::ForceRecord> forces_, velocity_, inverse_mass_;  // roll: R theta
   std::vector<std::array<double, 2>> listed_;
+  std::vector<double> rest_;  // x where the wave starts [m]
   std::vector<std::size_t> right_;
   // What the next list starts from.
   std::vector<grainlaw::ContactHistory> history_;

@@ -91,22 +91,29 @@ class Gauges {
 WaveDomain wave_domain(const WaveCase& one) {
   const auto material = inner_material(one.material);
   const auto& h = material->packing.cell;
-  return {h[0] * static_cast<double>(one.repeat), h[3], material->packing.thickness,
-          mean_density(*material), material->space.reference_volume};
+  return {h[0] * static_cast<double>(one.repeat),
+          h[3],
+          material->packing.thickness,
+          mean_density(*material),
+          material->space.reference_volume,
+          material->packing.size()};
 }
 
 WaveRun run_particles(const WaveCase& one) {
   const auto material = inner_material(one.material);
   const WaveSpecimen specimen = repeat_along_x(*material, one.repeat);
   const Gauges gauges(specimen, one);
+  const double slice = 4 * specimen.mean_radius();
   WaveMotion motion(specimen, material->law, one.time_step);
+  motion.settle();
+  motion.damp({one.agitation_damping, slice});
   WaveRun run;
   run.name = "dns";
   run.particles = specimen.size();
   run.time_step = one.time_step;
   run.steps = std::lround(std::ceil(one.duration / one.time_step - 1e-9));
   const RowClock clock(run.steps, one.rows);
-  const double slice = 4 * specimen.mean_radius();
+  const double at_rest = motion.energy(slice).stored;
   Progress progress(one.name + ", particles");
   const CostClock cost;
   for (long step = 0; step <= run.steps; ++step) {
@@ -121,7 +128,8 @@ WaveRun run_particles(const WaveCase& one) {
     row.work = energy.work;
     row.kinetic = energy.kinetic;
     row.coherent = energy.coherent;
-    row.stored = energy.stored;
+    row.stored = energy.stored - at_rest;
+    row.dissipated = energy.dissipated;
     row.contacts = motion.touching();
     run.rows.push_back(row);
     progress.update(static_cast<double>(step) / static_cast<double>(run.steps),

@@ -29,14 +29,16 @@ void write_rows(const WaveRun& run, const WaveCase& one, const std::filesystem::
     columns.push_back(fmt::format("displacement_{}[m]", k + 1));
   for (std::size_t k = 0; k < one.windows.size(); ++k)
     columns.push_back(fmt::format("P22_{}[Pa]", k + 1));
-  for (const char* name : {"work[J]", "kinetic[J]", "coherent[J]", "stored[J]", "contacts[-]"})
+  for (const char* name :
+       {"work[J]", "kinetic[J]", "coherent[J]", "stored[J]", "dissipated[J]", "contacts[-]"})
     columns.emplace_back(name);
   CsvWriter csv(path, columns);
   for (const WaveRow& row : run.rows) {
     std::vector<double> values{row.time, row.end};
     values.insert(values.end(), row.displacement.begin(), row.displacement.end());
     values.insert(values.end(), row.stress.begin(), row.stress.end());
-    for (const double value : {row.work, row.kinetic, row.coherent, row.stored, row.contacts})
+    for (const double value :
+         {row.work, row.kinetic, row.coherent, row.stored, row.dissipated, row.contacts})
       values.push_back(value);
     csv.row(values);
   }

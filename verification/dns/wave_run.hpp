@@ -19,14 +19,16 @@ struct WaveRow {
   double work = 0;                   // done by the right end [J]
   double kinetic = 0;                // [J]
   double coherent = 0;               // of it, in the mean motion of cross-sections [J]
-  double stored = 0;                 // in contacts [J]
-  double contacts = 0;               // that touch; of meshes the mean of a point
+  double stored = 0;                 // in contacts, more than at the start [J]
+  double dissipated = 0;  // by friction, broken bonds, damping; of meshes all but stored [J]
+  double contacts = 0;    // that touch; of meshes the mean of a point
 };
 
 struct WaveRun {
   std::string name;  // "dns" or the number of elements
   std::size_t particles = 0, points = 0;
   long steps = 0;
+  long cuts = 0;         // time steps that points refused
   double time_step = 0;  // [s]
   double cpu = 0;        // of all threads [s]
   double wall = 0;       // [s]
@@ -41,6 +43,7 @@ struct WaveDomain {
   double length = 0, height = 0, thickness = 0;  // [m]
   double density = 0;                            // [kg/m3]
   double volume = 0;                             // of a representative volume [m3]
+  std::size_t particles = 0;                     // in one
 };
 WaveDomain wave_domain(const WaveCase& one);
 

@@ -36,6 +36,8 @@ WaveCase read_case(SceneTable table, const std::string& name) {
   one.rows = static_cast<std::size_t>(table.integer_or("rows", 400, 1));
   one.sections = table.numbers(
       "sections", length_of(table, "sections", "distances from the right end [m]"), not_negative);
+  one.agitation_damping = table.number_or("agitation_damping", 0, not_negative);
+  one.threads = table.integer_or("threads", 0, 0);
   SceneTable pulse = table.table("pulse");
   one.pulse.amplitude = pulse.number("amplitude", positive);
   one.pulse.period = pulse.number("period", positive);

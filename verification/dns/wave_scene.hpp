@@ -30,7 +30,9 @@ struct WaveCase {
   std::vector<double> sections;  // where displacements are taken, from the right end [m]
   std::vector<std::array<double, 2>> windows;  // of the stress on the top, from the right end [m]
   std::vector<int> divisions;                  // of the meshes along x
-  double mesh_time_step = 0;                   // of the finest; others by their element size [s]
+  double mesh_time_step = 0;     // of the finest; others in proportion to their elements [s]
+  double agitation_damping = 0;  // see WaveMotion [1/s]
+  int threads = 0;               // of the meshes; 0: all processors
 };
 
 struct WaveScene {
