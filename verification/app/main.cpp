@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   verification::add_solve_command(app);
   verification::add_pack_command(app);
   verification::add_study_command(app);
+  verification::add_wave_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
