@@ -53,7 +53,7 @@ class Run {
       : scene_(read_fe_scene(file)),
         identity_(identity(file, scene_.model.mesh)),
         file_(file.path),
-        every_(options.checkpoint_every.value_or(scene_.checkpoint_every)),
+        every_(options.checkpoint_every.value_or(scene_.output.checkpoint_every)),
         directory_(options.directory),
         stem_(output_stem(options.directory, scene_.name)),
         checkpoint_(stem_.string() + ".checkpoint"),

@@ -12,15 +12,20 @@ namespace {
 
 const std::vector<std::string_view> edges{"left", "right", "bottom", "top"};
 
-Mesh read_mesh(SceneTable table) {
+ElementKind read_element_kind(SceneTable& table) {
+  const std::string name = table.choice_or("element", "q4", {"q4", "q4r", "q8", "t3"});
+  for (const auto kind : {ElementKind::q4r, ElementKind::q8, ElementKind::t3})
+    if (name == element_type(kind).name) return kind;
+  return ElementKind::q4;
+}
+
+Mesh read_mesh(SceneTable& table) {
   constexpr Range counts{1, 1e4, false, "an integer >= 1"};
   const std::vector<double> size = table.numbers("size", 2, positive);
   const std::vector<double> divisions = table.numbers("divisions", 2, counts);
   for (const double value : divisions)
     if (value != std::floor(value)) table.fail("divisions", fmt::format("{}", value), counts.text);
-  const ElementKind kind =
-      table.choice_or("element", "q4", {"q4", "t3"}) == "t3" ? ElementKind::t3 : ElementKind::q4;
-  table.close();
+  const ElementKind kind = read_element_kind(table);
   return rectangle_mesh({size[0], size[1]},
                         {static_cast<int>(divisions[0]), static_cast<int>(divisions[1])}, kind);
 }
@@ -60,11 +65,13 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
   scene.threads = table.integer_or("threads", 0, 0);
   scene.steps = table.integer("steps", 1);
   scene.abscissa = table.choice_or("abscissa", axial_abscissa, {axial_abscissa, shear_abscissa});
-  scene.checkpoint_every = table.integer_or("checkpoint_every", 0, 0);
-  scene.vtk_every = table.integer_or("vtk_every", 0, 0);
 
   Model& model = scene.model;
-  model.mesh = read_mesh(table.table("mesh"));
+  SceneTable mesh = table.table("mesh");
+  model.mesh = read_mesh(mesh);
+  model.hourglass = mesh.number_or("hourglass", model.hourglass, not_negative);
+  mesh.close();
+  scene.output = read_output(table, model.mesh, scene.steps);
   for (SceneTable& entry : table.tables("displacement")) {
     PrescribedDisplacement condition;
     const std::string edge = read_edge(entry);
@@ -85,7 +92,15 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
     pressure.value = read_program(entry, scene.duration, Rise::none);
     pressure.follows = entry.choice_or("kind", "follower", {"follower", "dead"}) == "follower";
     entry.close();
-    model.pressures.push_back(pressure);
+    model.loads.pressures.push_back(pressure);
+  }
+  for (SceneTable& entry : table.tables("traction")) {
+    Traction traction;
+    traction.sides = model.mesh.side_sets[read_edge(entry)];
+    traction.component = read_component(entry);
+    traction.value = read_program(entry, scene.duration, Rise::from_zero);
+    entry.close();
+    model.loads.tractions.push_back(traction);
   }
   table.close();
   return scene;

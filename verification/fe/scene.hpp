@@ -3,6 +3,7 @@
 
 #include "app/material.hpp"
 #include "app/scene.hpp"
+#include "fe/output/output_options.hpp"
 #include "fe/solver/newton.hpp"
 
 #include <string>
@@ -18,8 +19,7 @@ struct FiniteElementScene {
   double duration = 1;  // of the run; seconds in dynamic ones
   int steps = 1;
   std::string abscissa;
-  int checkpoint_every = 0;  // load steps; 0: only when the run is interrupted
-  int vtk_every = 0;  // particles of the first integration point, every so many steps
+  OutputOptions output;
 };
 
 // Throws InputError that names file, line, key and what was expected.

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <numeric>
-#include <utility>
 
 namespace verification {
 
@@ -67,29 +66,6 @@ Dofs number_dofs(std::size_t nodes, const std::vector<PrescribedDisplacement>& d
     dofs.unknown[d] = number;
   }
   return dofs;
-}
-
-void add_pressure(const Pressure& pressure, double value, const Mesh& mesh,
-                  const Eigen::VectorXd& displacement, Eigen::VectorXd& force,
-                  Triplets* stiffness) {
-  for (const auto& [first, second] : pressure.sides) {
-    const auto position = [&](int node) -> Eigen::Vector2d {
-      const Eigen::Vector2d& reference = mesh.nodes[static_cast<std::size_t>(node)];
-      if (!pressure.follows) return reference;
-      return reference + displacement.segment<2>(2 * node);
-    };
-    const Eigen::Vector2d side = position(second) - position(first);
-    // Outward normal times length is (side_y, -side_x); half of -p n L goes to either node.
-    const Eigen::Vector2d half(-0.5 * value * side.y(), 0.5 * value * side.x());
-    for (const int node : {first, second}) {
-      force.segment<2>(2 * node) += half;
-      if (!pressure.follows || stiffness == nullptr) continue;
-      for (const auto& [end, sign] : {std::pair{second, 1.0}, std::pair{first, -1.0}}) {
-        stiffness->emplace_back(2 * node, 2 * end + 1, sign * 0.5 * value);
-        stiffness->emplace_back(2 * node + 1, 2 * end, -sign * 0.5 * value);
-      }
-    }
-  }
 }
 
 }  // namespace verification

@@ -1,12 +1,11 @@
-// Boundary conditions of a finite element model: prescribed and tied displacements, pressure.
+// Conditions on the displacements of a finite element model: prescribed and tied components.
 #pragma once
 
 #include "fe/conditions/program.hpp"
-#include "fe/mesh/mesh.hpp"
 
-#include <Eigen/Sparse>
+#include <Eigen/Dense>
 
-#include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -45,20 +44,5 @@ struct Tie {
 // Throws InputError for a component that is tied twice, or tied and prescribed.
 Dofs number_dofs(std::size_t nodes, const std::vector<PrescribedDisplacement>& displacements,
                  const std::vector<Tie>& ties);
-
-// Pressure on sides: as Cauchy pressure it stays normal to the deformed
-// sides and acts on their length; as a dead load it keeps the force it has on the undeformed ones.
-struct Pressure {
-  std::vector<std::array<int, 2>> sides;  // the element on the left
-  Program value;                          // [Pa]
-  bool follows = true;
-};
-
-using Triplets = std::vector<Eigen::Triplet<double>>;
-
-// Adds the nodal forces of the pressure of this value [N/m]. With `stiffness`, also minus their
-// derivative with respect to the displacements (the load stiffness), exact for straight sides.
-void add_pressure(const Pressure& pressure, double value, const Mesh& mesh,
-                  const Eigen::VectorXd& displacement, Eigen::VectorXd& force, Triplets* stiffness);
 
 }  // namespace verification

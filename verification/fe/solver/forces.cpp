@@ -4,8 +4,7 @@ namespace verification {
 
 void add_external_force(const Model& model, double time, const Eigen::VectorXd& displacement,
                         Eigen::VectorXd& force, Triplets* stiffness) {
-  for (const Pressure& pressure : model.pressures)
-    add_pressure(pressure, pressure.value.at(time), model.mesh, displacement, force, stiffness);
+  add_loads(model.loads, time, model.mesh, displacement, force, stiffness);
 }
 
 void report_supports(const Model& model, double time, const Eigen::VectorXd& imbalance,

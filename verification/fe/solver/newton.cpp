@@ -68,7 +68,7 @@ class NewtonSolver final : public Solver {
         options_(options),
         threads_(threads),
         dofs_(number_dofs(model.mesh.nodes.size(), model.displacements, model.ties)),
-        points_(model.mesh, material),
+        points_(model.mesh, material, model.hourglass),
         displacement_(
             Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * model.mesh.nodes.size()))) {
     if (dofs_.unknowns == 0) throw InputError("every displacement is prescribed: nothing to solve");
