@@ -190,4 +190,12 @@ void Sensitivity::carry(const Increment& increment) {
   carried_ = true;
 }
 
+void Sensitivity::carry_free(const Increment& increment, double share) {
+  carried_force_.clear();
+  carried_moment_.clear();
+  carried_motion_.assign(increment.node_unknowns(), Quad{});
+  carried_change_ = change_at(share, *increment.problem->space, {});
+  carried_ = true;
+}
+
 }  // namespace grainlaw

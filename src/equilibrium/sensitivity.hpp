@@ -33,6 +33,8 @@ class Sensitivity {
   // Keep what the next sub-increment's history depends on; call before
   // Increment::advance_history().
   void carry(const Increment& increment);
+  // The same where no contact carries: particles followed F, to a share of the way.
+  void carry_free(const Increment& increment, double share);
 
   // Of a contact that touches.
   using Changes = ContactChange;

@@ -97,11 +97,11 @@ double mean_overlap(const Material& material) {
     sum += given_overlap(material.packing, pair) / r;
     ++number;
   }
-  return sum > 0 ? sum / number : ContactLaw{}.typical_overlap;
+  constexpr double rounding = 1e-12;
+  return sum > rounding * number ? sum / number : ContactLaw{}.typical_overlap;
 }
 
-double least_force_scale(const Material& material) {
-  if (!material.law.bonds()) return 0;
+double unloaded_force_scale(const Material& material) {
   const double r = mean_radius(material.packing);
   return 1e-3 * r * material.law.stiffness(r, r);
 }
