@@ -10,7 +10,7 @@
 namespace verification {
 namespace {
 
-const std::vector<std::string_view> edges{"left", "right", "bottom", "top"};
+const std::vector<std::string_view> edges{"left", "right", "bottom", "top", "bottom_left", "bottom_right", "top_left", "top_right"};
 
 ElementKind read_element_kind(SceneTable& table) {
   const std::string name = table.choice_or("element", "q4", {"q4", "q4r", "q8", "t3"});

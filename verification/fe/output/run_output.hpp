@@ -38,6 +38,7 @@ class RunOutput {
   CsvWriter& newton_;
   CsvWriter& forces_;
   std::vector<CsvWriter*> points_;
+  std::vector<CsvWriter*> every_point_;
   VtkSeries series_;
 };
 

@@ -18,6 +18,7 @@ constexpr double usual_cut = 0.5;
 // An attempt with an exact tangent ends when this many iterations in a row have not halved the
 // residual: after the peak P(F) has jumps, and Newton then goes to and fro across one.
 constexpr int patience = 4;
+constexpr int jump_patience = 2;  // at a residual that may stay
 
 // Residual and stiffness of all displacement components at one displacement and one load.
 struct System {
@@ -189,9 +190,10 @@ class NewtonSolver final : public Solver {
         best = residuals.back();
         best_iteration = iteration;
       }
-      const bool stalled = iteration >= best_iteration + patience &&
+      const bool near = residuals.back() <= options_.jump_tolerance;
+      const bool stalled = iteration >= best_iteration + (near ? jump_patience : patience) &&
                            options_.tangent == GRAINLAW_WANT_TANGENT_EXACT;
-      at_jump = residuals.back() > tolerance && residuals.back() <= options_.jump_tolerance &&
+      at_jump = near && residuals.back() > tolerance &&
                 (stalled || iteration + 1 == options_.max_iterations);
       if (residuals.back() <= tolerance || at_jump) {
         displacement_ = displacement;
