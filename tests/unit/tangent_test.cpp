@@ -29,7 +29,7 @@ TEST(tangent, of_the_reference_packing_matches_central_differences) {
 TEST(tangent, through_sub_increments_matches_central_differences) {
   for (const auto boundary : {BoundaryType::periodic_cell, BoundaryType::frame_p}) {
     MaterialDescription description = describe(small_packing(), rough_law(), boundary);
-    description.solver.increment_limit = 0.06;
+    description.solver.increment_limit = 0.05;
     State state(make_material(description));
     EXPECT_GE(evaluate(state, paths[0].next).report.subincrements, 3);
     expect_derivative_along(description);

@@ -2,6 +2,7 @@
 
 #include "app/history.hpp"
 #include "fe/conditions/program_scene.hpp"
+#include "fe/output/probe_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -40,20 +41,6 @@ int read_component(SceneTable& table) {
   return table.choice_or("component", component, {"x", "y"}) == "x" ? 0 : 1;
 }
 
-NewtonOptions read_newton(SceneTable table) {
-  NewtonOptions options;
-  options.tangent =
-      tangent_bit(table.choice_or("tangent", "exact", {"exact", "elastic", "perturbed"}));
-  options.tolerance = table.number_or("tolerance", options.tolerance, positive);
-  options.max_cuts = table.integer_or("max_cuts", options.max_cuts, 0);
-  options.loose_tolerance = table.number_or("loose_tolerance", 0, not_negative);
-  options.jump_tolerance = table.number_or("jump_tolerance", 0, not_negative);
-  options.largest_correction = table.number_or("largest_correction", 0, not_negative);
-  options.max_iterations = table.integer_or("max_iterations", options.max_iterations, 1);
-  table.close();
-  return options;
-}
-
 }  // namespace
 
 FiniteElementScene read_fe_scene(const SceneFile& file) {
@@ -61,7 +48,8 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
   FiniteElementScene scene;
   scene.name = table.text_or("name", file.path.stem().string());
   scene.material = read_material_source(table);
-  if (table.has("newton")) scene.newton = read_newton(table.table("newton"));
+  scene.solver = read_solver(table);
+  const double duration = scene.solver.duration();
   scene.threads = table.integer_or("threads", 0, 0);
   scene.steps = table.integer("steps", 1);
   scene.abscissa = table.choice_or("abscissa", axial_abscissa, {axial_abscissa, shear_abscissa});
@@ -78,10 +66,12 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
     condition.nodes = model.mesh.node_sets[edge];
     condition.component = read_component(entry);
     condition.name = edge + (condition.component == 0 ? "_x" : "_y");
-    condition.value = read_program(entry, scene.duration, Rise::from_zero);
+    condition.value = read_program(entry, duration, Rise::from_zero);
     entry.close();
     model.displacements.push_back(condition);
   }
+  for (SceneTable& entry : table.tables("probe"))
+    scene.probes.push_back(read_probe(entry, model.mesh));
   for (SceneTable& entry : table.tables("tie")) {
     model.ties.push_back({model.mesh.node_sets[read_edge(entry)], read_component(entry)});
     entry.close();
@@ -89,7 +79,7 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
   for (SceneTable& entry : table.tables("pressure")) {
     Pressure pressure;
     pressure.sides = model.mesh.side_sets[read_edge(entry)];
-    pressure.value = read_program(entry, scene.duration, Rise::none);
+    pressure.value = read_program(entry, duration, Rise::none);
     pressure.follows = entry.choice_or("kind", "follower", {"follower", "dead"}) == "follower";
     entry.close();
     model.loads.pressures.push_back(pressure);
@@ -98,16 +88,12 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
     Traction traction;
     traction.sides = model.mesh.side_sets[read_edge(entry)];
     traction.component = read_component(entry);
-    traction.value = read_program(entry, scene.duration, Rise::from_zero);
+    traction.value = read_program(entry, duration, Rise::from_zero);
     entry.close();
     model.loads.tractions.push_back(traction);
   }
   table.close();
   return scene;
-}
-
-std::unique_ptr<Solver> make_solver(const FiniteElementScene& scene, const Material& material) {
-  return make_newton_solver(scene.model, material, scene.newton, scene.threads);
 }
 
 }  // namespace verification

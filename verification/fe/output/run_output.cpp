@@ -2,6 +2,7 @@
 
 #include "app/history.hpp"
 #include "app/snapshot.hpp"
+#include "fe/output/energy.hpp"
 #include "fe/output/mesh_picture.hpp"
 
 #include <fmt/format.h>
@@ -46,6 +47,9 @@ RunOutput::RunOutput(const FiniteElementScene& scene, RunTables tables, const So
       columns.push_back(fmt::format("point{}[{}]", p, field(name).unit));
     every_point_.push_back(&tables_.open(fmt::format("_every_{}.csv", name), columns));
   }
+  if (scene.solver.kind == SolverKind::dynamics)
+    energies_ = &tables_.open("_energy.csv", energy_columns());
+  if (!scene.probes.empty()) probes_ = &tables_.open("_probes.csv", probe_columns(scene.probes));
 }
 
 void RunOutput::add(const LoadStep& step) {
@@ -59,6 +63,8 @@ void RunOutput::add(const LoadStep& step) {
     forces.push_back(step.reactions[k]);
   }
   forces_.row(forces);
+  if (energies_ != nullptr) energies_->row(energy_values(step));
+  if (probes_ != nullptr) probes_->row(probe_values(scene_.probes, step, solver_.displacement()));
   const OutputOptions& output = scene_.output;
   for (std::size_t k = 0; k < points_.size(); ++k) add_point(output.points[k], step, *points_[k]);
   for (std::size_t k = 0; k < every_point_.size(); ++k) {
@@ -121,6 +127,8 @@ std::string RunOutput::written() const {
   const OutputOptions& output = scene_.output;
   std::string text =
       fmt::format("{}.csv, _newton.csv, _force.csv, .svg, .png", tables_.stem().string());
+  if (energies_ != nullptr) text += ", _energy.csv";
+  if (probes_ != nullptr) text += ", _probes.csv";
   if (!output.points.empty()) text += ", _pointN.csv";
   if (!output.every_point.empty()) text += ", _every_FIELD.csv";
   if (output.vtk_every > 0) text += ", _mesh.pvd, _points.pvd";

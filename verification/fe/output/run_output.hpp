@@ -37,6 +37,8 @@ class RunOutput {
   CsvWriter& history_;
   CsvWriter& newton_;
   CsvWriter& forces_;
+  CsvWriter* energies_ = nullptr;  // of dynamic runs
+  CsvWriter* probes_ = nullptr;    // of scenes with probes
   std::vector<CsvWriter*> points_;
   std::vector<CsvWriter*> every_point_;
   VtkSeries series_;
