@@ -18,6 +18,8 @@ struct Model {
   Mesh mesh;
   std::vector<PrescribedDisplacement> displacements;
   std::vector<Tie> ties;
+  std::vector<Periodic> periodics;
+  std::vector<Resultant> resultants;
   Loads loads;
   double hourglass = 0.05;  // of the modulus at the start; elements with one point only [-]
   double thickness = 1;     // out of plane; forces are per metre of it [m]

@@ -2,6 +2,7 @@
 
 #include "app/history.hpp"
 #include "app/snapshot.hpp"
+#include "fe/conditions/monitors.hpp"
 #include "fe/output/energy.hpp"
 #include "fe/output/mesh_picture.hpp"
 
@@ -15,9 +16,9 @@ namespace {
 
 std::vector<std::string> force_columns(const Model& model) {
   std::vector<std::string> names{"step[-]"};
-  for (const PrescribedDisplacement& condition : model.displacements) {
-    names.push_back(condition.name + "_displacement[m]");
-    names.push_back(condition.name + "_force[N/m]");
+  for (const Monitor& monitor : make_monitors(model)) {
+    names.push_back(monitor.name + "_displacement[m]");
+    names.push_back(monitor.name + "_force[N/m]");
   }
   return names;
 }

@@ -1,5 +1,6 @@
 #include "fe/solver/newton.hpp"
 
+#include "fe/conditions/dofs.hpp"
 #include "fe/solver/forces.hpp"
 
 #include <fmt/format.h>
@@ -68,7 +69,7 @@ class NewtonSolver final : public Solver {
       : model_(model),
         options_(options),
         threads_(threads),
-        dofs_(number_dofs(model.mesh.nodes.size(), model.displacements, model.ties)),
+        dofs_(number_dofs(model)),
         points_(model.mesh, material, model.hourglass),
         displacement_(
             Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * model.mesh.nodes.size()))) {
@@ -124,7 +125,7 @@ class NewtonSolver final : public Solver {
     step.record.effort.iterations = iterations;
     step.record.effort.cuts = cuts;
     step.record.effort.loose = loose_parts;
-    report_supports(model_, to, system_.residual, step);
+    report_supports(model_, to, displacement_, system_.residual, step);
     return step;
   }
 
