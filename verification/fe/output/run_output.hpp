@@ -44,6 +44,7 @@ class RunOutput {
   CsvWriter* energies_ = nullptr;  // of dynamic runs
   CsvWriter* probes_ = nullptr;    // of scenes with probes
   std::vector<CsvWriter*> points_;
+  std::vector<CsvWriter*> every_point_;
   VtkSeries series_;
 };
 
