@@ -90,8 +90,8 @@ typedef struct grainlaw_state grainlaw_state;
  * message (may be NULL) gets a zero-terminated text that names file, line, key and expectation when
  * something is wrong, truncated to message_size bytes; it is set to "" on success.
  * Errors: NULL_POINTER, FILE_ERROR, BAD_MATERIAL, BAD_PACKING, NOT_CONVERGED (no equilibrium at
- * F = I, or under the prescribed stresses), CONTACTS_LOST, COLLAPSED, OUT_OF_MEMORY. On any error
- * *out is NULL. */
+ * F = I, or under the prescribed stresses), CONTACTS_LOST (unless solver.contacts_lost =
+ * "stress_free"), COLLAPSED, OUT_OF_MEMORY. On any error *out is NULL. */
 GRAINLAW_API grainlaw_status grainlaw_material_load(const char* path, grainlaw_material** out,
                                                     char* message, size_t message_size);
 
@@ -158,7 +158,10 @@ GRAINLAW_API grainlaw_report grainlaw_report_default(void);
  * BAD_HANDLE, NOT_FINITE, BAD_REPORT, BAD_ARGUMENT, OUT_OF_MEMORY; recoverable: NOT_CONVERGED,
  * CONTACTS_LOST, INVERTED, STEP_TOO_LARGE, COLLAPSED (a boundary under uniform stress: next to no
  * force is left, or a particle of it has no contact). On any of them P and A are untouched and the
- * committed state keeps its bits. Where stress components are prescribed (boundary "mixed") the
+ * committed state keeps its bits. With solver.contacts_lost = "stress_free" F at which no contact
+ * carries is no error: P and A are zero, tangent_exact is 1, contacts 0, the message says so, and the
+ * state may be committed; particles go where F carries them, and bear when they meet again. At F
+ * where they just touch A is one of two derivatives, that of the free side. Where stress components are prescribed (boundary "mixed") the
  * components of F that belong to them are ignored and found instead (measure
  * DEFORMATION_GRADIENT), P returns the prescribed ones to the tolerance, and A has zero rows and
  * columns there.

@@ -96,14 +96,14 @@ Packing make_regular(const GeneratorOptions& options, const ContactLaw& law) {
   const double radius = options.radius_max;
   const double diameter = 2 * radius;
   const bool square = options.kind == GeneratorKind::square;
-  double overlap = options.overlap;
-  if (!(overlap > 0)) {
+  double overlap = options.overlap.value_or(0);
+  if (!options.overlap) {
     check(options, law, radius);
     overlap = lattice_overlap(law, radius, options.pressure * options.thickness,
                               square ? 1 : std::numbers::sqrt3);
   }
-  if (!(overlap < most_overlap * diameter))
-    wrong("overlap", overlap, fmt::format("a length > 0 and below {} m", most_overlap * diameter));
+  if (!(overlap >= 0 && overlap < most_overlap * diameter))
+    wrong("overlap", overlap, fmt::format("a length >= 0 and below {} m", most_overlap * diameter));
   const double distance = diameter - overlap;
   Packing packing = square ? square_lattice(options.columns, options.rows, radius, distance)
                            : hexagonal_lattice(options.columns, options.rows, radius, distance);

@@ -25,7 +25,7 @@ struct Bond {
   double tangential_strength = 0;  // [N]
   double bending_strength = 0;     // [N m], 0 when bonds do not bend
   double bending_stiffness = 0;    // [N m / rad]
-  double gap = 0;                  // discs nearer than this at F = I are bonded [m]
+  double gap = 0;                  // discs that touch or are nearer at F = I are bonded [m]
 };
 
 struct ContactLaw {

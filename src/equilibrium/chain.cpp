@@ -25,14 +25,27 @@ std::array<double, 4> between(const std::array<double, 9>& a, const std::array<d
   return f;
 }
 
+bool may_be_free(const Request& request) {
+  return request.options->contacts_lost == ContactsLost::stress_free;
+}
+
+// Without contacts there is no force to be balanced.
+bool is_free(const Request& request, Increment& increment) {
+  if (!may_be_free(request)) return false;
+  increment.refresh_masses();
+  increment.update_forces();
+  return increment.touching == 0;
+}
+
 // Pi = |strain increment| kn / (p t), what makes an increment hard.
 double hardness(const Request& request) {
   const auto& f0 = request.from->deformation;
   const auto& packing = *request.problem->packing;
-  double strain = 0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    strain = std::max(strain, std::abs(request.deformation[k] - f0[k]));
-  }
+  std::array<double, 4> change{};
+  for (std::size_t k = 0; k < 4; ++k) change[k] = request.deformation[k] - f0[k];
+  // The largest singular value, which no rotation changes.
+  const double strain = 0.5 * (std::hypot(change[0] + change[3], change[1] - change[2]) +
+                               std::hypot(change[0] - change[3], change[1] + change[2]));
   const auto& p = request.from->stress;
   const double det = f0[0] * f0[3] - f0[1] * f0[2];
   const double trace = p[0] * f0[0] + p[1] * f0[1] + p[2] * f0[2] + p[3] * f0[3];
@@ -40,6 +53,10 @@ double hardness(const Request& request) {
   double radius = 0;
   for (const double r : packing.radius) radius += r / static_cast<double>(packing.size());
   double line = std::max(pressure * packing.thickness, request.problem->force_floor / radius);
+  // A free packing has no pressure to compare with: that at F = I serves.
+  if (may_be_free(request)) {
+    line = std::max(line, request.problem->force_floor / (relative_floor * radius));
+  }
   // Bonds hold each other in place until they break.
   if (request.problem->law->bonds()) {
     line = std::max(line, request.problem->law->bond.normal_strength / radius);
@@ -68,23 +85,27 @@ bool solve_part(const Request& request, Workspace& w) {
   constexpr double worth_newton = 0.5;  // a looser target is sooner reached by relaxation alone
   auto& increment = w.increment;
   increment.refresh_masses();
-  // Where rounding is all that is left, there is no equilibrium to speak of.
-  constexpr double loosest = 1e-3;
-  const double target =
-      std::max(request.tolerance, std::min(increment.rounding_residual(), loosest));
+  // Where rounding is all that is left, there is no equilibrium to speak of. Forces may fade on the
+  // way to it.
+  const auto reachable = [&] {
+    constexpr double loosest = 1e-3;
+    return std::max(request.tolerance, std::min(increment.rounding_residual(), loosest));
+  };
+  double target = reachable();
   double hand_over = switch_tolerance(increment.nodes());
   if (target > worth_newton * hand_over) hand_over = target;
   for (int round = 0; round < rounds; ++round) {
     const double tolerance = std::max(hand_over, target);
     const long limit = (round < 5 ? 1 : 2) * relaxation_limit(increment.nodes());
     const bool relaxed = relax(increment, tolerance, limit, History::committed, w.relaxation);
-    if (increment.touching == 0 || increment.collapsed()) return false;
+    if (increment.touching == 0 || increment.collapsed()) return is_free(request, increment);
     if (relaxed && tolerance == target) return true;
     const int factorisations = round == 0 ? first_factorisations : most_factorisations;
     if (flow_newton(increment, target, factorisations, w.newton)) return true;
     hand_over *= round < 2 ? tighter : much_tighter;
+    target = reachable();
   }
-  return false;
+  return is_free(request, increment);
 }
 
 // Once at equilibrium, break the bonds that are beyond their strength and find the next one at the
@@ -114,12 +135,16 @@ bool solve_parts(const Request& request, int parts, Workspace& w, Outcome& outco
     if (!solve_part(request, w)) return false;
     double start = static_cast<double>(k - 1) / parts;
     const auto find_sensitivities = [&] {
-      if (outcome.sensitivities) {
-        outcome.sensitivities = w.sensitivity.solve(increment, share, start, w.newton.stiffness);
-      }
+      if (!outcome.sensitivities || (may_be_free(request) && !increment.bears())) return;
+      outcome.sensitivities = w.sensitivity.solve(increment, share, start, w.newton.stiffness);
     };
     const auto carry = [&] {
-      if (outcome.sensitivities) w.sensitivity.carry(increment);
+      if (!outcome.sensitivities) return;
+      if (may_be_free(request) && !increment.bears()) {
+        w.sensitivity.carry_free(increment, share);
+      } else {
+        w.sensitivity.carry(increment);
+      }
     };
     find_sensitivities();
     const bool settled = settle_bonds(increment, carry, [&] {
@@ -155,10 +180,11 @@ bool solve_advancing(const Request& request, Method method, Workspace& w, Outcom
     return relax(increment, request.tolerance, 50 * relaxation_limit(increment.nodes()),
                  History::advancing, w.relaxation);
   };
-  const bool done = equilibrium() && settle_bonds(
-                                         increment, [] {}, equilibrium);
-  outcome.sensitivities =
-      done && request.sensitivities && w.sensitivity.solve(increment, 1, 0, w.newton.stiffness);
+  const auto settled = [&] { return equilibrium() || is_free(request, increment); };
+  const bool done = settled() && settle_bonds(
+                                     increment, [] {}, settled);
+  outcome.sensitivities = done && request.sensitivities && increment.bears() &&
+                          w.sensitivity.solve(increment, 1, 0, w.newton.stiffness);
   return done;
 }
 

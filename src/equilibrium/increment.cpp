@@ -292,6 +292,22 @@ bool Increment::bears() const {
   return false;
 }
 
+bool Increment::follows_deformation() const {
+  constexpr double rounding = 1e-12;  // of 2 R
+  const auto n = particles();
+  const auto g = product(deformation, inverse(start_deformation).data());
+  const auto moved = [&](std::size_t p) {
+    const double x = g[0] * start[p] + g[1] * start[n + p];
+    const double y = g[2] * start[p] + g[3] * start[n + p];
+    return std::hypot(coordinates[p] - x, coordinates[n + p] - y) > rounding * mean_branch_;
+  };
+  for (std::size_t p = 0; p < n; ++p) {
+    if (moved(p)) return false;
+  }
+  return std::all_of(coordinates.begin() + static_cast<std::ptrdiff_t>(2 * n), coordinates.end(),
+                     [](double turned) { return turned == 0; });
+}
+
 void Increment::refresh_masses() {
   load_records();
   sum_masses();

@@ -75,6 +75,9 @@ class Increment {
   // Whether any contact counts.
   [[nodiscard]] bool bears() const;
 
+  // Whether every particle is where F carried it from the start of the history.
+  [[nodiscard]] bool follows_deformation() const;
+
   // Put contacts, coordinates and dissipation into `to`, rotations added to those of `from`.
   void export_to(const Configuration& from, Configuration& to) const;
 

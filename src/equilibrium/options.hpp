@@ -9,6 +9,9 @@ enum class Start { committed, trial };
 // published: local damping, physical masses, history advanced at every step (the papers' method).
 enum class Method { chain, advancing, published };
 
+// What an F is at which no contact carries: stress_free makes it an equilibrium with P = 0.
+enum class ContactsLost { error, stress_free };
+
 struct PublishedOptions {
   double damping = 0.7;          // alpha = beta of Liu et al. (2017) eq. 10 [-]
   double time_step_ratio = 0.3;  // of the critical step min sqrt(m / kn) [-]
@@ -21,6 +24,7 @@ struct SolverOptions {
   Start start = Start::committed;
   Method method = Method::chain;
   double increment_limit = 1;  // Pi above which an increment is split [-]
+  ContactsLost contacts_lost = ContactsLost::error;
   PublishedOptions published;
 };
 

@@ -95,7 +95,7 @@ void Sensitivity::start_of_history(const Increment& increment, double start_shar
 
 bool Sensitivity::springs_start_determined(const Increment& increment,
                                            std::span<const TouchingContact> touching) {
-  if (!increment.problem->law->tangential()) return true;
+  if (affine_ || !increment.problem->law->tangential()) return true;
   const auto& node = increment.problem->space->node;
   resize_with_room(held_, increment.nodes());
   std::fill(held_.begin(), held_.end(), 0);
@@ -188,6 +188,16 @@ void Sensitivity::carry(const Increment& increment) {
   carried_motion_ = motion_;
   carried_change_ = change_;
   carried_ = true;
+  affine_ = false;
+}
+
+void Sensitivity::carry_free(const Increment& increment, double share) {
+  carried_force_.clear();
+  carried_moment_.clear();
+  carried_motion_.assign(increment.node_unknowns(), Quad{});
+  carried_change_ = change_at(share, *increment.problem->space, {});
+  carried_ = true;
+  affine_ = affine_ && increment.follows_deformation();
 }
 
 }  // namespace grainlaw

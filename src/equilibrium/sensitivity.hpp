@@ -19,7 +19,7 @@ class Sensitivity {
  public:
   void reset() {
     carried_ = false;
-    determined_ = true;
+    determined_ = affine_ = true;
   }
 
   // Solve K dz = dr/dF at a converged sub-increment that ends at `share` and began at
@@ -33,6 +33,8 @@ class Sensitivity {
   // Keep what the next sub-increment's history depends on; call before
   // Increment::advance_history().
   void carry(const Increment& increment);
+  // The same where no contact carries: particles followed F, to a share of the way.
+  void carry_free(const Increment& increment, double share);
 
   // Of a contact that touches.
   using Changes = ContactChange;
@@ -65,6 +67,7 @@ class Sensitivity {
   std::vector<std::int32_t> place_;   // of a listed contact among them, -1 when open
   bool carried_ = false;
   bool determined_ = true;
+  bool affine_ = true;  // all particles followed F up to the start of the history
   std::vector<Quad> carried_motion_;            // at the start of the history
   std::vector<Quad> carried_force_;             // per contact of increment.history
   std::vector<Quad> start_turn_, start_force_;  // per listed contact

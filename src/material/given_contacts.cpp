@@ -55,7 +55,8 @@ void add_bonds_and_moments(const Material& material, Configuration& given) {
   std::map<Key, std::pair<ContactHistory, Extra>> contacts;
   for (const auto& c : given.contacts) contacts[{c.i, c.j, c.shift}].first = c;
   if (law.bonds() && !named) {
-    for (const auto& pair : near_pairs(material, law.bond.gap)) {
+    constexpr double touch = 1e-9;  // of the radius: discs that rounding holds apart touch too
+    for (const auto& pair : near_pairs(material, std::max(law.bond.gap, touch * mean_radius(packing)))) {
       auto& [contact, extra] = contacts[{pair.i, pair.j, pair.shift}];
       contact.i = pair.i;
       contact.j = pair.j;
@@ -97,11 +98,11 @@ double mean_overlap(const Material& material) {
     sum += given_overlap(material.packing, pair) / r;
     ++number;
   }
-  return sum > 0 ? sum / number : ContactLaw{}.typical_overlap;
+  constexpr double rounding = 1e-12;
+  return sum > rounding * number ? sum / number : ContactLaw{}.typical_overlap;
 }
 
-double least_force_scale(const Material& material) {
-  if (!material.law.bonds()) return 0;
+double unloaded_force_scale(const Material& material) {
   const double r = mean_radius(material.packing);
   return 1e-3 * r * material.law.stiffness(r, r);
 }

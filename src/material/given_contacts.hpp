@@ -10,11 +10,12 @@ namespace grainlaw {
 // moments. given: contacts of the packing in the order of neighbours.
 void add_bonds_and_moments(const Material& material, Configuration& given);
 
-// Mean overlap of the touching discs over their common radius; 1e-3 when none touch [-].
+// Mean overlap of the touching discs over their common radius; 1e-3 when none touch by more than
+// rounding [-].
 double mean_overlap(const Material& material);
 
-// A mean normal force below which residuals are not relative to it: of laws that bear without any,
-// kn times a thousandth of the mean radius; else 0 [N].
-double least_force_scale(const Material& material);
+// What residuals are relative to where there is no force at F = I to compare with: kn times a
+// thousandth of the mean radius [N].
+double unloaded_force_scale(const Material& material);
 
 }  // namespace grainlaw

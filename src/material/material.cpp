@@ -163,7 +163,9 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
   check_given_forces(*material);
 
   if (material->law.hertzian()) material->law.typical_overlap = mean_overlap(*material);
-  const double least_force = least_force_scale(*material);
+  const double unloaded_force = unloaded_force_scale(*material);
+  const double least_force = material->law.bonds() ? unloaded_force : 0;
+  const bool may_be_free = material->solver.contacts_lost == ContactsLost::stress_free;
   // The servo and the published relaxation start from the same equilibrium as everything else.
   constexpr double tightest_needed = 1e-8;
   BoundarySpace direct = material->space;
@@ -173,20 +175,22 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
   SolverOptions options = material->solver;
   options.method = Method::chain;
   const double tolerance = std::min(options.tolerance, tightest_needed);
-  Problem problem{&material->packing, &material->law, &direct, 1e-3 * least_force, tolerance};
+  Problem problem{&material->packing, &material->law, &direct,
+                  relative_floor * (may_be_free ? unloaded_force : least_force), tolerance};
   const Configuration given = given_configuration(*material);
   Request request{&problem, &options, &given, {1, 0, 0, 1}};
   request.tolerance = tolerance;
   Workspace workspace;
   if (direct.averages()) {
     problem.force_floor =
-        std::max(problem.force_floor, 1e-3 * force_as_given(problem, given, workspace));
+        std::max(problem.force_floor, relative_floor * force_as_given(problem, given, workspace));
   }
   const auto outcome = solve(request, workspace);
-  if (outcome.status == GRAINLAW_CONTACTS_LOST ||
-      (outcome.status == GRAINLAW_OK && !workspace.increment.bears())) {
+  const bool free = outcome.status == GRAINLAW_OK && !workspace.increment.bears();
+  if (outcome.status == GRAINLAW_CONTACTS_LOST || (free && !may_be_free)) {
     throw Error(GRAINLAW_CONTACTS_LOST,
-                "the packing has no contacts at F = I; expected one that carries stress");
+                "the packing has no contacts at F = I; expected one that carries stress, or "
+                "solver.contacts_lost = \"stress_free\"");
   }
   if (outcome.status == GRAINLAW_COLLAPSED) {
     throw Error(outcome.status,
@@ -201,14 +205,15 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
                             workspace.increment.residual_norm(),
                             workspace.increment.relaxation_steps, request.tolerance));
   }
-  const auto stress = piola_stress(workspace.increment);
+  const auto stress = free ? std::array<double, 4>{} : piola_stress(workspace.increment);
   workspace.increment.advance_history();
   workspace.increment.export_to(given, material->initial);
   std::copy_n(stress.begin(), 4, material->initial.stress.begin());
   material->initial.dissipated = 0;
-  material->initial_mean_force = std::max(workspace.increment.mean_force, least_force);
+  material->initial_mean_force =
+      free ? unloaded_force : std::max(workspace.increment.mean_force, least_force);
   if (material->space.finds_deformation) {
-    problem.force_floor = 1e-3 * material->initial_mean_force;
+    problem.force_floor = relative_floor * material->initial_mean_force;
     load_to_stress(material->space, request, workspace, material->initial);
     material->initial_mean_force = std::max(workspace.increment.mean_force, least_force);
   }

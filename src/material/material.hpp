@@ -21,13 +21,12 @@ struct Material {
   BoundarySpace space;
   SolverOptions solver;
   Configuration initial;          // equilibrium at F = I
-  double initial_mean_force = 0;  // mean normal contact force there [N]
+  double initial_mean_force = 0;  // mean normal contact force there, or what takes its place [N]
   std::uint64_t fingerprint = 0;  // tells saved states of different materials apart
 
-  // What the solvers see of it. Residuals are never relative to less than 1e-3 of the force at F =
-  // I, so that a packing without stress does not pass as converged.
+  // What the solvers see of it.
   [[nodiscard]] Problem problem() const {
-    return {&packing, &law, &space, 1e-3 * initial_mean_force, solver.tolerance};
+    return {&packing, &law, &space, relative_floor * initial_mean_force, solver.tolerance};
   }
 };
 

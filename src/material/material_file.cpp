@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -16,6 +17,13 @@
 
 namespace grainlaw {
 namespace {
+
+bool prescribes_stress(const BoundaryOptions& boundary) {
+  const auto given = [](const auto& component) { return component.has_value(); };
+  const auto uniform = [](const Side& s) { return s.x == SideRule::t || s.y == SideRule::t; };
+  return std::ranges::any_of(boundary.stress, given) ||
+         std::ranges::any_of(sides_of(boundary), uniform);
+}
 
 PublishedOptions read_published(TomlTable table) {
   PublishedOptions published;
@@ -28,8 +36,8 @@ PublishedOptions read_published(TomlTable table) {
 }
 
 // The servo is a published algorithm around the published relaxation, and works with no other.
-SolverOptions read_solver(TomlTable table, BoundaryMethod boundary_method) {
-  const bool servo = boundary_method == BoundaryMethod::servo;
+SolverOptions read_solver(TomlTable table, const BoundaryOptions& boundary) {
+  const bool servo = boundary.method == BoundaryMethod::servo;
   SolverOptions solver;
   table.optional("tolerance", number_between(1e-14, 1e-1), solver.tolerance);
   table.optional("start", one_of<Start>({{"committed", Start::committed}, {"trial", Start::trial}}),
@@ -43,6 +51,13 @@ SolverOptions read_solver(TomlTable table, BoundaryMethod boundary_method) {
   if (servo && solver.method != Method::published)
     table.fail("method", "another method", "\"published\" because boundary.method is \"servo\"");
   table.optional("increment_limit", number_above(0), solver.increment_limit);
+  table.optional("contacts_lost",
+                 one_of<ContactsLost>({{"error", ContactsLost::error},
+                                       {"stress_free", ContactsLost::stress_free}}),
+                 solver.contacts_lost);
+  if (solver.contacts_lost == ContactsLost::stress_free && prescribes_stress(boundary))
+    table.fail("contacts_lost", "\"stress_free\" with a boundary under a stress",
+               "\"error\": without contacts nothing carries what \"T\" or boundary.stress asks for");
   solver.published = read_published(table.optional_table("published"));
   table.finish();
   return solver;
@@ -73,7 +88,7 @@ MaterialDescription read_description(TomlTable& top, const std::filesystem::path
   TomlTable packing = top.required_table("packing");
   description.law = read_contact(top.required_table("contact"));
   description.boundary = read_boundary(top.optional_table("boundary"));
-  description.solver = read_solver(top.optional_table("solver"), description.boundary.method);
+  description.solver = read_solver(top.optional_table("solver"), description.boundary);
   top.finish();
 
   packing.require_either("particles", "generator");

@@ -15,7 +15,7 @@ void read_regular(TomlTable& table, GeneratorOptions& generator) {
   table.required("radius", number_above(0), generator.radius_max);
   table.require_either("pressure", "overlap");
   table.optional("pressure", number_above(0), generator.pressure);
-  table.optional("overlap", number_above_up_to(0, 0.5 * generator.radius_max), generator.overlap);
+  generator.overlap = table.optional("overlap", number_between(0, 0.5 * generator.radius_max));
   table.optional("radius_spread", number_between(0, 0.1), generator.radius_spread);
   if (generator.radius_spread > 0) table.required("seed", integer_between(0), generator.seed);
 }

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -38,7 +39,7 @@ struct GeneratorOptions {
   // Regular packings: discs in a row and rows of the periodic cell, all of radius_max.
   std::size_t columns = 0;
   std::size_t rows = 0;
-  double overlap = 0;  // of neighbours, instead of the pressure [m]
+  std::optional<double> overlap;  // of neighbours, instead of the pressure; 0: they touch [m]
   // Radii are drawn from (1 +- this) radius_max by the seed: a perfect lattice stays one under any
   // F, since the affine image is in equilibrium whether or not it is stable [-].
   double radius_spread = 0;

@@ -108,7 +108,7 @@ grainlaw_status perturb(Request request, Workspace& w, std::array<double, 16>& t
     request.deformation[component] += step;
     const auto outcome = solve(request, w);
     add_cost(w.increment, report);
-    p = piola_stress(w.increment);
+    p = w.increment.bears() ? piola_stress(w.increment) : std::array<double, 4>{};
     return outcome.status;
   };
   std::array<double, 4> p0{};
@@ -123,6 +123,20 @@ grainlaw_status perturb(Request request, Workspace& w, std::array<double, 16>& t
     }
   }
   return GRAINLAW_OK;
+}
+
+// Exact or elastic; zero for the other kinds.
+std::array<double, 16> tangent_of(const Workspace& w, const Outcome& outcome, TangentKind kind,
+                                  grainlaw_report& report) {
+  if (kind == TangentKind::exact && outcome.sensitivities) {
+    report.tangent_exact = !outcome.history_advanced && w.sensitivity.determined() ? 1 : 0;
+    return condensed_tangent(w.increment, w.sensitivity);
+  }
+  if (kind != TangentKind::exact && kind != TangentKind::elastic) return {};
+  if (kind == TangentKind::exact) {
+    describe(report, "the stiffness is singular; the elastic tangent was returned");
+  }
+  return elastic_tangent(w.increment);
 }
 
 }  // namespace
@@ -193,21 +207,22 @@ grainlaw_status State::evaluate(const double* given, TangentKind kind, double* P
     return outcome.status;
   }
 
-  if (!w.increment.bears()) {
+  const bool free = !w.increment.bears();
+  if (free && material.solver.contacts_lost == ContactsLost::error) {
     report.step_ratio = 0.5;
     describe(report, grainlaw_status_text(GRAINLAW_CONTACTS_LOST));
     return GRAINLAW_CONTACTS_LOST;
   }
-  const auto stress = piola_stress(w.increment);
+  std::array<double, 4> stress{};
   std::array<double, 16> tangent{};
-  if (kind == TangentKind::exact && outcome.sensitivities) {
-    tangent = condensed_tangent(w.increment, w.sensitivity);
-    report.tangent_exact = !outcome.history_advanced && w.sensitivity.determined() ? 1 : 0;
-  } else if (kind == TangentKind::exact || kind == TangentKind::elastic) {
-    tangent = elastic_tangent(w.increment);
-    if (kind == TangentKind::exact) {
-      describe(report, "the stiffness is singular; the elastic tangent was returned");
-    }
+  if (free) {
+    // And stays so: no tangent either.
+    report.residual = 0;
+    report.tangent_exact = kind == TangentKind::exact ? 1 : 0;
+    describe(report, "no contact carries a force: the packing is free of stress");
+  } else {
+    stress = piola_stress(w.increment);
+    tangent = tangent_of(w, outcome, kind, report);
   }
 
   w.increment.advance_history();

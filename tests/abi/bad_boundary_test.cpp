@@ -141,6 +141,19 @@ TEST(bad_boundary, stress_that_no_state_carries_is_told) {
               "boundary.stress: no state of the packing carries P22 = 1e+09 Pa");
 }
 
+TEST(bad_boundary, stress_on_a_packing_that_may_be_free_of_it_is_told) {
+  const std::string free = "[solver]\ncontacts_lost = \"stress_free\"\n";
+  const std::string expected = "expected \"error\": without contacts nothing carries";
+  const auto told = [&](const std::string& text, int line) {
+    expect_told(text + free, frame, GRAINLAW_BAD_MATERIAL,
+                "material.toml:" + std::to_string(line) + ": solver.contacts_lost");
+    expect_told(text + free, frame, GRAINLAW_BAD_MATERIAL, expected);
+  };
+  told(header + "type = \"frame-t\"\n", 13);
+  told(sides(d, d, t, d), 17);
+  told(sides(p, p, d, d) + "stress = {P22 = -1e3}\n", 18);
+}
+
 TEST(bad_boundary, failed_increment_keeps_the_state) {
   const TemporaryDirectory directory;
   write_text(directory / "particles.csv", frame);

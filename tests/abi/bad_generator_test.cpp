@@ -75,7 +75,7 @@ TEST(bad_generator, keys_of_lattices_are_checked) {
        "a number > 0");
   told(square(lattice), "3: packing.pressure", "either pressure or overlap");
   told(square(lattice + "pressure = 1e4\noverlap = 1e-5\n"), "9: packing.overlap", "found both");
-  told(square(lattice + "overlap = 1e-3\n"), "8: packing.overlap", "<= 0.0005");
+  told(square(lattice + "overlap = 1e-3\n"), "8: packing.overlap", "from 0 to 0.0005");
   told(square(lattice + "pressure = 1e4\nseed = 1\n"), "9: packing.seed", "found an unknown key");
   told(square(lattice + "pressure = 1e4\nvoid_ratio = 1\n"), "9: packing.void_ratio",
        "found an unknown key");

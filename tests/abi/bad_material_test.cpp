@@ -134,6 +134,8 @@ TEST(bad_material, any_mistake_is_told_with_file_line_key_and_expectation) {
       {15, "start = \"last\"", 15, "solver.start", "one of \"committed\", \"trial\""},
       {15, "method = \"newton\"", 15, "solver.method",
        "one of \"chain\", \"advancing\", \"published\""},
+      {15, "contacts_lost = \"free\"", 15, "solver.contacts_lost", "\"error\", \"stress_free\""},
+      {15, "contacts_lost = true", 15, "solver.contacts_lost", "one of \"error\""},
       {15, "increment_limit = 0", 15, "solver.increment_limit", "a number > 0"},
       {15, "tol = 1e-6", 15, "solver.tol", "found an unknown key, expected one of tolerance"},
       {15, "published.damping = 0", 15, "solver.published.damping", "> 0 and <= 1"},

@@ -65,6 +65,39 @@ TEST(state, clone_has_the_trial_and_is_independent) {
   EXPECT_TRUE(same_bits(stress(clone, further), stress(state, further)));
 }
 
+TEST(state, without_contacts_is_kept_where_the_material_takes_it_as_free_of_stress) {
+  std::string text = read_text(material_path);
+  text += "[solver]\ncontacts_lost = \"stress_free\"\n";
+  const Material made = Material::parse(text.c_str(), data_directory.c_str());
+  State state(made);
+  const Tensor wide{1.1, 0, 0, 1.1};
+  Tensor P{};
+  Tangent A{};
+  grainlaw_report report = grainlaw_report_default();
+  A.fill(1);
+  ASSERT_EQ(grainlaw_evaluate(state.get(), wide.data(), GRAINLAW_WANT_TANGENT_EXACT, P.data(),
+                              A.data(), &report),
+            GRAINLAW_OK);
+  EXPECT_EQ(P, Tensor{});
+  EXPECT_EQ(A, Tangent{});
+  EXPECT_EQ(report.contacts, 0);
+  EXPECT_NE(std::string(report.message).find("free of stress"), std::string::npos);
+  state.commit();
+  const auto saved = state.save();
+  State other(made);
+  stress(other, compressed);
+  ASSERT_EQ(grainlaw_state_load(other.get(), saved.data(), saved.size()), GRAINLAW_OK);
+  EXPECT_EQ(other.measure(GRAINLAW_CONTACTS)[0], 0);
+  EXPECT_TRUE(same_bits(stress(other, compressed), stress(state, compressed)));
+  EXPECT_LT(stress(other, compressed)[3], 0);
+  const TemporaryDirectory directory;
+  state.revert();
+  EXPECT_EQ(grainlaw_state_write_vtk(state.get(), (directory / "free.vtp").string().c_str()),
+            GRAINLAW_OK);
+  EXPECT_EQ(grainlaw_state_write_packing(state.get(), (directory / "free_").string().c_str()),
+            GRAINLAW_OK);
+}
+
 TEST(state, outlives_the_handle_of_its_material) {
   grainlaw_material* handle = nullptr;
   ASSERT_EQ(grainlaw_material_load(material_path.c_str(), &handle, nullptr, 0), GRAINLAW_OK);

@@ -85,7 +85,7 @@ TEST(regular, stress_at_rest_is_the_pressure_wanted) {
   for (const GeneratorKind kind : {GeneratorKind::square, GeneratorKind::hexagonal})
     for (const double pressure : {1e2, 1e4, 1e6}) {
       GeneratorOptions options = published(kind, 4, 4);
-      options.overlap = 0;
+      options.overlap.reset();
       options.pressure = pressure;
       const auto material =
           make_material(test::describe(consolidate(options, soft_law()), soft_law()));
@@ -107,8 +107,9 @@ TEST(regular, refuses_what_cannot_be) {
   refused([](auto& o) { o.rows = 3; });
   refused([](auto& o) { o.radius_max = -1; });
   refused([](auto& o) { o.overlap = 1e-3; });
-  refused([](auto& o) { o.overlap = 0, o.pressure = 1e8; });
-  refused([](auto& o) { o.overlap = 0, o.pressure = NAN; });
+  refused([](auto& o) { o.overlap = -1e-9; });
+  refused([](auto& o) { o.overlap.reset(), o.pressure = 1e8; });
+  refused([](auto& o) { o.overlap.reset(), o.pressure = NAN; });
 }
 
 }  // namespace

@@ -70,6 +70,15 @@ void write_atomically(const std::filesystem::path& path, std::string_view bytes)
   if (directory.valid()) directory.sync();
 }
 
+void write_file(const std::filesystem::path& path, std::string_view bytes) {
+  Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
+  if (!file.valid()) fail(path, errno);
+  int error = file.write(bytes);
+  const int closing = file.close();
+  if (error == 0) error = closing;
+  if (error != 0) fail(path, error);
+}
+
 void sync_file(const std::filesystem::path& path) {
   Descriptor file(path, O_RDONLY);
   if (!file.valid()) fail(path, errno);

@@ -49,9 +49,10 @@ bool CheckpointReader::plausible(std::int64_t rows, std::int64_t columns) const 
 }
 
 void CheckpointReader::fail() const {
-  throw InputError(fmt::format(
-      "{}: does not hold what this run needs; it was written by another version, or for another run",
-      path_.string()));
+  throw InputError(
+      fmt::format("{}: does not hold what this run needs; it was written by another version, or "
+                  "for another run",
+                  path_.string()));
 }
 
 void write_checkpoint(const std::filesystem::path& path, const CheckpointWriter& content) {
@@ -63,9 +64,10 @@ CheckpointReader read_checkpoint(const std::filesystem::path& path) {
   std::string bytes{std::istreambuf_iterator<char>(file), {}};
   if (!file) throw InputError(fmt::format("{}: cannot be read", path.string()));
   if (bytes.compare(0, magic.size(), magic) != 0)
-    throw InputError(fmt::format("{}: found something else, expected a checkpoint of this version "
-                                 "of grainlaw solve",
-                                 path.string()));
+    throw InputError(
+        fmt::format("{}: found something else, expected a checkpoint of this version "
+                    "of grainlaw solve",
+                    path.string()));
   const std::size_t start = magic.size() + sizeof(std::uint64_t);
   const std::string content = bytes.size() < start ? std::string() : bytes.substr(start);
   if (bytes.compare(0, start, header(content)) != 0)

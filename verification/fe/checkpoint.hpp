@@ -32,7 +32,8 @@ class CheckpointWriter {
   void write(const Eigen::PlainObjectBase<Derived>& values) {
     write(static_cast<std::int64_t>(values.rows()));
     write(static_cast<std::int64_t>(values.cols()));
-    append(values.data(), sizeof(typename Derived::Scalar) * static_cast<std::size_t>(values.size()));
+    append(values.data(),
+           sizeof(typename Derived::Scalar) * static_cast<std::size_t>(values.size()));
   }
   template <class T>
   void write(const std::vector<T>& values) {

@@ -21,9 +21,7 @@ struct Spent {
     return {static_cast<double>(std::clock()) / CLOCKS_PER_SEC,
             std::chrono::duration<double>(time).count()};
   }
-  Spent operator-(const Spent& other) const {
-    return {cpu - other.cpu, elapsed - other.elapsed};
-  }
+  Spent operator-(const Spent& other) const { return {cpu - other.cpu, elapsed - other.elapsed}; }
   Spent& operator+=(const Spent& other) {
     cpu += other.cpu;
     elapsed += other.elapsed;

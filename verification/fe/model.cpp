@@ -4,16 +4,28 @@
 
 namespace verification {
 
-PointField::PointField(const Mesh& mesh, const Material& material) {
-  for (const auto& element : mesh.elements) {
-    std::vector<Eigen::Vector2d> corners;
-    for (const int node : element) corners.push_back(mesh.nodes[static_cast<std::size_t>(node)]);
-    for (const QuadPoint& geometry : quad_points(corners)) {
+namespace {
+
+// Of uniaxial strain at F = I, mean of both directions [Pa].
+double initial_modulus(const Material& material) {
+  const State state = make_state(material);
+  const Evaluation start = evaluate(state.get(), Tensor::Identity(), GRAINLAW_WANT_TANGENT_EXACT);
+  check(start.status, "evaluating an integration point at F = I");
+  return 0.5 * (start.tangent(0, 0) + start.tangent(3, 3));
+}
+
+}  // namespace
+
+PointField::PointField(const Mesh& mesh, const Material& material, double hourglass) {
+  for (const auto& element : mesh.elements)
+    for (const QuadPoint& geometry : quad_points(mesh.kind, mesh.positions(element))) {
       points_.push_back({element, geometry, Tensor::Identity(), Tensor::Zero(), 0, {}});
       states_.push_back(make_state(material));
       handles_.push_back(states_.back().get());
     }
-  }
+  if (mesh.kind == ElementKind::q4r && hourglass > 0)
+    hourglass_ = Hourglass(mesh, hourglass, initial_modulus(material));
+  displacement_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * mesh.nodes.size()));
   const std::size_t n = points_.size();
   status_.resize(n);
   reports_.resize(n, grainlaw_report_default());
@@ -26,6 +38,7 @@ PointField::PointField(const Mesh& mesh, const Material& material) {
 grainlaw_status PointField::evaluate(const Eigen::VectorXd& displacement, unsigned want,
                                      int threads) {
   const auto measure = cost_.measure(Stage::points);
+  displacement_ = displacement;
   for (std::size_t p = 0; p < points_.size(); ++p) {
     deformation_[p].setIdentity();
     for (std::size_t a = 0; a < points_[p].nodes.size(); ++a)
@@ -57,23 +70,21 @@ std::string PointField::message() const {
 
 Eigen::VectorXd PointField::internal_force() const {
   const auto measure = cost_.measure(Stage::assembly);
-  int last = 0;
-  for (const Point& point : points_)
-    last = std::max(last, *std::max_element(point.nodes.begin(), point.nodes.end()));
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(2 * (last + 1));
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(displacement_.size());
   for (std::size_t p = 0; p < points_.size(); ++p)
     for (std::size_t a = 0; a < points_[p].nodes.size(); ++a) {
-      const auto& [gradient, weight] = points_[p].geometry;
+      const auto& [gradient, weight, shape] = points_[p].geometry;
       force.segment<2>(2 * points_[p].nodes[a]) +=
           weight * stress_[p] * gradient.row(static_cast<Eigen::Index>(a)).transpose();
     }
+  hourglass_.add_force(displacement_, force);
   return force;
 }
 
 void PointField::add_stiffness(Triplets& triplets) const {
   const auto measure = cost_.measure(Stage::assembly);
   for (std::size_t p = 0; p < points_.size(); ++p) {
-    const auto& [gradient, weight] = points_[p].geometry;
+    const auto& [gradient, weight, shape] = points_[p].geometry;
     // dN_a/dX_J A_iJkL dN_b/dX_L for every pair of nodes a, b and components i, k.
     for (int a = 0; a < gradient.rows(); ++a)
       for (int b = 0; b < gradient.rows(); ++b)
@@ -86,6 +97,7 @@ void PointField::add_stiffness(Triplets& triplets) const {
                                   weight * value);
           }
   }
+  hourglass_.add_stiffness(triplets);
 }
 
 void PointField::commit() {
@@ -117,6 +129,7 @@ void PointField::save(CheckpointWriter& out) const {
     out.write(points_[p].committed_stress);
     out.write(points_[p].work);
   }
+  out.write(displacement_);
   out.write(deformation_);
   out.write(stress_);
   out.write(tangent_);
@@ -136,6 +149,7 @@ void PointField::restore(CheckpointReader& in) {
     in.read(points_[p].work);
     points_[p].effort = {};
   }
+  in.read(displacement_);
   in.read(deformation_);
   in.read(stress_);
   in.read(tangent_);

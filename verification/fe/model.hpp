@@ -5,7 +5,10 @@
 #include "app/record.hpp"
 #include "fe/checkpoint.hpp"
 #include "fe/conditions/conditions.hpp"
+#include "fe/conditions/side_loads.hpp"
 #include "fe/cost.hpp"
+#include "fe/hourglass.hpp"
+#include "fe/mesh/mesh.hpp"
 
 #include <vector>
 
@@ -15,14 +18,18 @@ struct Model {
   Mesh mesh;
   std::vector<PrescribedDisplacement> displacements;
   std::vector<Tie> ties;
-  std::vector<Pressure> pressures;
-  double thickness = 1;  // out of plane; forces are per metre of it [m]
+  std::vector<Periodic> periodics;
+  std::vector<Resultant> resultants;
+  Loads loads;
+  double hourglass = 0.05;  // of the modulus at the start; elements with one point only [-]
+  double thickness = 1;     // out of plane; forces are per metre of it [m]
 };
 
 // The integration points of a model, numbered element by element.
 class PointField {
  public:
-  PointField(const Mesh& mesh, const Material& material);
+  // hourglass: Model::hourglass. Throws ComputationError when F = I cannot be evaluated.
+  PointField(const Mesh& mesh, const Material& material, double hourglass);
 
   // F at every point for these displacements, one batch call. When a point fails, its status.
   grainlaw_status evaluate(const Eigen::VectorXd& displacement, unsigned want, int threads);
@@ -49,6 +56,16 @@ class PointField {
   [[nodiscard]] std::size_t size() const { return points_.size(); }
   // Mean over the points of the last evaluation; the effort since the last call of this function.
   Record record();
+  [[nodiscard]] const std::vector<int>& nodes(std::size_t point) const {
+    return points_[point].nodes;
+  }
+  [[nodiscard]] const QuadPoint& geometry(std::size_t point) const {
+    return points_[point].geometry;
+  }
+  // Of the last evaluation.
+  [[nodiscard]] const Tensor& deformation(std::size_t point) const { return deformation_[point]; }
+  [[nodiscard]] const Tensor& stress(std::size_t point) const { return stress_[point]; }
+  [[nodiscard]] const grainlaw_report& report(std::size_t point) const { return reports_[point]; }
   [[nodiscard]] const grainlaw_state* state(std::size_t point) const {
     return states_[point].get();
   }
@@ -64,6 +81,8 @@ class PointField {
   };
 
   std::vector<Point> points_;
+  Hourglass hourglass_;
+  Eigen::VectorXd displacement_;  // of the last evaluation [m]
   std::vector<State> states_;
   std::vector<grainlaw_state*> handles_;
   std::vector<grainlaw_status> status_;

@@ -53,7 +53,7 @@ class Run {
       : scene_(read_fe_scene(file)),
         identity_(identity(file, scene_.model.mesh)),
         file_(file.path),
-        every_(options.checkpoint_every.value_or(scene_.checkpoint_every)),
+        every_(options.checkpoint_every.value_or(scene_.output.checkpoint_every)),
         directory_(options.directory),
         stem_(output_stem(options.directory, scene_.name)),
         checkpoint_(stem_.string() + ".checkpoint"),
@@ -67,7 +67,7 @@ class Run {
         throw InputError(checkpoint_.string() + ": was made with another mesh");
       in.read(done_);
       RunTables tables(stem_, in);
-      solver_ = make_solver(scene_, material);
+      solver_ = make_solver(scene_.solver, scene_.model, material, scene_.threads);
       solver_->restore(in);
       output_.emplace(scene_, std::move(tables), *solver_);
       output_->restore(in);
@@ -76,7 +76,7 @@ class Run {
       if (options.restart)
         fmt::print("{}: there is no {}, so this starts from the beginning\n", scene_.name,
                    checkpoint_.string());
-      solver_ = make_solver(scene_, material);
+      solver_ = make_solver(scene_.solver, scene_.model, material, scene_.threads);
       if (found) std::filesystem::remove(checkpoint_);  // its tables are about to be overwritten
       output_.emplace(scene_, RunTables(stem_), *solver_);
     }
@@ -86,7 +86,8 @@ class Run {
     const Interrupt interrupt;
     const auto observe = [&](const LoadStep& step, const Solver&) { after(step); };
     try {
-      run_load_steps(*solver_, scene_.duration, scene_.steps, scene_.steps, observe, done_ + 1);
+      run_load_steps(*solver_, scene_.solver.duration(), scene_.steps, scene_.steps, observe,
+                     done_ + 1);
     } catch (const ComputationError& error) {
       output_->finish();
       throw ComputationError(fmt::format("{}: {}", file_.string(), error.what()));
@@ -106,9 +107,10 @@ class Run {
       const int signal = last ? 0 : Interrupt::signal();
       if (signal != 0 || (every_ > 0 && (last || (done_ > 0 && done_ % every_ == 0)))) save();
       if (signal != 0) {
-        fmt::print("{}: ended after step {} of {} as asked; go on with\n  grainlaw solve {} "
-                   "--output {} --restart\n",
-                   scene_.name, done_, scene_.steps, file_.string(), directory_);
+        fmt::print(
+            "{}: ended after step {} of {} as asked; go on with\n  grainlaw solve {} "
+            "--output {} --restart\n",
+            scene_.name, done_, scene_.steps, file_.string(), directory_);
         throw Interrupted{signal};
       }
     }

@@ -1,96 +1,38 @@
 #include "fe/scene.hpp"
 
 #include "app/history.hpp"
-#include "fe/conditions/program_scene.hpp"
-
-#include <fmt/format.h>
-
-#include <cmath>
+#include "fe/conditions/conditions_scene.hpp"
+#include "fe/conditions/dofs.hpp"
+#include "fe/conditions/rigid_motion.hpp"
+#include "fe/mesh/mesh_scene.hpp"
+#include "fe/output/probe_scene.hpp"
 
 namespace verification {
-namespace {
-
-const std::vector<std::string_view> edges{"left", "right", "bottom", "top"};
-
-Mesh read_mesh(SceneTable table) {
-  constexpr Range counts{1, 1e4, false, "an integer >= 1"};
-  const std::vector<double> size = table.numbers("size", 2, positive);
-  const std::vector<double> divisions = table.numbers("divisions", 2, counts);
-  for (const double value : divisions)
-    if (value != std::floor(value)) table.fail("divisions", fmt::format("{}", value), counts.text);
-  const ElementKind kind =
-      table.choice_or("element", "q4", {"q4", "t3"}) == "t3" ? ElementKind::t3 : ElementKind::q4;
-  table.close();
-  return rectangle_mesh({size[0], size[1]},
-                        {static_cast<int>(divisions[0]), static_cast<int>(divisions[1])}, kind);
-}
-
-std::string read_edge(SceneTable& table) {
-  const std::string edge = table.text("on");
-  return table.choice_or("on", edge, edges);
-}
-
-int read_component(SceneTable& table) {
-  const std::string component = table.text("component");
-  return table.choice_or("component", component, {"x", "y"}) == "x" ? 0 : 1;
-}
-
-NewtonOptions read_newton(SceneTable table) {
-  NewtonOptions options;
-  options.tangent =
-      tangent_bit(table.choice_or("tangent", "exact", {"exact", "elastic", "perturbed"}));
-  options.tolerance = table.number_or("tolerance", options.tolerance, positive);
-  options.max_cuts = table.integer_or("max_cuts", options.max_cuts, 0);
-  options.loose_tolerance = table.number_or("loose_tolerance", 0, not_negative);
-  options.max_iterations = table.integer_or("max_iterations", options.max_iterations, 1);
-  table.close();
-  return options;
-}
-
-}  // namespace
 
 FiniteElementScene read_fe_scene(const SceneFile& file) {
   SceneTable table = file.root();
   FiniteElementScene scene;
   scene.name = table.text_or("name", file.path.stem().string());
   scene.material = read_material_source(table);
-  if (table.has("newton")) scene.newton = read_newton(table.table("newton"));
+  scene.solver = read_solver(table);
+  const double duration = scene.solver.duration();
   scene.threads = table.integer_or("threads", 0, 0);
   scene.steps = table.integer("steps", 1);
   scene.abscissa = table.choice_or("abscissa", axial_abscissa, {axial_abscissa, shear_abscissa});
-  scene.checkpoint_every = table.integer_or("checkpoint_every", 0, 0);
-  scene.vtk_every = table.integer_or("vtk_every", 0, 0);
 
   Model& model = scene.model;
-  model.mesh = read_mesh(table.table("mesh"));
-  for (SceneTable& entry : table.tables("displacement")) {
-    PrescribedDisplacement condition;
-    const std::string edge = read_edge(entry);
-    condition.nodes = model.mesh.node_sets[edge];
-    condition.component = read_component(entry);
-    condition.name = edge + (condition.component == 0 ? "_x" : "_y");
-    condition.value = read_program(entry, scene.duration, Rise::from_zero);
-    entry.close();
-    model.displacements.push_back(condition);
-  }
-  for (SceneTable& entry : table.tables("tie")) {
-    model.ties.push_back({model.mesh.node_sets[read_edge(entry)], read_component(entry)});
-    entry.close();
-  }
-  for (SceneTable& entry : table.tables("pressure")) {
-    Pressure pressure;
-    pressure.sides = model.mesh.side_sets[read_edge(entry)];
-    pressure.value = read_program(entry, scene.duration, Rise::none);
-    pressure.follows = entry.choice_or("kind", "follower", {"follower", "dead"}) == "follower";
-    entry.close();
-    model.pressures.push_back(pressure);
-  }
+  SceneTable mesh = table.table("mesh");
+  model.mesh = read_mesh(mesh);
+  model.hourglass = mesh.number_or("hourglass", model.hourglass, not_negative);
+  mesh.close();
+  scene.output = read_output(table, model.mesh, scene.steps);
+  for (SceneTable& entry : table.tables("probe"))
+    scene.probes.push_back(read_probe(entry, model.mesh));
+  read_conditions(table, duration, model);
+  number_dofs(model);  // conditions that contradict each other
+  if (scene.solver.kind != SolverKind::dynamics) check_held(model, file.path.string());
   table.close();
   return scene;
-}
-
-std::unique_ptr<Solver> make_solver(const FiniteElementScene& scene, const Material& material) {
-  return make_newton_solver(scene.model, material, scene.newton, scene.threads);
 }
 
 }  // namespace verification

@@ -3,9 +3,12 @@
 
 #include "app/material.hpp"
 #include "app/scene.hpp"
-#include "fe/solver/newton.hpp"
+#include "fe/output/output_options.hpp"
+#include "fe/output/probe.hpp"
+#include "fe/solver/solver_scene.hpp"
 
 #include <string>
+#include <vector>
 
 namespace verification {
 
@@ -13,19 +16,15 @@ struct FiniteElementScene {
   std::string name;
   MaterialSource material;
   Model model;
-  NewtonOptions newton;
-  int threads = 0;      // <= 0: as many as the library takes
-  double duration = 1;  // of the run; seconds in dynamic ones
+  SolverOptions solver;
+  int threads = 0;  // <= 0: as many as the library takes
   int steps = 1;
   std::string abscissa;
-  int checkpoint_every = 0;  // load steps; 0: only when the run is interrupted
-  int vtk_every = 0;  // particles of the first integration point, every so many steps
+  std::vector<DisplacementProbe> probes;
+  OutputOptions output;
 };
 
 // Throws InputError that names file, line, key and what was expected.
 FiniteElementScene read_fe_scene(const SceneFile& file);
-
-// The solver that the scene asks for. Errors as the solvers have them. The scene must outlive it.
-std::unique_ptr<Solver> make_solver(const FiniteElementScene& scene, const Material& material);
 
 }  // namespace verification

@@ -23,14 +23,14 @@ struct Run {
 
 Run solve_drained(FiniteElementScene scene, const std::string& tangent, int steps,
                   int max_iterations) {
-  scene.newton.tangent = tangent_bit(tangent);
-  scene.newton.max_iterations = max_iterations;
+  scene.solver.newton.tangent = tangent_bit(tangent);
+  scene.solver.newton.max_iterations = max_iterations;
   Run run;
   Progress progress(tangent + " tangent");
   const Material material = make_material(scene.material);
   try {
-    const auto solver = make_solver(scene, material);
-    run_load_steps(*solver, scene.duration, scene.steps, steps,
+    const auto solver = make_solver(scene.solver, scene.model, material, scene.threads);
+    run_load_steps(*solver, scene.solver.duration(), scene.steps, steps,
                    [&](const LoadStep& step, const Solver&) {
                      progress.update(static_cast<double>(step.record.step) / steps, "");
                      if (step.record.step == 0) return;
@@ -59,7 +59,7 @@ void run_study(const StudyOptions& options, int steps, int max_iterations) {
 
   Table table(fmt::format("single element, first {} load steps of 1/{} of the run, to a relative "
                           "residual of {:.0e} [-]",
-                          steps, scene.steps, scene.newton.tolerance),
+                          steps, scene.steps, scene.solver.newton.tolerance),
               {"tangent", "steps[-]", "iterations_median[-]", "iterations_max[-]",
                "share_at_most_5[-]", "evaluations_per_step[-]", "step_cuts[-]"});
   for (std::size_t k = 0; k < 2; ++k) {

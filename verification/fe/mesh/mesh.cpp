@@ -1,77 +1,71 @@
 #include "fe/mesh/mesh.hpp"
 
-#include <cmath>
-
 namespace verification {
+
+std::vector<Eigen::Vector2d> Mesh::positions(const std::vector<int>& element) const {
+  std::vector<Eigen::Vector2d> result;
+  for (const int node : element) result.push_back(nodes[static_cast<std::size_t>(node)]);
+  return result;
+}
 
 Mesh rectangle_mesh(const std::array<double, 2>& size, const std::array<int, 2>& divisions,
                     ElementKind kind) {
-  const auto [columns, rows] = divisions;
+  const bool quadratic = kind == ElementKind::q8;
+  const int stride = quadratic ? 2 : 1;  // lines of nodes per cell
+  const int columns = stride * divisions[0];
+  const int rows = stride * divisions[1];
   Mesh mesh;
-  const auto node = [&](int i, int j) { return j * (columns + 1) + i; };
+  mesh.kind = kind;
+  // Number of the node at line i, j; the middles of serendipity cells have none.
+  std::vector<int> number(static_cast<std::size_t>((columns + 1) * (rows + 1)), -1);
+  const auto node = [&](int i, int j) -> int& {
+    return number[static_cast<std::size_t>(j * (columns + 1) + i)];
+  };
   for (int j = 0; j <= rows; ++j)
-    for (int i = 0; i <= columns; ++i)
+    for (int i = 0; i <= columns; ++i) {
+      if (quadratic && i % 2 == 1 && j % 2 == 1) continue;
+      node(i, j) = static_cast<int>(mesh.nodes.size());
       mesh.nodes.emplace_back(size[0] * i / columns, size[1] * j / rows);
-  for (int j = 0; j < rows; ++j)
-    for (int i = 0; i < columns; ++i) {
-      const int a = node(i, j), b = node(i + 1, j), c = node(i + 1, j + 1), d = node(i, j + 1);
-      if (kind == ElementKind::q4) {
-        mesh.elements.push_back({a, b, c, d});
-      } else {
+    }
+  for (int j = 0; j < rows; j += stride)
+    for (int i = 0; i < columns; i += stride) {
+      const int a = node(i, j), b = node(i + stride, j);
+      const int c = node(i + stride, j + stride), d = node(i, j + stride);
+      if (kind == ElementKind::t3) {
         mesh.elements.push_back({a, b, c});
         mesh.elements.push_back({a, c, d});
+      } else if (quadratic) {
+        mesh.elements.push_back(
+            {a, b, c, d, node(i + 1, j), node(i + 2, j + 1), node(i + 1, j + 2), node(i, j + 1)});
+      } else {
+        mesh.elements.push_back({a, b, c, d});
       }
     }
+  const auto side = [&](int first, int middle, int second) {
+    return quadratic ? Side{first, second, middle} : Side{first, second};
+  };
   for (int i = 0; i <= columns; ++i) {
     mesh.node_sets["bottom"].push_back(node(i, 0));
     mesh.node_sets["top"].push_back(node(i, rows));
-    if (i == columns) continue;
-    mesh.side_sets["bottom"].push_back({node(i, 0), node(i + 1, 0)});
-    mesh.side_sets["top"].push_back({node(i + 1, rows), node(i, rows)});
+    if (i % stride != 0 || i == columns) continue;
+    const int end = i + stride;
+    mesh.side_sets["bottom"].push_back(side(node(i, 0), node(i + 1, 0), node(end, 0)));
+    mesh.side_sets["top"].push_back(side(node(end, rows), node(i + 1, rows), node(i, rows)));
   }
   for (int j = 0; j <= rows; ++j) {
     mesh.node_sets["left"].push_back(node(0, j));
     mesh.node_sets["right"].push_back(node(columns, j));
-    if (j == rows) continue;
-    mesh.side_sets["left"].push_back({node(0, j + 1), node(0, j)});
-    mesh.side_sets["right"].push_back({node(columns, j), node(columns, j + 1)});
+    if (j % stride != 0 || j == rows) continue;
+    const int end = j + stride;
+    mesh.side_sets["left"].push_back(side(node(0, end), node(0, j + 1), node(0, j)));
+    mesh.side_sets["right"].push_back(
+        side(node(columns, j), node(columns, j + 1), node(columns, end)));
   }
+  mesh.node_sets["bottom_left"] = {node(0, 0)};
+  mesh.node_sets["bottom_right"] = {node(columns, 0)};
+  mesh.node_sets["top_right"] = {node(columns, rows)};
+  mesh.node_sets["top_left"] = {node(0, rows)};
   return mesh;
-}
-
-namespace {
-
-QuadPoint triangle_point(const std::vector<Eigen::Vector2d>& corners) {
-  Eigen::Matrix2d edges;
-  edges << corners[1] - corners[0], corners[2] - corners[0];
-  QuadPoint point;
-  point.gradient.resize(3, 2);
-  point.gradient.bottomRows<2>() = edges.inverse();
-  point.gradient.row(0) = -point.gradient.row(1) - point.gradient.row(2);
-  point.weight = 0.5 * edges.determinant();
-  return point;
-}
-
-}  // namespace
-
-std::vector<QuadPoint> quad_points(const std::vector<Eigen::Vector2d>& corners) {
-  if (corners.size() == 3) return {triangle_point(corners)};
-  constexpr std::array<std::array<double, 2>, 4> sign{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
-  std::vector<QuadPoint> points(4);
-  for (std::size_t q = 0; q < 4; ++q) {
-    const double xi = sign[q][0] / std::sqrt(3.0);
-    const double eta = sign[q][1] / std::sqrt(3.0);
-    Eigen::Matrix<double, 4, 2> local;                   // dN_a/dxi
-    Eigen::Matrix2d jacobian = Eigen::Matrix2d::Zero();  // dX/dxi
-    for (std::size_t a = 0; a < 4; ++a) {
-      const auto row = static_cast<Eigen::Index>(a);
-      local.row(row) << 0.25 * sign[a][0] * (1 + sign[a][1] * eta),
-          0.25 * sign[a][1] * (1 + sign[a][0] * xi);
-      jacobian += corners[a] * local.row(row);
-    }
-    points[q] = {local * jacobian.inverse(), jacobian.determinant()};
-  }
-  return points;
 }
 
 }  // namespace verification

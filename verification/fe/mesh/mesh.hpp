@@ -1,5 +1,7 @@
-// Meshes of four-node quadrilaterals or of three-node triangles.
+// Finite element meshes: nodes, elements of one kind, named sets.
 #pragma once
+
+#include "fe/mesh/element.hpp"
 
 #include <Eigen/Dense>
 
@@ -10,30 +12,25 @@
 
 namespace verification {
 
+// Nodes of an element side: its ends, the element on the left of the way from the first to the
+// second, then the node in its middle where the element has one.
+using Side = std::vector<int>;
+
 struct Mesh {
+  ElementKind kind = ElementKind::q4;
   std::vector<Eigen::Vector2d> nodes;      // reference positions [m]
-  std::vector<std::vector<int>> elements;  // corners, anticlockwise
+  std::vector<std::vector<int>> elements;  // in the order of ElementType
   std::map<std::string, std::vector<int>> node_sets;
-  // Element sides from the first node to the second, the element on the left.
-  std::map<std::string, std::vector<std::array<int, 2>>> side_sets;
+  std::map<std::string, std::vector<Side>> side_sets;
+
+  [[nodiscard]] std::vector<Eigen::Vector2d> positions(const std::vector<int>& element) const;
 };
 
-enum class ElementKind { q4, t3 };
-
-// size [m] and number of cells along x and y; sets "left", "right", "bottom", "top". A cell is one
-// quadrilateral, or two triangles on either side of its diagonal from bottom left to top right: the
-// one on the right first, as FreeFEM's `square` has them.
+// size [m] and number of cells along x and y. A cell is one quadrilateral, or two triangles on either
+// side of its diagonal from bottom left to top right: the one on the right first, as FreeFEM's
+// `square` has them. Sets: "left", "right", "bottom", "top", nodes by increasing coordinate; and the
+// corner nodes "bottom_left", "bottom_right", "top_right", "top_left".
 Mesh rectangle_mesh(const std::array<double, 2>& size, const std::array<int, 2>& divisions,
                     ElementKind kind);
-
-// A quadrature point of an element.
-struct QuadPoint {
-  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::ColMajor, 4, 2> gradient;  // dN_a/dX_J [1/m]
-  double weight;  // reference area it stands for [m2]
-};
-
-// The 2 x 2 Gauss points of a bilinear element with four corners, the one point of a linear element
-// with three.
-std::vector<QuadPoint> quad_points(const std::vector<Eigen::Vector2d>& corners);
 
 }  // namespace verification

@@ -1,19 +1,32 @@
 #include "fe/output/run_output.hpp"
 
 #include "app/history.hpp"
+#include "app/snapshot.hpp"
+#include "fe/conditions/monitors.hpp"
+#include "fe/output/energy.hpp"
+#include "fe/output/mesh_picture.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace verification {
 namespace {
 
 std::vector<std::string> force_columns(const Model& model) {
-  std::vector<std::string> columns{"step[-]"};
-  for (const PrescribedDisplacement& condition : model.displacements) {
-    columns.push_back(condition.name + "_displacement[m]");
-    columns.push_back(condition.name + "_force[N/m]");
+  std::vector<std::string> names{"step[-]"};
+  for (const Monitor& monitor : make_monitors(model)) {
+    names.push_back(monitor.name + "_displacement[m]");
+    names.push_back(monitor.name + "_force[N/m]");
   }
-  return columns;
+  return names;
+}
+
+std::vector<std::string> point_columns() {
+  std::vector<std::string> names{"step[-]", "time[-]", "x[m]", "y[m]"};
+  for (const Field& field : fields())
+    for (const std::string& name : columns(field)) names.push_back(name);
+  return names;
 }
 
 }  // namespace
@@ -23,9 +36,15 @@ RunOutput::RunOutput(const FiniteElementScene& scene, RunTables tables, const So
       solver_(solver),
       tables_(std::move(tables)),
       history_(tables_.open(".csv", record_columns())),
-      newton_(tables_.open("_newton.csv",
-                           {"step[-]", "iteration[-]", "relative_residual[-]"})),
-      forces_(tables_.open("_force.csv", force_columns(scene.model))) {}
+      newton_(tables_.open("_newton.csv", {"step[-]", "iteration[-]", "relative_residual[-]"})),
+      forces_(tables_.open("_force.csv", force_columns(scene.model))),
+      series_(scene.model, tables_.stem(), scene.output.packings) {
+  for (const std::size_t point : scene.output.points)
+    points_.push_back(&tables_.open(fmt::format("_point{}.csv", point), point_columns()));
+  if (scene.solver.kind == SolverKind::dynamics)
+    energies_ = &tables_.open("_energy.csv", energy_columns());
+  if (!scene.probes.empty()) probes_ = &tables_.open("_probes.csv", probe_columns(scene.probes));
+}
 
 void RunOutput::add(const LoadStep& step) {
   const int number = step.record.step;
@@ -38,12 +57,45 @@ void RunOutput::add(const LoadStep& step) {
     forces.push_back(step.reactions[k]);
   }
   forces_.row(forces);
-  if (scene_.vtk_every > 0 && number % scene_.vtk_every == 0)
-    write_vtk(solver_.points().state(0), tables_.stem(), number);
+  if (energies_ != nullptr) energies_->row(energy_values(step));
+  if (probes_ != nullptr) probes_->row(probe_values(scene_.probes, step, solver_.displacement()));
+  const OutputOptions& output = scene_.output;
+  for (std::size_t k = 0; k < points_.size(); ++k) add_point(output.points[k], step, *points_[k]);
+  if (output.vtk_every > 0 && number % output.vtk_every == 0) series_.add(step, solver_);
+  const std::vector<int>& drawn = output.pictures.steps;
+  if (std::find(drawn.begin(), drawn.end(), number) != drawn.end()) draw(step);
 }
 
-void RunOutput::save(CheckpointWriter&) const {}
-void RunOutput::restore(CheckpointReader&) {}
+void RunOutput::add_point(std::size_t point, const LoadStep& step, CsvWriter& table) const {
+  const PointField& points = solver_.points();
+  const Eigen::Vector2d place =
+      current_position(scene_.model.mesh, points, point, solver_.displacement());
+  std::vector<double> row{static_cast<double>(step.record.step), step.time, place.x(), place.y()};
+  for (const Field& field : fields()) {
+    std::array<double, 4> value{};
+    field.value(point_view(points, point), value.data());
+    row.insert(row.end(), value.begin(), value.begin() + field.components);
+  }
+  table.row(row);
+}
+
+void RunOutput::draw(const LoadStep& step) const {
+  const PointField& points = solver_.points();
+  const std::string stem = fmt::format("{}_{:04d}", tables_.stem().string(), step.record.step);
+  const std::string title = fmt::format("{}, step {}", scene_.name, step.record.step);
+  for (const std::string& name : scene_.output.pictures.fields)
+    draw_mesh({mesh_panel(scene_.model.mesh, points, solver_.displacement(), field(name))}, title,
+              stem + "_" + name);
+  std::vector<SnapshotPanel> packings;
+  const std::string scratch = stem + "_state";
+  for (const std::size_t point : scene_.output.pictures.packings)
+    packings.push_back(
+        {fmt::format("point {}", point), take_snapshot(points.state(point), scratch)});
+  if (packings.empty()) return;
+  draw_snapshots(packings, 0, title, stem + "_packings");
+  for (const char* end : {"_particles.csv", "_contacts.csv", "_cell.csv", ".vtp"})
+    std::filesystem::remove(scratch + end);
+}
 
 void RunOutput::finish() const {
   draw_history(read_csv(history_.path()), scene_.abscissa, scene_.name, tables_.stem());
@@ -52,7 +104,17 @@ void RunOutput::finish() const {
 std::string RunOutput::history() const { return history_summary(read_csv(history_.path())); }
 
 std::string RunOutput::written() const {
-  return fmt::format("{}.csv, _newton.csv, _force.csv, .svg, .png", tables_.stem().string());
+  const OutputOptions& output = scene_.output;
+  std::string text =
+      fmt::format("{}.csv, _newton.csv, _force.csv, .svg, .png", tables_.stem().string());
+  if (energies_ != nullptr) text += ", _energy.csv";
+  if (probes_ != nullptr) text += ", _probes.csv";
+  if (!output.points.empty()) text += ", _pointN.csv";
+  if (output.vtk_every > 0) text += ", _mesh.pvd, _points.pvd";
+  if (!output.packings.empty()) text += ", _packingN.pvd";
+  if (!output.pictures.fields.empty()) text += ", _STEP_FIELD.svg";
+  if (!output.pictures.packings.empty()) text += ", _STEP_packings.svg";
+  return text;
 }
 
 }  // namespace verification

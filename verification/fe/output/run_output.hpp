@@ -2,15 +2,17 @@
 #pragma once
 
 #include "fe/output/run_tables.hpp"
+#include "fe/output/vtk_series.hpp"
 #include "fe/scene.hpp"
 
 #include <string>
+#include <vector>
 
 namespace verification {
 
 class RunOutput {
  public:
-  // Opens the tables. The scene must outlive it. Errors as RunTables has them.
+  // Opens the tables. Scene and solver must outlive it. Errors as RunTables has them.
   RunOutput(const FiniteElementScene& scene, RunTables tables, const Solver& solver);
 
   void add(const LoadStep& step);
@@ -18,20 +20,27 @@ class RunOutput {
   void finish() const;
 
   void save_tables(CheckpointWriter& out) const { tables_.save(out); }
-  void save(CheckpointWriter& out) const;
-  void restore(CheckpointReader& in);
+  void save(CheckpointWriter& out) const { series_.save(out); }
+  void restore(CheckpointReader& in) { series_.restore(in); }
 
   // For the user: what the run took, and which files there are.
   [[nodiscard]] std::string history() const;
   [[nodiscard]] std::string written() const;
 
  private:
+  void add_point(std::size_t point, const LoadStep& step, CsvWriter& table) const;
+  void draw(const LoadStep& step) const;
+
   const FiniteElementScene& scene_;
   const Solver& solver_;
   RunTables tables_;
   CsvWriter& history_;
   CsvWriter& newton_;
   CsvWriter& forces_;
+  CsvWriter* energies_ = nullptr;  // of dynamic runs
+  CsvWriter* probes_ = nullptr;    // of scenes with probes
+  std::vector<CsvWriter*> points_;
+  VtkSeries series_;
 };
 
 }  // namespace verification

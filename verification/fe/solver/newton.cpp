@@ -1,5 +1,6 @@
 #include "fe/solver/newton.hpp"
 
+#include "fe/conditions/dofs.hpp"
 #include "fe/solver/forces.hpp"
 
 #include <fmt/format.h>
@@ -67,8 +68,8 @@ class NewtonSolver final : public Solver {
       : model_(model),
         options_(options),
         threads_(threads),
-        dofs_(number_dofs(model.mesh.nodes.size(), model.displacements, model.ties)),
-        points_(model.mesh, material),
+        dofs_(number_dofs(model)),
+        points_(model.mesh, material, model.hourglass),
         displacement_(
             Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * model.mesh.nodes.size()))) {
     if (dofs_.unknowns == 0) throw InputError("every displacement is prescribed: nothing to solve");
@@ -121,7 +122,7 @@ class NewtonSolver final : public Solver {
     step.record.effort.iterations = iterations;
     step.record.effort.cuts = cuts;
     step.record.effort.loose = loose_parts;
-    report_supports(model_, to, system_.residual, step);
+    report_supports(model_, to, displacement_, system_.residual, step);
     return step;
   }
 

@@ -6,8 +6,20 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace verification {
+
+// Energies of a dynamic run since its start, per metre of thickness [J/m]. Their balance, kinetic +
+// internal + damped - external, vanishes with the time step.
+struct Energies {
+  double kinetic = 0;
+  double internal = 0;  // work of the stresses, stored or dissipated by the packings
+  double external = 0;  // work of loads and supports
+  double damped = 0;    // work against the viscous damping
+
+  [[nodiscard]] double balance() const { return kinetic + internal + damped - external; }
+};
 
 // One solved load step. Residuals: of every attempt one after the other; entry 0 of an attempt is
 // the imbalance after the load increment, entry k the one after k corrections.
@@ -15,10 +27,10 @@ struct LoadStep {
   Record record;  // means over the integration points
   double time = 0;
   std::vector<double> residuals;
-  // Of every prescribed displacement: its value [m], and the force that holds it, summed over its
-  // nodes, per metre of thickness [N/m].
+  // Of every monitor of the model: how far it has moved [m], and the force on its nodes [N/m].
   std::vector<double> displacements;
   std::vector<double> reactions;
+  std::optional<Energies> energies;  // of dynamic runs
 };
 
 // A model on its way through a run: everything up to the committed time is done.

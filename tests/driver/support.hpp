@@ -1,0 +1,35 @@
+// A material that is cheap to evaluate, and what several tests of the driver need.
+#pragma once
+
+#include "app/material.hpp"
+#include "fe/mesh/mesh.hpp"
+
+#include <string>
+
+namespace verification {
+
+// Four discs in a hexagonal lattice at 100 kPa; discs that touch keep touching and sticking in small
+// deformations.
+inline Material lattice_material() {
+  MaterialSource source;
+  source.base = ".";
+  source.changes = toml::parse(R"(
+    dimension = 2
+    thickness = 0.1
+    packing = { generator = "hexagonal", columns = 2, rows = 2, radius = 5e-3, pressure = 1e5 }
+    contact = { law = "frictional", young = 6e8, ratio = 0.8, friction = 0.5463 }
+    boundary = { type = "periodic-cell" }
+    solver = { tolerance = 1e-12 }
+  )");
+  return make_material(source);
+}
+
+// The 400 discs of tests/data.
+inline Material packing_material() {
+  MaterialSource source;
+  source.file = std::string(GRAINLAW_TEST_DATA) + "/rve400.toml";
+  source.base = GRAINLAW_TEST_DATA;
+  return make_material(source);
+}
+
+}  // namespace verification

@@ -1,0 +1,39 @@
+// Stabilisation of quadrilaterals with one point (Flanagan & Belytschko 1981, stiffness form).
+#pragma once
+
+#include "fe/conditions/side_loads.hpp"
+#include "fe/mesh/mesh.hpp"
+
+#include <Eigen/Dense>
+
+#include <array>
+#include <vector>
+
+namespace verification {
+
+// One point does not feel the displacements u_a = h_a c, h = (1, -1, 1, -1). A spring resists them:
+// with q = sum_a gamma_a u_a, gamma orthogonal to every affine field, node a gets stiffness q gamma_a.
+// In the reference configuration this is linear, exact for affine fields, and turns with a rotation.
+class Hourglass {
+ public:
+  Hourglass() = default;
+  // Stiffness = coefficient * modulus * area * |dN/dX|^2, modulus [Pa] that of uniaxial strain.
+  // Nothing for a mesh of other elements.
+  Hourglass(const Mesh& mesh, double coefficient, double modulus);
+
+  void add_force(const Eigen::VectorXd& displacement, Eigen::VectorXd& force) const;  // [N/m]
+  void add_stiffness(Triplets& triplets) const;
+  // What the springs hold: 0 where the displacement is affine in every element [J/m].
+  [[nodiscard]] double energy(const Eigen::VectorXd& displacement) const;
+
+ private:
+  struct Spring {
+    std::vector<int> nodes;
+    std::array<double, 4> gamma;
+    double stiffness;  // [N/m2]
+    [[nodiscard]] Eigen::Vector2d stretch(const Eigen::VectorXd& displacement) const;
+  };
+  std::vector<Spring> springs_;
+};
+
+}  // namespace verification

@@ -1,0 +1,13 @@
+// Lumped masses of a mesh.
+#pragma once
+
+#include "fe/mesh/mesh.hpp"
+
+namespace verification {
+
+// Mass of every displacement component [kg/m], for a density in mass per reference volume [kg/m3]:
+// the mass of an element shared in the ratio of the integrals of its squared shape functions
+// (thesis eq. 4.17, papers/000 eq. 24).
+Eigen::VectorXd lumped_mass(const Mesh& mesh, double density);
+
+}  // namespace verification

@@ -1,0 +1,14 @@
+// Energies of a dynamic run as a table.
+#pragma once
+
+#include "fe/solver/solver.hpp"
+
+#include <string>
+#include <vector>
+
+namespace verification {
+
+std::vector<std::string> energy_columns();
+std::vector<double> energy_values(const LoadStep& step);  // of a step that has energies
+
+}  // namespace verification

@@ -1,0 +1,47 @@
+// Fields at the integration points: what is written for ParaView, drawn on the mesh, and followed in
+// tables.
+#pragma once
+
+#include "fe/model.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace verification {
+
+// An integration point after a load step.
+struct PointView {
+  const grainlaw_state* state;
+  const Tensor& deformation;  // F [-]
+  const Tensor& stress;       // P [Pa]
+  const grainlaw_report& report;
+};
+PointView point_view(const PointField& points, std::size_t point);
+
+// A quantity at a point: one value, or the components 11, 12, 21, 22 of a tensor.
+struct Field {
+  std::string_view name;
+  std::string_view unit;
+  std::string_view label;  // for pictures
+  int components;
+  void (*value)(const PointView& point, double* out);
+};
+
+// All there are. Tension is positive in stress and strain, compression in mean_stress. Strains, p and
+// q are those of Guo & Zhao (2014): eqs. 6, 7, 10, 12, 13.
+const std::vector<Field>& fields();
+// Throws InputError with the names there are.
+const Field& field(std::string_view name);
+// "name[unit]" of every component.
+std::vector<std::string> columns(const Field& field);
+
+// values[point * components + component] of all points.
+std::vector<double> values(const Field& field, const PointField& points);
+
+// Where a point is, in the reference and at these displacements [m].
+Eigen::Vector2d reference_position(const Mesh& mesh, const PointField& points, std::size_t point);
+Eigen::Vector2d current_position(const Mesh& mesh, const PointField& points, std::size_t point,
+                                 const Eigen::VectorXd& displacement);
+
+}  // namespace verification

@@ -1,0 +1,53 @@
+#include "fe/output/probe_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace verification {
+namespace {
+
+std::vector<int> nodes_on_line(SceneTable& table, std::string_view key, const Mesh& mesh) {
+  const int axis = key == "x" ? 0 : 1;
+  const double place = table.number(key);
+  double nearest = mesh.nodes.front()(axis), low = nearest, high = nearest;
+  for (const Eigen::Vector2d& node : mesh.nodes) {
+    low = std::min(low, node(axis));
+    high = std::max(high, node(axis));
+    if (std::abs(node(axis) - place) < std::abs(nearest - place)) nearest = node(axis);
+  }
+  const double tolerance = 1e-6 * (high - low);
+  if (std::abs(nearest - place) > tolerance)
+    table.fail(key, fmt::format("{} m, where no node lies", place),
+               fmt::format("a line of nodes, e.g. {} = {:.9g}", key, nearest));
+  std::vector<int> nodes;
+  for (std::size_t k = 0; k < mesh.nodes.size(); ++k)
+    if (std::abs(mesh.nodes[k](axis) - nearest) <= tolerance) nodes.push_back(static_cast<int>(k));
+  return nodes;
+}
+
+}  // namespace
+
+DisplacementProbe read_probe(SceneTable& table, const Mesh& mesh) {
+  DisplacementProbe probe;
+  probe.name = table.text("name");
+  std::string_view where;
+  for (const std::string_view key : {"on", "x", "y"}) {
+    if (!table.has(key)) continue;
+    if (!where.empty()) table.fail(key, fmt::format("{} too", where), "one of on, x, y");
+    where = key;
+  }
+  if (where.empty()) table.fail("on", "nothing", "one of on (a set of nodes), x, y [m]");
+  if (where == "on") {
+    std::vector<std::string_view> sets;
+    for (const auto& [name, nodes] : mesh.node_sets) sets.push_back(name);
+    const std::string set = table.text("on");
+    probe.nodes = mesh.node_sets.at(table.choice_or("on", set, sets));
+  } else {
+    probe.nodes = nodes_on_line(table, where, mesh);
+  }
+  table.close();
+  return probe;
+}
+
+}  // namespace verification

@@ -1,0 +1,60 @@
+#include "fe/solver/solver_scene.hpp"
+
+namespace verification {
+namespace {
+
+NewtonOptions read_newton(SceneTable table) {
+  NewtonOptions options;
+  options.tangent =
+      tangent_bit(table.choice_or("tangent", "exact", {"exact", "elastic", "perturbed"}));
+  options.tolerance = table.number_or("tolerance", options.tolerance, positive);
+  options.max_cuts = table.integer_or("max_cuts", options.max_cuts, 0);
+  options.loose_tolerance = table.number_or("loose_tolerance", 0, not_negative);
+  options.max_iterations = table.integer_or("max_iterations", options.max_iterations, 1);
+  table.close();
+  return options;
+}
+
+void read_dynamics(SceneTable table, SolverOptions& options) {
+  DynamicsOptions& dynamics = options.dynamics;
+  dynamics.duration = table.number("duration", positive);
+  if (table.has("density") == table.has("particle_density"))
+    table.fail("density", table.has("density") ? "particle_density too" : "nothing",
+               "either density, mass per volume of the specimen, or particle_density [kg/m3]");
+  dynamics.density = table.number_or("density", 0, positive);
+  options.particle_density = table.number_or("particle_density", 0, positive);
+  if (table.has("time_step") && table.has("safety"))
+    table.fail("safety", "time_step too", "one of them");
+  dynamics.time_step = table.number_or("time_step", 0, positive);
+  dynamics.safety = table.number_or("safety", dynamics.safety, {0, 1, true, "a number in (0, 1]"});
+  dynamics.damping = table.number_or("damping", 0, not_negative);
+  table.close();
+}
+
+}  // namespace
+
+SolverOptions read_solver(SceneTable& scene) {
+  SolverOptions options;
+  const std::string kind = scene.choice_or("solver", "newton", {"newton", "dynamics"});
+  if (kind == "dynamics") {
+    options.kind = SolverKind::dynamics;
+    read_dynamics(scene.table("dynamics"), options);
+  } else if (scene.has("newton")) {
+    options.newton = read_newton(scene.table("newton"));
+  }
+  return options;
+}
+
+std::unique_ptr<Solver> make_solver(const SolverOptions& options, const Model& model,
+                                    const Material& material, int threads) {
+  if (options.kind == SolverKind::newton)
+    return make_newton_solver(model, material, options.newton, threads);
+  DynamicsOptions dynamics = options.dynamics;
+  if (options.particle_density > 0) {
+    const double void_ratio = measure_scalar(make_state(material).get(), GRAINLAW_VOID_RATIO);
+    dynamics.density = options.particle_density / (1 + void_ratio);
+  }
+  return make_dynamics_solver(model, material, dynamics, threads);
+}
+
+}  // namespace verification
