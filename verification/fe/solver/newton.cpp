@@ -85,6 +85,7 @@ class NewtonSolver final : public Solver {
     int iterations = 0;
     const auto attempt = [&](double next, bool loose) {
       const auto first = step.residuals.size();
+      step.attempts.push_back(first);
       const double tolerance = loose ? options_.loose_tolerance : options_.tolerance;
       const Attempt result = equilibrate(next, tolerance, step.residuals);
       iterations += static_cast<int>(step.residuals.size() - first) - 1;

@@ -44,6 +44,7 @@ class RelaxationSolver final : public Solver {
     LoadStep step;
     int iterations = 0;
     const auto attempt = [&](double next, bool) {
+      step.attempts.push_back(step.residuals.size());
       const Attempt result = relax(next, step.residuals, iterations);
       if (!result.converged) points_.revert();
       return result;
