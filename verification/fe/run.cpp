@@ -59,6 +59,7 @@ class Run {
         checkpoint_(stem_.string() + ".checkpoint"),
         progress_(scene_.name) {
     const Material material = make_material(scene_.material);
+    if (scene_.cycle) cycle_.emplace(*scene_.cycle, scene_.model, 1.0 / scene_.steps);
     const bool found = std::filesystem::exists(checkpoint_);
     if (options.restart && found) {
       CheckpointReader in = read_checkpoint(checkpoint_);
@@ -69,6 +70,7 @@ class Run {
       RunTables tables(stem_, in);
       solver_ = make_solver(scene_.solver, scene_.model, material, scene_.threads);
       solver_->restore(in);
+      if (cycle_) cycle_->restore(in);
       output_.emplace(scene_, std::move(tables), *solver_);
       output_->restore(in);
       fmt::print("{}: goes on after step {} of {}\n", scene_.name, done_, scene_.steps);
@@ -86,8 +88,11 @@ class Run {
     const Interrupt interrupt;
     const auto observe = [&](const LoadStep& step, const Solver&) { after(step); };
     try {
-      run_load_steps(*solver_, scene_.solver.duration(), scene_.steps, scene_.steps, observe,
-                     done_ + 1);
+      if (cycle_)
+        run_cycles(*cycle_, *solver_, scene_.steps, observe, done_ + 1);
+      else
+        run_load_steps(*solver_, scene_.solver.duration(), scene_.steps, scene_.steps, observe,
+                       done_ + 1);
     } catch (const ComputationError& error) {
       output_->finish();
       throw ComputationError(fmt::format("{}: {}", file_.string(), error.what()));
@@ -103,7 +108,7 @@ class Run {
     {
       const auto measure = solver_->points().cost().measure(Stage::output);
       output_->add(step);
-      const bool last = done_ == scene_.steps;
+      const bool last = done_ == scene_.steps || (cycle_ && cycle_->finished());
       const int signal = last ? 0 : Interrupt::signal();
       if (signal != 0 || (every_ > 0 && (last || (done_ > 0 && done_ % every_ == 0)))) save();
       if (signal != 0) {
@@ -127,6 +132,7 @@ class Run {
     out.write(done_);
     output_->save_tables(out);
     solver_->save(out);
+    if (cycle_) cycle_->save(out);
     output_->save(out);
     write_checkpoint(checkpoint_, out);
   }
@@ -139,6 +145,7 @@ class Run {
   std::filesystem::path stem_;
   std::filesystem::path checkpoint_;
   std::unique_ptr<Solver> solver_;
+  std::optional<CycleControl> cycle_;
   std::optional<RunOutput> output_;
   CostReport cost_;
   Progress progress_;

@@ -5,8 +5,10 @@
 #include "app/scene.hpp"
 #include "fe/output/output_options.hpp"
 #include "fe/output/probe.hpp"
+#include "fe/solver/cycle.hpp"
 #include "fe/solver/solver_scene.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,7 @@ struct FiniteElementScene {
   MaterialSource material;
   Model model;
   SolverOptions solver;
+  std::optional<Cycle> cycle;
   int threads = 0;  // <= 0: as many as the library takes
   int steps = 1;
   std::string abscissa;
