@@ -19,13 +19,15 @@ class Gmsh {
  public:
   Gmsh() : handle_(dlopen(GRAINLAW_GMSH_LIBRARY, RTLD_NOW | RTLD_LOCAL)) {
     if (handle_ == nullptr) throw InputError(fmt::format("Gmsh cannot be loaded: {}", dlerror()));
-    const auto* initialize = symbol<decltype(&gmshInitialize)>("gmshInitialize");
     int error = 0;
     // Later versions ask whether to run what the command line says.
-    if constexpr (std::is_invocable_v<decltype(initialize), int, char**, int, int*>)
-      initialize(0, nullptr, 0, &error);
-    else
-      initialize(0, nullptr, 0, 0, &error);
+    const auto initialize = [&](auto* function) {
+      if constexpr (std::is_invocable_v<decltype(function), int, char**, int, int*>)
+        function(0, nullptr, 0, &error);
+      else
+        function(0, nullptr, 0, 0, &error);
+    };
+    initialize(symbol<decltype(&gmshInitialize)>("gmshInitialize"));
     call<decltype(&gmshOptionSetNumber)>("gmshOptionSetNumber", "General.Terminal", 0.0);
   }
   ~Gmsh() {
