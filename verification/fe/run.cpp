@@ -58,7 +58,9 @@ class Run {
         stem_(output_stem(options.directory, scene_.name)),
         checkpoint_(stem_.string() + ".checkpoint"),
         progress_(scene_.name) {
-    const Material material = make_material(scene_.material);
+    const Material material = make_material(
+        scene_.prestress.empty() ? scene_.material
+                                 : prestressed(scene_.material, scene_.prestress, stem_));
     const bool found = std::filesystem::exists(checkpoint_);
     if (options.restart && found) {
       CheckpointReader in = read_checkpoint(checkpoint_);

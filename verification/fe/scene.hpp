@@ -5,6 +5,7 @@
 #include "app/scene.hpp"
 #include "fe/output/output_options.hpp"
 #include "fe/output/probe.hpp"
+#include "fe/prestress.hpp"
 #include "fe/solver/solver_scene.hpp"
 
 #include <string>
@@ -15,6 +16,7 @@ namespace verification {
 struct FiniteElementScene {
   std::string name;
   MaterialSource material;
+  std::vector<Segment> prestress;  // empty: none
   Model model;
   SolverOptions solver;
   int threads = 0;  // <= 0: as many as the library takes
