@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   verification::add_dns_command(app);
   verification::add_pack_command(app);
   verification::add_study_command(app);
+  verification::add_wave_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

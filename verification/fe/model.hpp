@@ -37,6 +37,9 @@ class PointField {
   [[nodiscard]] double step_ratio() const;
   [[nodiscard]] std::string message() const;
 
+  // Largest change of F (Frobenius norm) that this change of displacement makes in a point.
+  [[nodiscard]] double largest_change(const Eigen::VectorXd& displacement) const;
+
   // Nodal forces of the stresses of the last evaluation [N/m], and their derivative.
   [[nodiscard]] Eigen::VectorXd internal_force() const;
   void add_stiffness(Triplets& triplets) const;
@@ -79,6 +82,8 @@ class PointField {
     double work = 0;  // external, since F = I [J]
     Effort effort;
   };
+
+  [[nodiscard]] static Tensor gradient(const Point& point, const Eigen::VectorXd& displacement);
 
   std::vector<Point> points_;
   Hourglass hourglass_;
