@@ -62,8 +62,10 @@ class Run {
         stem_(output_stem(options.directory, scene_.name)),
         checkpoint_(stem_.string() + ".checkpoint"),
         progress_(scene_.name) {
-    const Material material = make_material(scene_.material);
-    if (scene_.cycle) cycle_.emplace(*scene_.cycle, scene_.model, 1.0 / scene_.steps);
+    const Material material = make_material(
+        scene_.prestress.empty() ? scene_.material
+                                 : prestressed(scene_.material, scene_.prestress, stem_));
+>>>>>>> dns
     const bool found = std::filesystem::exists(checkpoint_);
     if (options.restart && found) {
       CheckpointReader in = read_checkpoint(checkpoint_);

@@ -5,6 +5,7 @@
 #include "app/scene.hpp"
 #include "fe/output/output_options.hpp"
 #include "fe/output/probe.hpp"
+#include "fe/prestress.hpp"
 #include "fe/solver/cycle.hpp"
 #include "fe/solver/solver_scene.hpp"
 
@@ -17,6 +18,7 @@ namespace verification {
 struct FiniteElementScene {
   std::string name;
   MaterialSource material;
+  std::vector<Segment> prestress;  // empty: none
   Model model;
   SolverOptions solver;
   std::optional<Cycle> cycle;
