@@ -33,7 +33,7 @@ TEST(relaxation, ends_at_the_equilibrium_of_newton) {
     const LoadStep found = relaxation->advance(0.5 * step, step);
     EXPECT_LE(found.residuals.back(), 1e-8);
     EXPECT_LT((relaxation->displacement() - newton->displacement()).norm(),
-              1e-6 * newton->displacement().norm());
+              1e-6 * 1e-4);  // of the displacement of a step [m]
     ASSERT_EQ(found.reactions.size(), 3U);
     for (std::size_t k = 0; k < 3; ++k)
       EXPECT_NEAR(found.reactions[k], expected.reactions[k],
@@ -43,8 +43,8 @@ TEST(relaxation, ends_at_the_equilibrium_of_newton) {
 
 TEST(relaxation, a_step_that_takes_too_many_iterations_is_cut_or_fails) {
   const Model model = biaxial(1, 1, 2e-3);
-  const Material material = packing_material();
-  const auto cut = make_relaxation_solver(model, material, {.max_iterations = 40}, 1);
+  const Material material = lattice_material();
+  const auto cut = make_relaxation_solver(model, material, {.max_iterations = 12}, 1);
   cut->advance(0, 0);
   const LoadStep step = cut->advance(1, 1);
   EXPECT_GT(step.record.effort.cuts, 0);

@@ -48,6 +48,10 @@ void SceneTable::fail(std::string_view key, std::string_view found,
                                name_.empty() ? "" : ".", key, found, expected));
 }
 
+std::string SceneTable::place() const {
+  return fmt::format("{}:{}: {}", file_.string(), table_->source().begin.line, name_);
+}
+
 double SceneTable::number(std::string_view key, const Range& range) {
   const toml::node* node = find(key);
   if (node == nullptr) fail(key, "nothing", range.text);

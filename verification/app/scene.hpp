@@ -56,6 +56,8 @@ class SceneTable {
   // Throws InputError at the line of the key, or of the table when the key is absent.
   [[noreturn]] void fail(std::string_view key, std::string_view found,
                          std::string_view expected) const;
+  // "file:line: name", for messages about what the table as a whole says.
+  [[nodiscard]] std::string place() const;
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
   [[nodiscard]] const toml::table& content() const { return *table_; }
 

@@ -35,15 +35,27 @@ PointField::PointField(const Mesh& mesh, const Material& material, double hourgl
   volume_ = measure_scalar(handles_.front(), GRAINLAW_REFERENCE_VOLUME);
 }
 
+Tensor PointField::gradient(const Point& point, const Eigen::VectorXd& displacement) {
+  Tensor gradient = Tensor::Zero();
+  for (std::size_t a = 0; a < point.nodes.size(); ++a)
+    gradient += displacement.segment<2>(2 * point.nodes[a]) *
+                point.geometry.gradient.row(static_cast<Eigen::Index>(a));
+  return gradient;
+}
+
+double PointField::largest_change(const Eigen::VectorXd& displacement) const {
+  double largest = 0;
+  for (const Point& point : points_)
+    largest = std::max(largest, gradient(point, displacement).norm());
+  return largest;
+}
+
 grainlaw_status PointField::evaluate(const Eigen::VectorXd& displacement, unsigned want,
                                      int threads) {
   const auto measure = cost_.measure(Stage::points);
   displacement_ = displacement;
   for (std::size_t p = 0; p < points_.size(); ++p) {
-    deformation_[p].setIdentity();
-    for (std::size_t a = 0; a < points_[p].nodes.size(); ++a)
-      deformation_[p] += displacement.segment<2>(2 * points_[p].nodes[a]) *
-                         points_[p].geometry.gradient.row(static_cast<Eigen::Index>(a));
+    deformation_[p] = Tensor::Identity() + gradient(points_[p], displacement);
     reports_[p] = grainlaw_report_default();
   }
   const grainlaw_status status = grainlaw_evaluate_batch(

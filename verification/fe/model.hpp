@@ -18,6 +18,8 @@ struct Model {
   Mesh mesh;
   std::vector<PrescribedDisplacement> displacements;
   std::vector<Tie> ties;
+  std::vector<Periodic> periodics;
+  std::vector<Resultant> resultants;
   Loads loads;
   double hourglass = 0.05;  // of the modulus at the start; elements with one point only [-]
   double thickness = 1;     // out of plane; forces are per metre of it [m]
@@ -34,6 +36,9 @@ class PointField {
   // Smallest step ratio of the points that failed, and the message of the first.
   [[nodiscard]] double step_ratio() const;
   [[nodiscard]] std::string message() const;
+
+  // Largest change of F (Frobenius norm) that this change of displacement makes in a point.
+  [[nodiscard]] double largest_change(const Eigen::VectorXd& displacement) const;
 
   // Nodal forces of the stresses of the last evaluation [N/m], and their derivative.
   [[nodiscard]] Eigen::VectorXd internal_force() const;
@@ -77,6 +82,8 @@ class PointField {
     double work = 0;  // external, since F = I [J]
     Effort effort;
   };
+
+  [[nodiscard]] static Tensor gradient(const Point& point, const Eigen::VectorXd& displacement);
 
   std::vector<Point> points_;
   Hourglass hourglass_;

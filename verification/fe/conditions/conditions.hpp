@@ -1,48 +1,52 @@
-// Conditions on the displacements of a finite element model: prescribed and tied components.
+// Conditions on the displacements of a finite element model.
 #pragma once
 
 #include "fe/conditions/program.hpp"
 
-#include <Eigen/Dense>
-
-#include <cstddef>
+#include <array>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace verification {
 
-// Displacement components are numbered dof = 2 * node + component.
-//
-// Every component is either prescribed or follows one unknown; tied components share theirs.
-struct Dofs {
-  std::vector<int> unknown;       // [dofs] number of its unknown, -1: prescribed
-  std::vector<int> program;       // [dofs] entry of `programs` that prescribes it, -1: none
-  std::vector<Program> programs;  // [m]
-  int unknowns = 0;
-
-  // Values of the unknowns as a field over all components, prescribed ones zero.
-  [[nodiscard]] Eigen::VectorXd expand(const Eigen::VectorXd& reduced) const;
-  // Forces on the unknowns: the sum over the components that follow each.
-  [[nodiscard]] Eigen::VectorXd reduce(const Eigen::VectorXd& full) const;
-  // Prescribed displacements at this time, unknowns zero [m].
-  [[nodiscard]] Eigen::VectorXd prescribed_at(double time) const;
-};
-
 struct PrescribedDisplacement {
   std::vector<int> nodes;
   int component = 0;
-  Program value;     // [m]
-  std::string name;  // for tables, e.g. "top_y"
+  Program value;           // [m]
+  std::string name;        // for tables, e.g. "top_y"
+  std::string set = {};    // the nodes' set
+  std::string place = {};  // in the scene, for messages
 };
 
-// The nodes move by the same amount in this component, as if glued to a rigid smooth plate.
+// The nodes move by the same amount in this component, as if glued to a rigid smooth plate. As part
+// of a platen they may be prescribed, all together.
 struct Tie {
   std::vector<int> nodes;
   int component = 0;
+  std::string set = {};
+  std::string place = {};
+  bool platen = false;
 };
 
-// Throws InputError for a component that is tied twice, or tied and prescribed.
-Dofs number_dofs(std::size_t nodes, const std::vector<PrescribedDisplacement>& displacements,
-                 const std::vector<Tie>& ties);
+// u(second) = u(first) + jump for every pair of nodes.
+struct Periodic {
+  std::vector<std::pair<int, int>> pairs;
+  std::array<std::optional<Program>, 2> jump;  // [m], without: 0
+  std::string name;                            // for tables, e.g. "left_right"
+  std::string place = {};
+};
+
+// Total force on nodes that move together in this component, per metre of thickness [N/m].
+struct Resultant {
+  std::string set;
+  int component = 0;
+  Program value;
+  int node = 0;  // one of the nodes
+  std::string place = {};
+};
+
+inline const char* component_name(int component) { return component == 0 ? "x" : "y"; }
 
 }  // namespace verification

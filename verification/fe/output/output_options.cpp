@@ -36,20 +36,20 @@ std::vector<std::size_t> read_points(SceneTable& table, std::string_view key, st
   return {read.begin(), read.end()};
 }
 
-std::vector<std::string> read_fields(SceneTable& table) {
+std::vector<std::string> read_fields(SceneTable& table, std::string_view key) {
   std::vector<std::string> names;
   for (const Field& candidate : fields())
     if (candidate.components == 1) names.emplace_back(candidate.name);
   const std::string expected = fmt::format("a list of {}", fmt::join(names, ", "));
   std::vector<std::string> result;
-  const toml::node* node = table.node("fields");
+  const toml::node* node = table.node(key);
   if (node == nullptr) return result;
   const toml::array* list = node->as_array();
-  if (list == nullptr) table.fail("fields", "no list", expected);
+  if (list == nullptr) table.fail(key, "no list", expected);
   for (const toml::node& entry : *list) {
     const auto name = entry.value<std::string>().value_or("another type");
     if (std::find(names.begin(), names.end(), name) == names.end())
-      table.fail("fields", name, expected);
+      table.fail(key, name, expected);
     result.push_back(name);
   }
   return result;
@@ -66,9 +66,11 @@ OutputOptions read_output(SceneTable& scene, const Mesh& mesh, int steps) {
   if (!options.packings.empty() && options.vtk_every == 0)
     scene.fail("vtk_every", "0", "how often the packings are written, a number of load steps >= 1");
   options.points = read_points(scene, "points", points);
+  options.every_point = read_fields(scene, "every_point");
   if (!scene.has("picture")) return options;
   SceneTable table = scene.table("picture");
-  options.pictures.fields = read_fields(table);
+  options.pictures.fields = read_fields(table, "fields");
+  options.pictures.extremes = read_fields(table, "extremes");
   options.pictures.packings = read_points(table, "packings", points);
   options.pictures.steps =
       table.has("steps")

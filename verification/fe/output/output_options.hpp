@@ -16,14 +16,16 @@ struct OutputOptions {
   int vtk_every = 0;                  // load steps; 0: never
   std::vector<std::size_t> packings;  // points whose particles are in the series
   std::vector<std::size_t> points;    // with a table of their own
+  std::vector<std::string> every_point;  // fields with a table of all points
   struct Pictures {
     std::vector<std::string> fields;    // of the mesh
     std::vector<std::size_t> packings;  // points whose particles and force chains are drawn
+    std::vector<std::string> extremes;  // fields: so are the points where they are least and largest
     std::vector<int> steps;
   } pictures;
 };
 
-// Keys checkpoint_every, vtk_every, packings, points and the table picture. Throws InputError.
+// Keys checkpoint_every, vtk_every, packings, points, every_point and the table picture. Throws InputError.
 OutputOptions read_output(SceneTable& scene, const Mesh& mesh, int steps);
 
 }  // namespace verification

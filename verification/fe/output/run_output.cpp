@@ -2,27 +2,29 @@
 
 #include "app/history.hpp"
 #include "app/snapshot.hpp"
+#include "fe/conditions/monitors.hpp"
 #include "fe/output/energy.hpp"
 #include "fe/output/mesh_picture.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace verification {
 namespace {
 
 std::vector<std::string> force_columns(const Model& model) {
   std::vector<std::string> names{"step[-]"};
-  for (const PrescribedDisplacement& condition : model.displacements) {
-    names.push_back(condition.name + "_displacement[m]");
-    names.push_back(condition.name + "_force[N/m]");
+  for (const Monitor& monitor : make_monitors(model)) {
+    names.push_back(monitor.name + "_displacement[m]");
+    names.push_back(monitor.name + "_force[N/m]");
   }
   return names;
 }
 
 std::vector<std::string> point_columns() {
-  std::vector<std::string> names{"step[-]", "time[-]", "x[m]", "y[m]"};
+  std::vector<std::string> names{"step[-]", "time[s]", "x[m]", "y[m]"};
   for (const Field& field : fields())
     for (const std::string& name : columns(field)) names.push_back(name);
   return names;
@@ -37,15 +39,31 @@ RunOutput::RunOutput(const FiniteElementScene& scene, RunTables tables, const So
       history_(tables_.open(".csv", record_columns())),
       newton_(tables_.open("_newton.csv", {"step[-]", "iteration[-]", "relative_residual[-]"})),
       forces_(tables_.open("_force.csv", force_columns(scene.model))),
+      costs_(tables_.open("_cost.csv", cost_columns())),
+      cost_(solver),
       series_(scene.model, tables_.stem(), scene.output.packings) {
   for (const std::size_t point : scene.output.points)
     points_.push_back(&tables_.open(fmt::format("_point{}.csv", point), point_columns()));
+  for (const std::string& name : scene.output.every_point) {
+    std::vector<std::string> columns{"step[-]"};
+    for (std::size_t p = 0; p < solver.points().size(); ++p)
+      columns.push_back(fmt::format("point{}[{}]", p, field(name).unit));
+    every_point_.push_back(&tables_.open(fmt::format("_every_{}.csv", name), columns));
+  }
   if (scene.solver.kind == SolverKind::dynamics)
     energies_ = &tables_.open("_energy.csv", energy_columns());
   if (!scene.probes.empty()) probes_ = &tables_.open("_probes.csv", probe_columns(scene.probes));
 }
 
 void RunOutput::add(const LoadStep& step) {
+  {
+    const auto measure = solver_.points().cost().measure(Stage::output);
+    write(step);
+  }
+  cost_.add(step, costs_);
+}
+
+void RunOutput::write(const LoadStep& step) {
   const int number = step.record.step;
   history_.row(record_values(step.record));
   for (std::size_t k = 0; k < step.residuals.size(); ++k)
@@ -60,6 +78,11 @@ void RunOutput::add(const LoadStep& step) {
   if (probes_ != nullptr) probes_->row(probe_values(scene_.probes, step, solver_.displacement()));
   const OutputOptions& output = scene_.output;
   for (std::size_t k = 0; k < points_.size(); ++k) add_point(output.points[k], step, *points_[k]);
+  for (std::size_t k = 0; k < every_point_.size(); ++k) {
+    std::vector<double> row = values(field(output.every_point[k]), solver_.points());
+    row.insert(row.begin(), static_cast<double>(number));
+    every_point_[k]->row(row);
+  }
   if (output.vtk_every > 0 && number % output.vtk_every == 0) series_.add(step, solver_);
   const std::vector<int>& drawn = output.pictures.steps;
   if (std::find(drawn.begin(), drawn.end(), number) != drawn.end()) draw(step);
@@ -90,6 +113,15 @@ void RunOutput::draw(const LoadStep& step) const {
   for (const std::size_t point : scene_.output.pictures.packings)
     packings.push_back(
         {fmt::format("point {}", point), take_snapshot(points.state(point), scratch)});
+  for (const std::string& name : scene_.output.pictures.extremes) {
+    const std::vector<double> all = values(field(name), points);
+    const auto [least, largest] = std::minmax_element(all.begin(), all.end());
+    for (const auto& [end, word] : {std::pair{least, "least"}, std::pair{largest, "largest"}}) {
+      const auto point = static_cast<std::size_t>(end - all.begin());
+      packings.push_back({fmt::format("point {}: {} {} {:.3g}", point, word, field(name).label, *end),
+                          take_snapshot(points.state(point), scratch)});
+    }
+  }
   if (packings.empty()) return;
   draw_snapshots(packings, 0, title, stem + "_packings");
   for (const char* end : {"_particles.csv", "_contacts.csv", "_cell.csv", ".vtp"})
@@ -100,19 +132,23 @@ void RunOutput::finish() const {
   draw_history(read_csv(history_.path()), scene_.abscissa, scene_.name, tables_.stem());
 }
 
-std::string RunOutput::history() const { return history_summary(read_csv(history_.path())); }
+std::string RunOutput::summary() const {
+  return history_summary(read_csv(history_.path())) + "\n" +
+         cost_summary(read_csv(costs_.path()), solver_.points().size());
+}
 
 std::string RunOutput::written() const {
   const OutputOptions& output = scene_.output;
   std::string text =
-      fmt::format("{}.csv, _newton.csv, _force.csv, .svg, .png", tables_.stem().string());
+      fmt::format("{}.csv, _newton.csv, _force.csv, _cost.csv, .svg, .png", tables_.stem().string());
   if (energies_ != nullptr) text += ", _energy.csv";
   if (probes_ != nullptr) text += ", _probes.csv";
   if (!output.points.empty()) text += ", _pointN.csv";
+  if (!output.every_point.empty()) text += ", _every_FIELD.csv";
   if (output.vtk_every > 0) text += ", _mesh.pvd, _points.pvd";
   if (!output.packings.empty()) text += ", _packingN.pvd";
   if (!output.pictures.fields.empty()) text += ", _STEP_FIELD.svg";
-  if (!output.pictures.packings.empty()) text += ", _STEP_packings.svg";
+  if (!output.pictures.packings.empty() || !output.pictures.extremes.empty()) text += ", _STEP_packings.svg";
   return text;
 }
 

@@ -43,7 +43,7 @@ class DynamicsSolver final : public Solver {
       : model_(model),
         options_(options),
         threads_(threads),
-        dofs_(number_dofs(model.mesh.nodes.size(), model.displacements, model.ties)),
+        dofs_(number_dofs(model)),
         points_(model.mesh, material, model.hourglass),
         mass_(lumped_mass(model.mesh, options.density)),
         unknown_mass_(dofs_.reduce(mass_)) {
@@ -215,7 +215,7 @@ class DynamicsSolver final : public Solver {
     step.energies->damped += next.damping.dot(way);
     const Eigen::VectorXd mean = 0.5 * (now.velocity + next.velocity);
     step.energies->kinetic = now.last_step > 0 ? 0.5 * mean.cwiseAbs2().dot(mass_) : 0;
-    report_supports(model_, now.time, -next.support, step);
+    report_supports(model_, now.time, now.displacement, -next.support, step);
   }
 
   const Model& model_;

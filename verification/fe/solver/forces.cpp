@@ -1,19 +1,22 @@
 #include "fe/solver/forces.hpp"
 
+#include "fe/conditions/monitors.hpp"
+
 namespace verification {
 
 void add_external_force(const Model& model, double time, const Eigen::VectorXd& displacement,
                         Eigen::VectorXd& force, Triplets* stiffness) {
   add_loads(model.loads, time, model.mesh, displacement, force, stiffness);
+  for (const Resultant& resultant : model.resultants)  // moves together: any of its nodes will do
+    force(2 * resultant.node + resultant.component) += resultant.value.at(time);
 }
 
-void report_supports(const Model& model, double time, const Eigen::VectorXd& imbalance,
-                     LoadStep& step) {
-  for (const PrescribedDisplacement& condition : model.displacements) {
-    step.displacements.push_back(condition.value.at(time));
-    step.reactions.push_back(0);
-    for (const int node : condition.nodes)
-      step.reactions.back() -= imbalance(2 * node + condition.component);
+void report_supports(const Model& model, double time, const Eigen::VectorXd& displacement,
+                     const Eigen::VectorXd& imbalance, LoadStep& step) {
+  for (const Monitor& monitor : make_monitors(model)) {
+    const Monitored found = monitored(monitor, model, time, displacement, imbalance);
+    step.displacements.push_back(found.displacement);
+    step.reactions.push_back(found.force);
   }
 }
 

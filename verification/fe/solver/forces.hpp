@@ -13,7 +13,7 @@ void add_external_force(const Model& model, double time, const Eigen::VectorXd& 
 
 // Fills in displacements and reactions of the step, from external minus internal (and inertial)
 // nodal forces at this time [N/m].
-void report_supports(const Model& model, double time, const Eigen::VectorXd& imbalance,
-                     LoadStep& step);
+void report_supports(const Model& model, double time, const Eigen::VectorXd& displacement,
+                     const Eigen::VectorXd& imbalance, LoadStep& step);
 
 }  // namespace verification

@@ -1,7 +1,7 @@
 // The highest natural frequency of a model, which bounds the time step of explicit schemes.
 #pragma once
 
-#include "fe/conditions/conditions.hpp"
+#include "fe/conditions/dofs.hpp"
 #include "fe/model.hpp"
 
 namespace verification {

@@ -1,5 +1,6 @@
 #include "fe/solver/newton.hpp"
 
+#include "fe/conditions/dofs.hpp"
 #include "fe/solver/forces.hpp"
 
 #include <fmt/format.h>
@@ -18,6 +19,7 @@ constexpr double usual_cut = 0.5;
 // An attempt with an exact tangent ends when this many iterations in a row have not halved the
 // residual: after the peak P(F) has jumps, and Newton then goes to and fro across one.
 constexpr int patience = 4;
+constexpr int jump_patience = 2;  // at a residual that may stay
 
 // Residual and stiffness of all displacement components at one displacement and one load.
 struct System {
@@ -67,7 +69,7 @@ class NewtonSolver final : public Solver {
       : model_(model),
         options_(options),
         threads_(threads),
-        dofs_(number_dofs(model.mesh.nodes.size(), model.displacements, model.ties)),
+        dofs_(number_dofs(model)),
         points_(model.mesh, material, model.hourglass),
         displacement_(
             Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * model.mesh.nodes.size()))) {
@@ -95,13 +97,15 @@ class NewtonSolver final : public Solver {
       std::string reason;
       const auto first = step.residuals.size();
       const double tolerance = loose ? options_.loose_tolerance : options_.tolerance;
-      const bool converged = attempt(next, tolerance, step.residuals, ratio, reason);
+      bool at_jump = false;
+      const bool converged = attempt(next, tolerance, step.residuals, ratio, at_jump, reason);
       iterations += static_cast<int>(step.residuals.size() - first) - 1;
       if (converged) {
         points_.commit();
         part = std::min(to - next, 2 * (next - done));
         done = next;
         loose = false;
+        loose_parts += at_jump ? 1 : 0;
         continue;
       }
       points_.revert();
@@ -121,7 +125,7 @@ class NewtonSolver final : public Solver {
     step.record.effort.iterations = iterations;
     step.record.effort.cuts = cuts;
     step.record.effort.loose = loose_parts;
-    report_supports(model_, to, system_.residual, step);
+    report_supports(model_, to, displacement_, system_.residual, step);
     return step;
   }
 
@@ -146,7 +150,7 @@ class NewtonSolver final : public Solver {
   // which extrapolates the committed equilibrium by its tangent; boundary values never jump ahead
   // alone.
   bool attempt(double time, double tolerance, std::vector<double>& residuals, double& ratio,
-               std::string& reason) {
+               bool& at_jump, std::string& reason) {
     Eigen::VectorXd displacement = displacement_;
     System system = system_;
     const Eigen::VectorXd target = dofs_.prescribed_at(time);
@@ -156,15 +160,25 @@ class NewtonSolver final : public Solver {
     double best = std::numeric_limits<double>::infinity();
     int best_iteration = 0;
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
+      Eigen::VectorXd correction;
       {
         const auto measure = points_.cost().measure(Stage::linear_solve);
-        displacement += solve(system, dofs_, prescribed);
+        correction = solve(system, dofs_, prescribed);
       }
       prescribed.setZero();
-      if (!displacement.allFinite()) {
+      if (!correction.allFinite()) {
         reason = "the stiffness is singular";
         return false;
       }
+      if (const double factor = bound(correction); factor < 1) {
+        if (iteration == 0) {
+          ratio = factor;
+          reason = "the load increment strains a point beyond newton.largest_correction";
+          return false;
+        }
+        correction *= factor;
+      }
+      displacement += correction;
       if (points_.evaluate(displacement, options_.tangent, threads_) != GRAINLAW_OK) {
         ratio = points_.step_ratio();
         reason = points_.message();
@@ -173,21 +187,31 @@ class NewtonSolver final : public Solver {
       }
       system = assemble(model_, points_, displacement, time);
       residuals.push_back(error(system, prescribed));
-      if (residuals.back() <= tolerance) {
+      if (residuals.back() < 0.5 * best) {
+        best = residuals.back();
+        best_iteration = iteration;
+      }
+      const bool near = residuals.back() <= options_.jump_tolerance;
+      const bool stalled = iteration >= best_iteration + (near ? jump_patience : patience) &&
+                           options_.tangent == GRAINLAW_WANT_TANGENT_EXACT;
+      at_jump = near && residuals.back() > tolerance &&
+                (stalled || iteration + 1 == options_.max_iterations);
+      if (residuals.back() <= tolerance || at_jump) {
         displacement_ = displacement;
         system_ = system;
         time_ = time;
         return true;
       }
-      if (residuals.back() < 0.5 * best) {
-        best = residuals.back();
-        best_iteration = iteration;
-      }
-      const bool stalled = iteration >= best_iteration + patience;
-      if (stalled && options_.tangent == GRAINLAW_WANT_TANGENT_EXACT) break;
+      if (stalled) break;
     }
     reason = fmt::format("Newton did not converge (best relative residual {:.1e} [-])", best);
     return false;
+  }
+
+  // How much of a correction may be made, 1: all of it.
+  [[nodiscard]] double bound(const Eigen::VectorXd& correction) const {
+    if (options_.largest_correction == 0) return 1;
+    return std::min(1.0, options_.largest_correction / points_.largest_change(correction));
   }
 
   // The committed system carries the load of its own time; the difference to the new one.

@@ -14,6 +14,13 @@ struct NewtonOptions {
   // step at its smallest cut is then taken whole to this residual, and the record counts it as a
   // loose part; 0: never [-].
   double loose_tolerance = 0;
+  // Newton going to and fro across such a jump without getting closer than this is taken for
+  // converged, and counted as a loose part too; 0: the step is cut instead [-].
+  double jump_tolerance = 0;
+  // Corrections are shortened so that no F changes by more than this (Frobenius norm): a correction
+  // far beyond the load increment costs far more to evaluate, and seldom leads anywhere. A load
+  // increment whose first correction is longer is cut; 0: no bound [-].
+  double largest_correction = 0;
 };
 
 // Throws InputError for contradictory conditions, ComputationError when F = I cannot be evaluated.

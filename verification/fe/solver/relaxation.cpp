@@ -17,7 +17,7 @@ struct Rest {
   double time = 0;
   Eigen::VectorXd displacement;  // [m]
   Eigen::VectorXd imbalance;     // external minus internal force [N/m]
-  Eigen::VectorXd rate;          // of the displacement in the last part, per unit of time [m]
+  Eigen::VectorXd rate;          // of the unknowns in the last part, per unit of time [m]
 };
 
 class RelaxationSolver final : public Solver {
@@ -27,7 +27,7 @@ class RelaxationSolver final : public Solver {
       : model_(model),
         options_(options),
         threads_(threads),
-        dofs_(number_dofs(model.mesh.nodes.size(), model.displacements, model.ties)),
+        dofs_(number_dofs(model)),
         points_(model.mesh, material, model.hourglass),
         mass_(lumped_mass(model.mesh, 1)),
         unknown_mass_(dofs_.reduce(mass_)) {
@@ -54,7 +54,7 @@ class RelaxationSolver final : public Solver {
     step.record.step = number;
     step.record.effort.iterations = iterations;
     step.record.effort.cuts = cuts;
-    report_supports(model_, to, rest_.imbalance, step);
+    report_supports(model_, to, rest_.displacement, rest_.imbalance, step);
     return step;
   }
 
@@ -93,22 +93,16 @@ class RelaxationSolver final : public Solver {
     return result;
   }
 
-  // From the committed equilibrium on as in the last part; the supports where they are told to be.
-  [[nodiscard]] Eigen::VectorXd start(double time) const {
-    const Eigen::VectorXd ahead = (time - rest_.time) * rest_.rate;
-    Eigen::VectorXd place = rest_.displacement + ahead;
-    const Eigen::VectorXd told = dofs_.prescribed_at(time) - dofs_.prescribed_at(rest_.time);
-    for (std::size_t d = 0; d < dofs_.unknown.size(); ++d)
-      if (dofs_.unknown[d] < 0) {
-        const auto k = static_cast<Eigen::Index>(d);
-        place(k) = rest_.displacement(k) + told(k);
-      }
-    return place;
+  // How supports and jumps are told to move, from the committed time on [m].
+  [[nodiscard]] Eigen::VectorXd told(double time) const {
+    return dofs_.prescribed_at(time) - dofs_.prescribed_at(rest_.time);
   }
 
   Attempt relax(double time, std::vector<double>& residuals, int& iterations) {
-    Eigen::VectorXd place = start(time);
-    const Eigen::VectorXd origin = place;
+    // From the committed equilibrium on as in the last part.
+    const Eigen::VectorXd origin =
+        rest_.displacement + told(time) + (time - rest_.time) * rest_.rate;
+    Eigen::VectorXd place = origin;
     Balance now;
     Eigen::VectorXd first_internal;
     Eigen::VectorXd velocity = Eigen::VectorXd::Zero(dofs_.unknowns);
@@ -147,7 +141,8 @@ class RelaxationSolver final : public Solver {
       ++iterations;
     }
     points_.commit();
-    if (time > rest_.time) rest_.rate = (place - rest_.displacement) / (time - rest_.time);
+    if (time > rest_.time)
+      rest_.rate = (place - rest_.displacement - told(time)) / (time - rest_.time);
     rest_.displacement = place;
     rest_.imbalance = now.imbalance;
     rest_.time = time;

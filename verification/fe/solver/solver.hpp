@@ -27,8 +27,7 @@ struct LoadStep {
   Record record;  // means over the integration points
   double time = 0;
   std::vector<double> residuals;
-  // Of every prescribed displacement: its value [m], and the force that holds it, summed over its
-  // nodes, per metre of thickness [N/m].
+  // Of every monitor of the model: how far it has moved [m], and the force on its nodes [N/m].
   std::vector<double> displacements;
   std::vector<double> reactions;
   std::optional<Energies> energies;  // of dynamic runs

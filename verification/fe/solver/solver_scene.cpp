@@ -10,6 +10,8 @@ NewtonOptions read_newton(SceneTable table) {
   options.tolerance = table.number_or("tolerance", options.tolerance, positive);
   options.max_cuts = table.integer_or("max_cuts", options.max_cuts, 0);
   options.loose_tolerance = table.number_or("loose_tolerance", 0, not_negative);
+  options.jump_tolerance = table.number_or("jump_tolerance", 0, not_negative);
+  options.largest_correction = table.number_or("largest_correction", 0, not_negative);
   options.max_iterations = table.integer_or("max_iterations", options.max_iterations, 1);
   table.close();
   return options;

@@ -1,0 +1,140 @@
+#include "fe/conditions/dofs.hpp"
+
+#include "app/library.hpp"
+#include "fe/model.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+namespace verification {
+
+Eigen::VectorXd Dofs::expand(const Eigen::VectorXd& reduced) const {
+  Eigen::VectorXd full = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(unknown.size()));
+  for (std::size_t d = 0; d < unknown.size(); ++d)
+    if (unknown[d] >= 0) full(static_cast<Eigen::Index>(d)) = reduced(unknown[d]);
+  return full;
+}
+
+Eigen::VectorXd Dofs::reduce(const Eigen::VectorXd& full) const {
+  Eigen::VectorXd reduced = Eigen::VectorXd::Zero(unknowns);
+  for (std::size_t d = 0; d < unknown.size(); ++d)
+    if (unknown[d] >= 0) reduced(unknown[d]) += full(static_cast<Eigen::Index>(d));
+  return reduced;
+}
+
+Eigen::VectorXd Dofs::prescribed_at(double time) const {
+  std::vector<double> values;
+  for (const Program& program : programs) values.push_back(program.at(time));
+  Eigen::VectorXd full = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(unknown.size()));
+  for (const auto& [dof, program, factor] : prescribed) full(dof) += factor * values[program];
+  return full;
+}
+
+namespace {
+
+std::size_t dof(int node, int component) { return static_cast<std::size_t>(2 * node + component); }
+
+[[noreturn]] void refuse(const std::string& place, int node, int component,
+                         const std::string& found, const std::string& expected) {
+  throw InputError(fmt::format("{}: found component {} of node {} {}, expected {}", place,
+                               component_name(component), node + 1, found, expected));
+}
+
+// Links everything that the conditions say, one kind after the other.
+class Linker {
+ public:
+  Linker(const Model& model, std::vector<Program>& programs)
+      : model_(model),
+        ground_(2 * model.mesh.nodes.size()),
+        prescribed_by_(ground_, nullptr),
+        tied_by_(ground_, nullptr),
+        linkage_(ground_, programs) {
+    // Every program is there before the linkage looks at one.
+    for (const auto& condition : model.displacements) programs.push_back(condition.value);
+    for (const auto& condition : model.periodics)
+      for (const auto& jump : condition.jump)
+        if (jump) programs.push_back(*jump);
+    for (const auto& condition : model.displacements) prescribe(condition);
+    for (const auto& condition : model.ties) tie(condition);
+    for (const auto& condition : model.periodics) repeat(condition);
+  }
+
+  [[nodiscard]] const Linkage& linkage() const { return linkage_; }
+  [[nodiscard]] std::size_t ground() const { return ground_; }
+
+ private:
+  void prescribe(const PrescribedDisplacement& condition) {
+    for (const int node : condition.nodes) {
+      const std::size_t d = dof(node, condition.component);
+      if (!linkage_.link(d, ground_, {{next_program_, 1}}))
+        refuse(condition.place, node, condition.component,
+               fmt::format("prescribed otherwise by {}", prescribed_by_[d]->place),
+               "one value for it");
+      prescribed_by_[d] = &condition;
+    }
+    ++next_program_;
+  }
+
+  void tie(const Tie& tie) {
+    for (const int node : tie.nodes) {
+      const std::size_t d = dof(node, tie.component);
+      if (tied_by_[d] != nullptr)
+        refuse(tie.place, node, tie.component,
+               fmt::format("bound by {} already", tied_by_[d]->place), "one tie or platen for it");
+      tied_by_[d] = &tie;
+      const PrescribedDisplacement* other = prescribed_by_[d];
+      if (other != nullptr && !(tie.platen && other->set == tie.set))
+        refuse(tie.place, node, tie.component,
+               fmt::format("both bound and prescribed by {}", other->place),
+               tie.platen ? "the whole platen prescribed, by its own set" : "one of them");
+      if (!linkage_.link(d, dof(tie.nodes.front(), tie.component), {}))
+        refuse(tie.place, node, tie.component, "bound to move otherwise", "one motion for it");
+    }
+  }
+
+  void repeat(const Periodic& periodic) {
+    for (const int i : {0, 1}) {
+      const bool jumps = periodic.jump[static_cast<std::size_t>(i)].has_value();
+      const Offset offset = jumps ? Offset{{next_program_++, 1}} : Offset{};
+      for (const auto& [first, second] : periodic.pairs) {
+        const auto* one = prescribed_by_[dof(first, i)];
+        const auto* other = prescribed_by_[dof(second, i)];
+        if ((one == nullptr) != (other == nullptr))
+          refuse(periodic.place, one != nullptr ? first : second, i,
+                 fmt::format("prescribed on one side by {}", (one != nullptr ? one : other)->place),
+                 "both nodes of a periodic pair prescribed, or neither");
+        if (!linkage_.link(dof(second, i), dof(first, i), offset))
+          refuse(periodic.place, second, i,
+                 fmt::format("bound to differ otherwise from that of node {}", first + 1),
+                 "a jump that agrees with the other conditions");
+      }
+    }
+  }
+
+  const Model& model_;
+  std::size_t ground_;
+  std::vector<const PrescribedDisplacement*> prescribed_by_;
+  std::vector<const Tie*> tied_by_;
+  Linkage linkage_;
+  std::size_t next_program_ = 0;
+};
+
+}  // namespace
+
+Dofs number_dofs(const Model& model) {
+  Dofs dofs;
+  const Linker linker(model, dofs.programs);
+  const std::size_t ground = linker.ground();
+  std::vector<int> number(ground, -1);  // of the roots
+  for (std::size_t d = 0; d < ground; ++d) {
+    const auto [root, offset] = linker.linkage().find(d);
+    if (root != ground && number[root] < 0) number[root] = dofs.unknowns++;
+    dofs.unknown.push_back(root == ground ? -1 : number[root]);
+    for (const auto& [program, factor] : offset)
+      dofs.prescribed.push_back({static_cast<int>(d), program, factor});
+  }
+  return dofs;
+}
+
+}  // namespace verification

@@ -1,0 +1,69 @@
+#include "fe/conditions/rigid_motion.hpp"
+
+#include "fe/conditions/dofs.hpp"
+#include "fe/model.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace verification {
+namespace {
+
+// A combination of motions counts as free when the conditions resist it this much less than a
+// translation of one node.
+constexpr double small = 1e-9;
+
+std::string motion_text(const Eigen::Vector3d& motion, double size, const Eigen::Vector2d& centre) {
+  const double turn = motion(2) / size;  // [rad]
+  if (std::abs(motion(2)) < 1e-6) {
+    if (std::abs(motion(1)) < 1e-6) return "translation along x";
+    if (std::abs(motion(0)) < 1e-6) return "translation along y";
+    return fmt::format("translation along ({:.3g}, {:.3g})", motion(0), motion(1));
+  }
+  const auto shown = [&](double place) { return std::abs(place) < 1e-9 * size ? 0 : place; };
+  return fmt::format("rotation about ({:.6g}, {:.6g})", shown(centre.x() - motion(1) / turn),
+                     shown(centre.y() + motion(0) / turn));
+}
+
+}  // namespace
+
+void check_held(const Model& model, const std::string& place) {
+  const Dofs dofs = number_dofs(model);
+  const auto& nodes = model.mesh.nodes;
+  Eigen::Vector2d low = nodes.front(), high = nodes.front();
+  for (const auto& node : nodes) {
+    low = low.cwiseMin(node);
+    high = high.cwiseMax(node);
+  }
+  const Eigen::Vector2d centre = 0.5 * (low + high);
+  const double size = (high - low).norm();
+  // Displacement of a component under translations and a rotation of one over the size.
+  const auto motion = [&](std::size_t d) -> Eigen::RowVector3d {
+    const Eigen::Vector2d arm = (nodes[d / 2] - centre) / size;
+    return d % 2 == 0 ? Eigen::RowVector3d(1, 0, -arm.y()) : Eigen::RowVector3d(0, 1, arm.x());
+  };
+  Eigen::Matrix3d held = Eigen::Matrix3d::Zero();
+  std::vector<int> first(static_cast<std::size_t>(dofs.unknowns), -1);
+  for (std::size_t d = 0; d < dofs.unknown.size(); ++d) {
+    Eigen::RowVector3d row = motion(d);
+    if (dofs.unknown[d] >= 0) {
+      int& leader = first[static_cast<std::size_t>(dofs.unknown[d])];
+      if (leader < 0) leader = static_cast<int>(d);
+      row -= motion(static_cast<std::size_t>(leader));
+    }
+    held += row.transpose() * row;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(held);
+  if (modes.eigenvalues()(0) > small) return;
+  int free = 0;
+  while (free < 3 && modes.eigenvalues()(free) <= small) ++free;
+  const std::string which = free == 1 ? motion_text(modes.eigenvectors().col(0), size, centre)
+                                      : fmt::format("{} independent rigid motions", free);
+  throw InputError(fmt::format(
+      "{}: found nothing that holds {}, expected [[displacement]], [[tie]], [[platen]] or "
+      "[[periodic]] that prevent every rigid motion",
+      place, which));
+}
+
+}  // namespace verification

@@ -1,0 +1,106 @@
+// Figures 20 and 22: cyclic simple shear at constant volume, to liquefaction and to cyclic mobility.
+
+#include "papers/papers_004.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace verification {
+namespace {
+
+constexpr double percent = 100;
+
+// Stresses in kPa, compression positive.
+struct Loop {
+  std::string title;
+  std::vector<double> shear;   // F12 [%]
+  std::vector<double> stress;  // sigma12
+  std::vector<double> normal;  // -sigma22
+  std::vector<double> mean;    // p
+  double void_ratio = 0;       // at the start
+
+  [[nodiscard]] std::size_t steps() const { return shear.size(); }
+};
+
+Loop loop(const PaperRun& run, const std::string& title) {
+  Loop l{title, run.column("F12", percent), run.column("sigma12", 1e-3),
+         run.column("sigma22", -1e-3), run.column("sigma11", -1e-3),
+         run.history["void_ratio"].front()};
+  for (std::size_t k = 0; k < l.steps(); ++k) l.mean[k] = 0.5 * (l.mean[k] + l.normal[k]);
+  return l;
+}
+
+// Turns of the shear strain (of the stress where that is controlled), two to a cycle; the first
+// quarter leads to the first turn.
+double cycles(const std::vector<double>& path, std::size_t until) {
+  int turns = 0;
+  for (std::size_t k = 1; k < until && k + 1 < path.size(); ++k)
+    turns += (path[k] - path[k - 1]) * (path[k + 1] - path[k]) < 0 ? 1 : 0;
+  return 0.5 * turns;
+}
+
+void draw_loop(const Loop& l, const std::string& figure, const std::filesystem::path& results) {
+  draw({l.title, "shear F12 [%]",
+        {{"shear stress [kPa]", {{"", l.shear, l.stress, colour::blue, Stroke::thin}}, 1}}},
+       results / (figure + "_loop"));
+  draw({l.title, "vertical stress [kPa]",
+        {{"shear stress [kPa]", {{"", l.normal, l.stress, colour::blue, Stroke::thin}}, 1}}},
+       results / (figure + "_path"));
+}
+
+void strain_controlled(HierarchicalStudy& study, const std::string& name,
+                       const std::string& title) {
+  const auto run = load_run(study.results, name);
+  if (!run || run->steps() < 3) return;
+  const Loop l = loop(*run, title);
+  draw_loop(l, name, study.results);
+  double least = l.mean.front();
+  std::size_t low = 0;  // the first step with less than a tenth of the start
+  for (std::size_t k = 1; k < l.steps(); ++k) {
+    least = std::min(least, l.mean[k]);
+    if (low == 0 && l.mean[k] < 0.1 * l.mean.front()) low = k;
+  }
+  study.facts.agree(
+      "20", title + ": void ratio, cycles until p is a tenth of the start",
+      "0.223; 8.6 kPa vertical stress after 12 cycles",
+      low > 0 ? fmt::format("{:.4f}; {:.1f} cycles", l.void_ratio, cycles(l.shear, low))
+              : fmt::format("{:.4f}; {:.0f} % of the start after {:.1f} cycles", l.void_ratio,
+                            percent * least / l.mean.front(), cycles(l.shear, l.steps())),
+      low > 0 && cycles(l.shear, low) <= 13);
+}
+
+void stress_controlled(HierarchicalStudy& study, const std::string& name,
+                       const std::string& title) {
+  const auto run = load_run(study.results, name);
+  if (!run || run->steps() < 3) return;
+  const Loop l = loop(*run, title);
+  draw_loop(l, name, study.results);
+  double most = 0;
+  std::size_t far = 0;  // the first step beyond 5 %
+  for (std::size_t k = 1; k < l.steps(); ++k) {
+    most = std::max(most, std::abs(l.shear[k]));
+    if (far == 0 && std::abs(l.shear[k]) >= 5) far = k;
+  }
+  study.facts.agree(
+      "22", title + ": void ratio, cycles until 5 % shear strain", "0.209; 13 cycles",
+      far > 0 ? fmt::format("{:.4f}; {:.1f} cycles", l.void_ratio, cycles(l.stress, far))
+              : fmt::format("{:.4f}; {:.1f} % after {:.1f} cycles", l.void_ratio, most,
+                            cycles(l.stress, l.steps())),
+      far > 0);
+}
+
+}  // namespace
+
+void study_liquefaction(HierarchicalStudy& study) {
+  strain_controlled(study, "cyclic_strain_point", "strain control, one RVE");
+  strain_controlled(study, "cyclic_strain_3x2", "strain control, 3 x 2");
+  strain_controlled(study, "cyclic_strain_15x10", "strain control, 15 x 10");
+  stress_controlled(study, "cyclic_stress_point", "stress control, one RVE");
+  stress_controlled(study, "cyclic_stress_3x2", "stress control, 3 x 2");
+  stress_controlled(study, "cyclic_stress_15x10", "stress control, 15 x 10");
+}
+
+}  // namespace verification

@@ -1,0 +1,181 @@
+// Figures 10, 12 and 13: biaxial compression of a specimen that localises, on several meshes.
+
+#include "papers/papers_004.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace verification {
+namespace {
+
+constexpr double percent = 100;
+constexpr double width = 50e-3;  // of the specimen [m]
+
+struct Response {
+  std::string title;
+  std::vector<double> strain;  // axial [%]
+  std::vector<double> stress;  // axial, compression positive [kPa]
+
+  [[nodiscard]] std::size_t peak() const {
+    return static_cast<std::size_t>(std::max_element(stress.begin(), stress.end()) -
+                                    stress.begin());
+  }
+};
+
+// Force on the top over its current width: the mean of F11 over the points is that over the area.
+Response response(const MeshRun& run, const std::string& title) {
+  Response r{title, {}, {}};
+  for (std::size_t k = 0; k < run.steps(); ++k) {
+    r.strain.push_back(percent * run.history["axial_strain"][k]);
+    r.stress.push_back(1e-3 * std::abs(run.forces["top_y_force"][k]) /
+                       (width * run.history["F11"][k]));
+  }
+  return r;
+}
+
+Response response(const PaperRun& run, const std::string& title) {
+  return {title, run.column("axial_strain", percent), run.column("sigma22", -1e-3)};
+}
+
+struct Mesh {
+  const char* name;
+  const char* title;
+  const char* colour;
+};
+constexpr std::array<Mesh, 6> meshes{{{"biaxial_2x4", "2 x 4", colour::amber},
+                                      {"biaxial_3x5", "3 x 5", colour::grey},
+                                      {"biaxial_6x10", "6 x 10", colour::blue},
+                                      {"biaxial_10x15", "10 x 15", colour::green},
+                                      {"biaxial_12x20", "12 x 20", colour::purple},
+                                      {"biaxial_6x10_q8", "6 x 10, Q8", colour::orange}}};
+
+// Largest |a / b - 1| of the stresses up to a strain [%], over the common steps.
+double difference(const Response& a, const Response& b, double until) {
+  double largest = 0;
+  for (std::size_t k = 0; k < a.strain.size(); ++k) {
+    if (a.strain[k] > until + 1e-6) break;
+    const double other = interpolate(b.strain, b.stress, a.strain[k]);
+    if (std::isfinite(other)) largest = std::max(largest, std::abs(a.stress[k] / other - 1));
+  }
+  return largest;
+}
+
+void newton_facts(HierarchicalStudy& study, const MeshRun& run, const Response& r) {
+  int steps = 0, quick = 0, most = 0, later = 0, loose = 0;
+  double cuts = 0;
+  for (std::size_t k = 1; k < run.steps(); ++k) {
+    const int iterations = static_cast<int>(run.history["newton_iterations"][k]);
+    if (k <= r.peak()) {
+      ++steps;
+      quick += iterations <= 5 && run.history["step_cuts"][k] == 0 ? 1 : 0;
+      most = std::max(most, iterations);
+    } else {
+      ++later;
+      cuts += run.history["step_cuts"][k];
+      loose += run.history["loose_parts"][k] > 0 ? 1 : 0;
+    }
+  }
+  study.facts.agree("7", fmt::format("{}: Newton before the peak, force residual 1e-6", r.title),
+                    "more than ten iterations at 5 %, displacement error 0.01",
+                    fmt::format("at most five iterations in {} of {} steps; most {}", quick, steps,
+                                most),
+                    10 * quick >= 9 * steps);
+  if (later > 0)
+    study.facts.add("7", fmt::format("{}: after the peak", r.title), "not stated",
+                    fmt::format("{} steps to {:.1f} %, {:.0f} cuts, {} steps balanced up to a jump "
+                                "of P alone",
+                                later, r.strain.back(), cuts, loose),
+                    "not stated");
+}
+
+void draw_meshes(HierarchicalStudy& study) {
+  const auto rve = study.results / "rve.csv";
+  Panel panel{"axial stress [kPa]", {}, 1, "bottom right"};
+  std::optional<Response> reference;
+  if (std::filesystem::is_regular_file(rve)) {
+    reference = response(*load_run(study.results, "rve"), "RVE alone");
+    panel.curves.push_back({"RVE alone", reference->strain, reference->stress, colour::black,
+                            Stroke::dashed});
+  }
+  std::optional<Response> first;
+  for (const Mesh& mesh : meshes) {
+    const auto run = load_mesh_run(study.results, mesh.name);
+    if (!run || run->steps() < 3) continue;
+    const Response r = response(*run, mesh.title);
+    panel.curves.push_back({r.title, r.strain, r.stress, mesh.colour, Stroke::solid});
+    newton_facts(study, *run, r);
+    const double peak = r.stress[r.peak()];
+    if (reference && r.peak() + 1 < r.stress.size()) {
+      const double other = reference->stress[reference->peak()];
+      study.facts.agree("10", r.title + ": peak against the RVE's", "close",
+                        fmt::format("{:.1f} kPa at {:.1f} %, RVE {:.1f} kPa at {:.1f} %: {:+.2f} %",
+                                    peak, r.strain[r.peak()], other,
+                                    reference->strain[reference->peak()],
+                                    percent * (peak / other - 1)),
+                        std::abs(peak / other - 1) < 0.01);
+    }
+    if (first)
+      study.facts.agree("10", r.title + " against " + first->title + ", before the peak",
+                        "identical",
+                        fmt::format("apart by {:.1e} to 1 %, {:.1e} to 1.5 %",
+                                    difference(r, *first, 1), difference(r, *first, 1.5)),
+                        difference(r, *first, 1.5) < 0.01);
+    else
+      first = r;
+    if (const auto strain = load_every(study.results, run->name, "deviatoric_strain")) {
+      double least = std::numeric_limits<double>::infinity(), most = 0;
+      for (std::size_t p = 1; p < strain->columns.size(); ++p) {
+        least = std::min(least, strain->columns[p].back());
+        most = std::max(most, strain->columns[p].back());
+      }
+      study.facts.agree("12", fmt::format("{}: deviatoric strain at {:.1f} %", r.title,
+                                          r.strain.back()),
+                        "a single band; largest at 10 %: 0.507 on 6 x 10, 0.809 on 12 x 20, 1.249 on "
+                        "6 x 10 with Q8",
+                        fmt::format("{:.3f} to {:.3f} over the points", least, most),
+                        most > 3 * least);
+    }
+  }
+  if (panel.curves.empty()) return;
+  draw({"biaxial compression, 50 x 100 mm", "axial strain [%]", {panel}},
+       study.results / "figure_10");
+}
+
+void draw_hexagonal(HierarchicalStudy& study) {
+  Panel panel{"axial stress [kPa]", {}, 1, "top right"};
+  if (const auto rve = load_run(study.results, "rve_hexagonal")) {
+    const Response r = response(*rve, "RVE alone");
+    panel.curves.push_back({r.title, r.strain, r.stress, colour::black, Stroke::dashed});
+    study.facts.add("13", "RVE alone: peak", "1450 kPa at 2.8 %",
+                    fmt::format("{:.0f} kPa at {:.1f} %", r.stress[r.peak()], r.strain[r.peak()]),
+                    std::abs(r.strain[r.peak()] - 2.8) < 0.3 ? "agrees" : "differs");
+  }
+  for (const char* name : {"biaxial_2x4_hexagonal", "biaxial_6x10_hexagonal"}) {
+    const auto run = load_mesh_run(study.results, name);
+    if (!run || run->steps() < 3) continue;
+    const Response r = response(*run, name[8] == '2' ? "2 x 4" : "6 x 10");
+    panel.curves.push_back({r.title, r.strain, r.stress,
+                            name[8] == '2' ? colour::amber : colour::blue, Stroke::solid});
+    const std::size_t k = r.peak();
+    study.facts.add("13", r.title + ": peak, and the next step", "near 2.8 %, then a sudden drop",
+                    fmt::format("{:.0f} kPa at {:.1f} %, then {:.0f} kPa", r.stress[k], r.strain[k],
+                                k + 1 < r.stress.size() ? r.stress[k + 1] : std::nan("")),
+                    std::abs(r.strain[k] - 2.8) < 0.3 ? "agrees" : "differs");
+  }
+  if (panel.curves.empty()) return;
+  draw({"biaxial compression, hexagonal packing", "axial strain [%]", {panel}},
+       study.results / "figure_13");
+}
+
+}  // namespace
+
+void study_localisation(HierarchicalStudy& study) {
+  draw_meshes(study);
+  draw_hexagonal(study);
+}
+
+}  // namespace verification
