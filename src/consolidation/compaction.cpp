@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <string>
 #include <utility>
@@ -132,11 +133,14 @@ class Consolidation {
       const double pressure = line_stiffness / (stiffness * stiffest_compression);
       if (!to_pressure || pressure > options_.pressure) above.push_back(pressure);
     }
+    // Compressed to a void ratio the discs may not have met yet, where those come down to it bear.
+    std::optional<Error> loose;
     if (!to_pressure || options_.pressure * stiffest_compression >= line_stiffness) {
       try {
         return finish(compress(loose_, options_, law_), options_.pressure, false);
       } catch (const Error& error) {
-        if (error.status != GRAINLAW_NOT_CONVERGED || above.empty()) throw;
+        if (above.empty()) throw;
+        if (error.status != GRAINLAW_NOT_CONVERGED) loose = error;
       }
     }
     for (std::size_t k = 0;; ++k) {
@@ -146,7 +150,9 @@ class Consolidation {
         soft.pressure = above[k];
         return finish(compress(loose_, soft, law_), above[k], true);
       } catch (const Error& error) {
-        if (error.status != GRAINLAW_NOT_CONVERGED || k + 1 == above.size()) throw;
+        const bool last = k + 1 == above.size();
+        if (loose && (last || error.status != GRAINLAW_NOT_CONVERGED)) throw *loose;
+        if (last || error.status != GRAINLAW_NOT_CONVERGED) throw;
       }
     }
   }

@@ -42,9 +42,22 @@ class Servo {
     if (space_.averages()) find_areas();
     predict();
     increment_.keep_neighbours();
+    // The boundary asks for the root of the sum of squares, the relaxation for the largest residual:
+    // what that leaves in many particles may add up to forces on the boundary which no correction
+    // takes away, and which are too small to set the particles moving.
+    constexpr int stalled = 20;  // corrections without a relaxation step
+    constexpr double tighter = 0.3;
+    double tolerance = tolerance_;
+    int without_step = 0;
     for (int correction = 0; correction <= servo_.max_corrections; ++correction) {
-      if (!relax_published(increment_, tolerance_, options_.published, memory_.frozen, memory_)) {
+      const long steps = increment_.relaxation_steps;
+      if (!relax_published(increment_, tolerance, options_.published, memory_.frozen, memory_)) {
         return false;
+      }
+      without_step = increment_.relaxation_steps > steps ? 0 : without_step + 1;
+      if (without_step == stalled) {
+        tolerance *= tighter;
+        without_step = 0;
       }
       memory_.correction.assign(increment_.unknowns(), 0.0);
       const double residual =

@@ -132,11 +132,6 @@ std::uint64_t fingerprint_of(const Material& material) {
                            static_cast<int>(side.rotation), static_cast<int>(side.row)};
       add(rules, sizeof rules);
     }
-    const auto& space = material.space;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const double prescribed[] = {space.found[k] ? 1.0 : 0.0, space.stress[k]};
-      add(prescribed, sizeof prescribed);
-    }
   }
   add(material.packing.cell.data(), sizeof material.packing.cell);
   add_all(material.packing.radius);

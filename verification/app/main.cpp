@@ -19,8 +19,10 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   verification::add_point_command(app);
   verification::add_solve_command(app);
+  verification::add_dns_command(app);
   verification::add_pack_command(app);
   verification::add_study_command(app);
+  verification::add_wave_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

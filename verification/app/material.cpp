@@ -39,26 +39,33 @@ MaterialSource read_material_source(SceneTable& scene) {
   return source;
 }
 
+MaterialText material_text(const MaterialSource& source) {
+  toml::table description;
+  std::string origin = "material";
+  if (!source.file.empty()) {
+    description = SceneFile(source.file).content;
+    origin = source.file.string();
+    if (!source.changes.empty()) origin += " as changed by the scene";
+  }
+  merge(description, source.changes);
+  std::ostringstream text;
+  text << description;
+  return {text.str(), source.base.empty() ? "." : source.base.string(), origin};
+}
+
 Material make_material(const MaterialSource& source) {
   std::array<char, 1024> message{};
   grainlaw_material* material = nullptr;
   grainlaw_status status = GRAINLAW_OK;
-  const std::string file = source.file.string();
   std::string origin = "material";
   if (source.changes.empty() && !source.file.empty()) {
+    const std::string file = source.file.string();
     status = grainlaw_material_load(file.c_str(), &material, message.data(), message.size());
   } else {
-    toml::table description;
-    if (!source.file.empty()) {
-      description = SceneFile(source.file).content;
-      origin = file + " as changed by the scene";
-    }
-    merge(description, source.changes);
-    std::ostringstream text;
-    text << description;
-    const std::string base = source.base.empty() ? "." : source.base.string();
-    status = grainlaw_material_parse(text.str().c_str(), base.c_str(), &material, message.data(),
-                                     message.size());
+    const MaterialText description = material_text(source);
+    origin = description.origin;
+    status = grainlaw_material_parse(description.text.c_str(), description.base.c_str(), &material,
+                                     message.data(), message.size());
   }
   if (status != GRAINLAW_OK) {
     const std::string text =

@@ -30,6 +30,14 @@ void change(MaterialSource& source, std::string_view table, std::string_view key
 // names a material file that the other keys change; its relative paths are then those of that file.
 MaterialSource read_material_source(SceneTable& scene);
 
+// The whole description as text, where its relative paths start, and what messages call it.
+struct MaterialText {
+  std::string text;
+  std::string base;
+  std::string origin;
+};
+MaterialText material_text(const MaterialSource& source);
+
 // Throws InputError for a wrong description, ComputationError when there is no equilibrium at F =
 // I.
 Material make_material(const MaterialSource& source);

@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -17,22 +18,43 @@ double seconds(std::chrono::steady_clock::duration time) {
   return std::chrono::duration<double>(time).count();
 }
 
+std::string duration(double seconds) {
+  const auto whole = std::lround(seconds);
+  if (whole < 100) return fmt::format("{} s", whole);
+  if (whole < 6000) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
 }  // namespace
 
 Progress::Progress(std::string what)
     : what_(std::move(what)), terminal_(isatty(STDERR_FILENO) != 0) {}
 
-Progress::~Progress() {
+Progress::~Progress() { clear(); }
+
+void Progress::clear() {
   if (terminal_ && shown_) fmt::print(stderr, "\r\033[K");
+  std::fflush(stderr);
+  shown_ = false;
 }
 
 void Progress::update(double fraction, const std::string& text) {
   const auto now = Clock::now();
+  if (first_fraction_ < 0) {
+    first_fraction_ = fraction;
+    first_ = now;
+  }
   if (seconds(now - last_) < (terminal_ ? terminal_interval : log_interval)) return;
   last_ = now;
   shown_ = true;
-  const std::string line = fmt::format("{}: {:3.0f} %, {:.0f} s, {}", what_, 100 * fraction,
-                                       seconds(now - start_), text);
+  std::string left;
+  if (fraction > first_fraction_) {
+    const double per_run = seconds(now - first_) / (fraction - first_fraction_);
+    left = fmt::format(", {} left", duration((1 - fraction) * per_run));
+  }
+  const std::string line = fmt::format("{}: {:3.0f} %, {}{}{}{}", what_, 100 * fraction,
+                                       duration(seconds(now - start_)), left,
+                                       text.empty() ? "" : ", ", text);
   if (terminal_)
     fmt::print(stderr, "\r\033[K{}", line);
   else

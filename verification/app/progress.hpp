@@ -14,8 +14,11 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // fraction of the run that is done, 0..1, and a short text
+  // Fraction of the run that is done, 0..1, and a short text. The time left is told at the speed
+  // since the first call.
   void update(double fraction, const std::string& text);
+  // Takes the line off the terminal, to be called before anything else is printed.
+  void clear();
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -24,6 +27,8 @@ class Progress {
   bool shown_ = false;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_ = start_;
+  Clock::time_point first_ = start_;
+  double first_fraction_ = -1;
 };
 
 }  // namespace verification

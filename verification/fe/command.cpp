@@ -23,6 +23,10 @@ void add_solve_command(CLI::App& app) {
                    "write NAME.checkpoint every so many load steps (0: when interrupted only); "
                    "the scene's key checkpoint_every otherwise")
       ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--stop-after", options->stop_after,
+                   "end after this load step and leave NAME.checkpoint")
+      ->check(CLI::NonNegativeNumber);
   command->callback([scene, options] { run_fe_scene(SceneFile(*scene), *options); });
 }
 

@@ -4,10 +4,13 @@
 #include "app/interrupt.hpp"
 #include "app/output.hpp"
 #include "app/progress.hpp"
-#include "fe/output/cost_report.hpp"
 #include "fe/output/run_output.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
 
 #include <sstream>
 
@@ -54,6 +57,7 @@ class Run {
         identity_(identity(file, scene_.model.mesh)),
         file_(file.path),
         every_(options.checkpoint_every.value_or(scene_.output.checkpoint_every)),
+        stop_after_(options.stop_after.value_or(std::numeric_limits<int>::max())),
         directory_(options.directory),
         stem_(output_stem(options.directory, scene_.name)),
         checkpoint_(stem_.string() + ".checkpoint"),
@@ -72,6 +76,7 @@ class Run {
       output_.emplace(scene_, std::move(tables), *solver_);
       output_->restore(in);
       fmt::print("{}: goes on after step {} of {}\n", scene_.name, done_, scene_.steps);
+      std::fflush(stdout);
     } else {
       if (options.restart)
         fmt::print("{}: there is no {}, so this starts from the beginning\n", scene_.name,
@@ -85,42 +90,52 @@ class Run {
   void go() {
     const Interrupt interrupt;
     const auto observe = [&](const LoadStep& step, const Solver&) { after(step); };
+    const int last = std::min(stop_after_, scene_.steps);
     try {
-      run_load_steps(*solver_, scene_.solver.duration(), scene_.steps, scene_.steps, observe,
+      run_load_steps(*solver_, scene_.solver.duration(), scene_.steps, last, observe,
                      done_ + 1);
     } catch (const ComputationError& error) {
-      output_->finish();
+      try {
+        finish();
+      } catch (const std::exception&) {  // says no more than the error that is reported
+      }
       throw ComputationError(fmt::format("{}: {}", file_.string(), error.what()));
     }
-    output_->finish();
-    fmt::print("{}: {}\n{}wrote {}\n", scene_.name, output_->history(), cost_.summary(*solver_),
-               output_->written());
+    finish();
   }
 
  private:
+  void finish() {
+    if (done_ < 0) return;
+    progress_.clear();
+    output_->finish();
+    fmt::print("{}: {}wrote {}\n", scene_.name, output_->summary(), output_->written());
+  }
+
   void after(const LoadStep& step) {
     done_ = step.record.step;
-    {
-      const auto measure = solver_->points().cost().measure(Stage::output);
-      output_->add(step);
-      const bool last = done_ == scene_.steps;
-      const int signal = last ? 0 : Interrupt::signal();
-      if (signal != 0 || (every_ > 0 && (last || (done_ > 0 && done_ % every_ == 0)))) save();
-      if (signal != 0) {
-        fmt::print(
-            "{}: ended after step {} of {} as asked; go on with\n  grainlaw solve {} "
-            "--output {} --restart\n",
-            scene_.name, done_, scene_.steps, file_.string(), directory_);
-        throw Interrupted{signal};
-      }
+    output_->add(step);
+    const bool last = done_ == scene_.steps;
+    const int signal = last ? 0 : Interrupt::signal();
+    const bool stops = !last && (signal != 0 || done_ >= stop_after_);
+    const bool regular = every_ > 0 && (last || (done_ > 0 && done_ % every_ == 0));
+    if (stops || regular || (last && std::filesystem::exists(checkpoint_))) save();
+    if (stops) {
+      progress_.clear();
+      fmt::print("{}: ended after step {} of {} as asked; go on with\n  grainlaw solve {} "
+                 "--output {} --restart\n",
+                 scene_.name, done_, scene_.steps, file_.string(), directory_);
     }
-    cost_.add(step, *solver_);
-    progress_.update(static_cast<double>(done_) / scene_.steps,
-                     fmt::format("axial strain {:.2f} %, sigma22 {:.1f} kPa",
-                                 100 * step.record.axial_strain(), step.record.cauchy(1, 1) / 1e3));
+    if (signal != 0) throw Interrupted{signal};
+    if (!stops)
+      progress_.update(
+          static_cast<double>(done_) / scene_.steps,
+          fmt::format("axial strain {:.2f} %, sigma22 {:.1f} kPa", 100 * step.record.axial_strain(),
+                      step.record.cauchy(1, 1) / 1e3));
   }
 
   void save() {
+    const auto measure = solver_->points().cost().measure(Stage::output);
     CheckpointWriter out;
     out.write(identity_.scene);
     out.write(identity_.mesh);
@@ -135,12 +150,12 @@ class Run {
   Identity identity_;
   std::filesystem::path file_;
   int every_;
+  int stop_after_;
   std::string directory_;
   std::filesystem::path stem_;
   std::filesystem::path checkpoint_;
   std::unique_ptr<Solver> solver_;
   std::optional<RunOutput> output_;
-  CostReport cost_;
   Progress progress_;
   int done_ = -1;  // last step that is done
 };

@@ -12,6 +12,7 @@ struct RunOptions {
   std::string directory = ".";          // for the results
   bool restart = false;                 // go on from the checkpoint, if there is one
   std::optional<int> checkpoint_every;  // instead of the scene's; 0: when interrupted only
+  std::optional<int> stop_after;        // end with a checkpoint after this load step
 };
 
 // Writes the files that `grainlaw solve` documents. Between two load steps it looks whether it has

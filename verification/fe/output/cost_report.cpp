@@ -3,45 +3,85 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <vector>
+#include <numeric>
 
 namespace verification {
+namespace {
 
-void CostReport::add(const LoadStep& step, const Solver& solver) {
-  const Cost& cost = solver.points().cost();
-  if (!started_) {
-    started_ = true;
-    start_ = Spent::now();
-    for (std::size_t k = 0; k < stages; ++k) at_start_[k] = cost.of(static_cast<Stage>(k));
-    return;
-  }
-  ++steps_;
-  evaluations_ += step.record.effort.evaluations;
-  total_ = Spent::now() - start_;
+constexpr std::array<const char*, stages> stage_names{"points", "assembly", "linear_solve",
+                                                      "output"};
+
+int points_without_contacts(const PointField& points) {
+  int count = 0;
+  for (std::size_t p = 0; p < points.size(); ++p) count += points.report(p).contacts == 0 ? 1 : 0;
+  return count;
 }
 
-std::string CostReport::summary(const Solver& solver) const {
-  const Cost& cost = solver.points().cost();
-  const auto points = static_cast<double>(solver.points().size());
-  const double steps = std::max(steps_, 1);
-  std::string text = fmt::format(
-      "{} points: {:.2f} evaluations and {:.3f} core-milliseconds per point and load step; "
-      "{:.2f} core-seconds, {:.2f} s elapsed\n",
-      points, evaluations_ / steps, 1e3 * total_.cpu / (steps * points), total_.cpu,
-      total_.elapsed);
-  double rest = total_.cpu;
-  std::vector<std::string> parts;
-  const auto part = [&](const char* name, double cpu) {
-    parts.push_back(fmt::format("{} {:.1f} %", name, 100 * cpu / std::max(total_.cpu, 1e-9)));
+}  // namespace
+
+std::vector<std::string> cost_columns() {
+  std::vector<std::string> names{"step[-]", "elapsed[s]", "core_time[s]"};
+  for (const char* name : stage_names) names.push_back(fmt::format("{}_core_time[s]", name));
+  names.insert(names.end(), {"evaluations[-]", "iterations[-]", "cuts[-]", "loose_parts[-]",
+                             "fallbacks[-]", "failed_points[-]"});
+  return names;
+}
+
+CostReport::CostReport(const Solver& solver) : solver_(solver), last_(now()) {}
+
+CostReport::Reading CostReport::now() const {
+  Reading reading{Spent::now(), {}};
+  for (std::size_t k = 0; k < stages; ++k)
+    reading.stage[k] = solver_.points().cost().of(static_cast<Stage>(k));
+  return reading;
+}
+
+void CostReport::add(const LoadStep& step, CsvWriter& table) {
+  const Reading reading = now();
+  const Spent total = reading.total - last_.total;
+  std::vector<double> row{static_cast<double>(step.record.step), total.elapsed, total.cpu};
+  for (std::size_t k = 0; k < stages; ++k)
+    row.push_back((reading.stage[k] - last_.stage[k]).cpu);
+  const Effort& effort = step.record.effort;
+  for (const int count : {effort.evaluations, effort.iterations, effort.cuts, effort.loose,
+                          effort.history_advanced, points_without_contacts(solver_.points())})
+    row.push_back(count);
+  table.row(row);
+  last_ = reading;
+}
+
+std::string cost_summary(const CsvTable& table, std::size_t points) {
+  if (table.rows() == 0) return {};
+  const auto sum = [&](const std::string& name, std::size_t first = 0) {
+    const std::vector<double>& values = table[name];
+    return std::accumulate(values.begin() + static_cast<std::ptrdiff_t>(first), values.end(), 0.0);
   };
-  constexpr std::array<const char*, stages> names{"points", "assembly", "linear solve", "output"};
-  for (std::size_t k = 0; k < stages; ++k) {
-    const Spent spent = cost.of(static_cast<Stage>(k)) - at_start_[k];
-    part(names[k], spent.cpu);
-    rest -= spent.cpu;
+  // Step 0 is the start and no load step; it counts in the totals alone.
+  const std::size_t first = table["step"].front() == 0 ? 1 : 0;
+  const auto steps = static_cast<double>(std::max<std::size_t>(table.rows() - first, 1));
+  const double cpu = sum("core_time");
+  std::string text = fmt::format(
+      "{} points: {:.3f} core-milliseconds and {:.2f} evaluations per point and load step; "
+      "{:.2f} core-seconds, {:.2f} s elapsed\n",
+      points, 1e3 * sum("core_time", first) / (steps * static_cast<double>(points)),
+      sum("evaluations", first) / steps, cpu, sum("elapsed"));
+  double rest = cpu;
+  std::vector<std::string> parts;
+  const auto part = [&](std::string name, double spent) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    parts.push_back(fmt::format("{} {:.1f} %", name, 100 * spent / std::max(cpu, 1e-9)));
+  };
+  for (const std::string name : stage_names) {
+    const double spent = sum(name + "_core_time");
+    part(name, spent);
+    rest -= spent;
   }
   part("rest", rest);
-  return text + fmt::format("core-seconds went to {}\n", fmt::join(parts, ", "));
+  const std::vector<double>& failed = table["failed_points"];
+  return text +
+         fmt::format("core-seconds went to {}\npoints without contacts: {:.0f}, at most {:.0f}\n",
+                     fmt::join(parts, ", "), failed.back(),
+                     *std::max_element(failed.begin(), failed.end()));
 }
 
 }  // namespace verification

@@ -1,26 +1,39 @@
-// What the load steps of a run cost, for the user.
+// What the load steps of a run cost: a table, and its sum for the user.
 #pragma once
 
+#include "app/csv.hpp"
 #include "fe/solver/solver.hpp"
 
+#include <array>
 #include <string>
+#include <vector>
 
 namespace verification {
 
+// Columns of STEM_cost.csv. Times are the only numbers of a run that a repetition does not repeat.
+std::vector<std::string> cost_columns();
+
 class CostReport {
  public:
-  // After every step. The clock starts with the first, whose own cost is not counted.
-  void add(const LoadStep& step, const Solver& solver);
-  // Lines, each with its end: cost per point and load step, and where the time went.
-  [[nodiscard]] std::string summary(const Solver& solver) const;
+  // The clock starts here. The solver must outlive it.
+  explicit CostReport(const Solver& solver);
+
+  // One row: what was spent since the last one.
+  void add(const LoadStep& step, CsvWriter& table);
 
  private:
-  bool started_ = false;
-  int steps_ = 0;
-  double evaluations_ = 0;  // per point
-  Spent start_;
-  Spent total_;
-  std::array<Spent, stages> at_start_;
+  struct Reading {
+    Spent total;
+    std::array<Spent, stages> stage;
+  };
+  [[nodiscard]] Reading now() const;
+
+  const Solver& solver_;
+  Reading last_;
 };
+
+// Of a whole table: cost per point and load step, where the time went, what it took. Lines, each with
+// its end.
+std::string cost_summary(const CsvTable& table, std::size_t points);
 
 }  // namespace verification

@@ -24,7 +24,7 @@ std::vector<std::string> force_columns(const Model& model) {
 }
 
 std::vector<std::string> point_columns() {
-  std::vector<std::string> names{"step[-]", "time[-]", "x[m]", "y[m]"};
+  std::vector<std::string> names{"step[-]", "time[s]", "x[m]", "y[m]"};
   for (const Field& field : fields())
     for (const std::string& name : columns(field)) names.push_back(name);
   return names;
@@ -39,6 +39,8 @@ RunOutput::RunOutput(const FiniteElementScene& scene, RunTables tables, const So
       history_(tables_.open(".csv", record_columns())),
       newton_(tables_.open("_newton.csv", {"step[-]", "iteration[-]", "relative_residual[-]"})),
       forces_(tables_.open("_force.csv", force_columns(scene.model))),
+      costs_(tables_.open("_cost.csv", cost_columns())),
+      cost_(solver),
       series_(scene.model, tables_.stem(), scene.output.packings) {
   for (const std::size_t point : scene.output.points)
     points_.push_back(&tables_.open(fmt::format("_point{}.csv", point), point_columns()));
@@ -54,6 +56,14 @@ RunOutput::RunOutput(const FiniteElementScene& scene, RunTables tables, const So
 }
 
 void RunOutput::add(const LoadStep& step) {
+  {
+    const auto measure = solver_.points().cost().measure(Stage::output);
+    write(step);
+  }
+  cost_.add(step, costs_);
+}
+
+void RunOutput::write(const LoadStep& step) {
   const int number = step.record.step;
   history_.row(record_values(step.record));
   for (std::size_t k = 0; k < step.residuals.size(); ++k)
@@ -122,12 +132,15 @@ void RunOutput::finish() const {
   draw_history(read_csv(history_.path()), scene_.abscissa, scene_.name, tables_.stem());
 }
 
-std::string RunOutput::history() const { return history_summary(read_csv(history_.path())); }
+std::string RunOutput::summary() const {
+  return history_summary(read_csv(history_.path())) + "\n" +
+         cost_summary(read_csv(costs_.path()), solver_.points().size());
+}
 
 std::string RunOutput::written() const {
   const OutputOptions& output = scene_.output;
   std::string text =
-      fmt::format("{}.csv, _newton.csv, _force.csv, .svg, .png", tables_.stem().string());
+      fmt::format("{}.csv, _newton.csv, _force.csv, _cost.csv, .svg, .png", tables_.stem().string());
   if (energies_ != nullptr) text += ", _energy.csv";
   if (probes_ != nullptr) text += ", _probes.csv";
   if (!output.points.empty()) text += ", _pointN.csv";

@@ -1,6 +1,7 @@
 // The files of a run, written step by step.
 #pragma once
 
+#include "fe/output/cost_report.hpp"
 #include "fe/output/run_tables.hpp"
 #include "fe/output/vtk_series.hpp"
 #include "fe/scene.hpp"
@@ -24,10 +25,11 @@ class RunOutput {
   void restore(CheckpointReader& in) { series_.restore(in); }
 
   // For the user: what the run took, and which files there are.
-  [[nodiscard]] std::string history() const;
+  [[nodiscard]] std::string summary() const;
   [[nodiscard]] std::string written() const;
 
  private:
+  void write(const LoadStep& step);
   void add_point(std::size_t point, const LoadStep& step, CsvWriter& table) const;
   void draw(const LoadStep& step) const;
 
@@ -37,6 +39,8 @@ class RunOutput {
   CsvWriter& history_;
   CsvWriter& newton_;
   CsvWriter& forces_;
+  CsvWriter& costs_;
+  CostReport cost_;
   CsvWriter* energies_ = nullptr;  // of dynamic runs
   CsvWriter* probes_ = nullptr;    // of scenes with probes
   std::vector<CsvWriter*> points_;

@@ -17,6 +17,17 @@ NewtonOptions read_newton(SceneTable table) {
   return options;
 }
 
+RelaxationOptions read_relaxation(SceneTable table) {
+  RelaxationOptions options;
+  options.tolerance = table.number_or("tolerance", options.tolerance, positive);
+  options.max_iterations = table.integer_or("max_iterations", options.max_iterations, 1);
+  options.max_cuts = table.integer_or("max_cuts", options.max_cuts, 0);
+  options.damping_ratio = table.number_or("damping_ratio", options.damping_ratio, not_negative);
+  options.safety = table.number_or("safety", options.safety, {0, 1, true, "a number in (0, 1]"});
+  table.close();
+  return options;
+}
+
 void read_dynamics(SceneTable table, SolverOptions& options) {
   DynamicsOptions& dynamics = options.dynamics;
   dynamics.duration = table.number("duration", positive);
@@ -37,10 +48,14 @@ void read_dynamics(SceneTable table, SolverOptions& options) {
 
 SolverOptions read_solver(SceneTable& scene) {
   SolverOptions options;
-  const std::string kind = scene.choice_or("solver", "newton", {"newton", "dynamics"});
+  const std::string kind =
+      scene.choice_or("solver", "newton", {"newton", "relaxation", "dynamics"});
   if (kind == "dynamics") {
     options.kind = SolverKind::dynamics;
     read_dynamics(scene.table("dynamics"), options);
+  } else if (kind == "relaxation") {
+    options.kind = SolverKind::relaxation;
+    if (scene.has(kind)) options.relaxation = read_relaxation(scene.table(kind));
   } else if (scene.has("newton")) {
     options.newton = read_newton(scene.table("newton"));
   }
@@ -51,6 +66,8 @@ std::unique_ptr<Solver> make_solver(const SolverOptions& options, const Model& m
                                     const Material& material, int threads) {
   if (options.kind == SolverKind::newton)
     return make_newton_solver(model, material, options.newton, threads);
+  if (options.kind == SolverKind::relaxation)
+    return make_relaxation_solver(model, material, options.relaxation, threads);
   DynamicsOptions dynamics = options.dynamics;
   if (options.particle_density > 0) {
     const double void_ratio = measure_scalar(make_state(material).get(), GRAINLAW_VOID_RATIO);

@@ -4,14 +4,16 @@
 #include "app/scene.hpp"
 #include "fe/solver/dynamics.hpp"
 #include "fe/solver/newton.hpp"
+#include "fe/solver/relaxation.hpp"
 
 namespace verification {
 
-enum class SolverKind { newton, dynamics };
+enum class SolverKind { newton, relaxation, dynamics };
 
 struct SolverOptions {
   SolverKind kind = SolverKind::newton;
   NewtonOptions newton;
+  RelaxationOptions relaxation;
   DynamicsOptions dynamics;
   double particle_density = 0;  // of the grains; 0: the dynamic options give the density [kg/m3]
 

@@ -1,0 +1,209 @@
+#include "dns/specimen.hpp"
+
+#include "app/packing_source.hpp"
+#include "dns/repeat.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <ctime>
+#include <vector>
+
+namespace verification {
+namespace {
+
+double cpu_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+constexpr std::array<const char*, 4> stress_keys{"P11", "P12", "P21", "P22"};
+
+Tensor deformation_of(const grainlaw_state* state) {
+  const std::vector<double> f = measure(state, GRAINLAW_DEFORMATION_GRADIENT);
+  return to_tensor({f[0], f[1], f[2], f[3]});
+}
+
+// What is committed in `from` becomes committed in `to`, whose material prescribes other stresses.
+void carry_over(const grainlaw_state* from, grainlaw_state* to) {
+  std::size_t size = 0;
+  check(grainlaw_state_save(from, nullptr, &size), "saving the specimen");
+  std::vector<std::byte> bytes(size);
+  check(grainlaw_state_save(from, bytes.data(), &size), "saving the specimen");
+  check(grainlaw_state_load(to, bytes.data(), size), "loading the specimen");
+}
+
+Tensor piola_of(const grainlaw_state* state, const Tensor& deformation) {
+  const std::vector<double> s = measure(state, GRAINLAW_CAUCHY_STRESS);
+  const Tensor sigma = to_tensor({s[0], s[1], s[2], s[3]});
+  return deformation.determinant() * sigma * deformation.inverse().transpose();
+}
+
+}  // namespace
+
+Specimen::Specimen(const SpecimenScene& scene, const std::filesystem::path& stem) : scene_(scene) {
+  MaterialSource frame = scene.material;
+  frame.changes.insert_or_assign("boundary", toml::table{{"type", "frame-p"}});
+  const std::string prefix = stem.string() + "_specimen";
+  {
+    const Material material = make_material(frame);
+    const State state = make_state(material);
+    check(grainlaw_state_write_packing(state.get(), prefix.c_str()), "writing " + prefix);
+  }
+  const FramePacking packing = repeat(read_frame(prefix), scene.repeat[0], scene.repeat[1]);
+  write_frame(packing, prefix);
+  end_.particles = static_cast<int>(packing.size());
+  end_.boundary = static_cast<int>(packing.boundary.size());
+  source_ = with_packing(scene.material, prefix);
+  toml::table boundary = scene.sides;
+  boundary.insert_or_assign("type", "mixed");
+  source_.changes.insert_or_assign("boundary", boundary);
+}
+
+// A material of its own for each set of prescribed stresses; the state goes from one to the next.
+void Specimen::prescribe(const Stresses& stress) {
+  if (state_ != nullptr && stress == prescribed_) return;
+  toml::table values;
+  for (std::size_t k = 0; k < 4; ++k)
+    if (stress[k]) values.insert_or_assign(stress_keys[k], *stress[k]);
+  MaterialSource source = source_;
+  if (!values.empty()) source.changes["boundary"].as_table()->insert_or_assign("stress", values);
+  Material material = make_material(source);
+  State state = make_state(material);
+  if (state_ != nullptr) carry_over(state_.get(), state.get());
+  material_ = std::move(material);
+  state_ = std::move(state);
+  prescribed_ = stress;
+}
+
+// P = sigma cof F with the F that is found, again until it stays.
+void Specimen::bring_to_start() {
+  constexpr int most = 10;
+  constexpr double close = 1e-6;
+  Tensor F = Tensor::Identity();
+  for (int round = 0; round < most; ++round) {
+    Tensor sigma = Tensor::Zero();
+    Stresses stress;
+    for (std::size_t k = 0; k < 4; ++k) sigma(static_cast<int>(k / 2), static_cast<int>(k % 2)) =
+        scene_.start[k].value_or(0);
+    const Vector4 wanted = to_vector(F.determinant() * sigma * F.inverse().transpose());
+    for (std::size_t k = 0; k < 4; ++k)
+      if (scene_.start[k]) stress[k] = wanted(static_cast<Eigen::Index>(k));
+    state_.reset();  // each round loads the packing anew
+    prescribe(stress);
+    const Tensor found = deformation_of(state_.get());
+    const double change = (found - F).norm();
+    F = found;
+    if (change < close) break;
+  }
+}
+
+SpecimenEnd Specimen::run(const Observer& observe) {
+  const auto clock = std::chrono::steady_clock::now();
+  double cpu = cpu_seconds();
+  for (const SpecimenSegment& segment : scene_.segments) end_.steps_wanted += segment.steps;
+  bring_to_start();
+  volume_ = measure_scalar(state_.get(), GRAINLAW_REFERENCE_VOLUME);
+  deformation_ = deformation_of(state_.get());
+  evaluation_.stress = piola_of(state_.get(), deformation_);
+  record_ = make_record(state_.get(), deformation_, evaluation_.stress, evaluation_.report);
+  end_.start = record_;
+  const auto show = [&] {
+    end_.cpu += cpu_seconds() - cpu;
+    if (observe) observe(state_.get(), record_);
+    cpu = cpu_seconds();
+  };
+  show();
+  try {
+    for (const SpecimenSegment& segment : scene_.segments) {
+      const Tensor F = deformation_, P = evaluation_.stress;
+      for (int k = 1; k <= segment.steps; ++k) {
+        std::string reason;
+        const int number = record_.step + 1;
+        record_.effort = {};
+        if (!step(segment, F, P, static_cast<double>(k - 1) / segment.steps,
+                  static_cast<double>(k) / segment.steps, reason)) {
+          end_.effort.add(record_.effort);
+          throw ComputationError(fmt::format("step {} failed (F22 = {:.6f}): {}", number,
+                                             deformation_(1, 1), reason));
+        }
+        record_.step = end_.steps = number;
+        end_.effort.add(record_.effort);
+        show();
+      }
+    }
+  } catch (const ComputationError& error) {
+    end_.text = error.what();
+  }
+  end_.cpu += cpu_seconds() - cpu;
+  end_.elapsed =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+  return end_;
+}
+
+Specimen::Goal Specimen::goal_at(const SpecimenSegment& segment, const Tensor& deformation,
+                                 const Tensor& stress, double fraction) const {
+  using Kind = SpecimenTarget::Kind;
+  Goal goal{deformation, {}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const SpecimenTarget& target = segment.target[k];
+    const auto i = static_cast<int>(k / 2), j = static_cast<int>(k % 2);
+    const double F = deformation(i, j), P = stress(i, j);
+    if (target.kind == Kind::deformation) goal.deformation(i, j) = F + fraction * (target.value - F);
+    if (target.kind == Kind::stretch) goal.deformation(i, j) = F * (1 + fraction * (target.value - 1));
+    if (target.kind == Kind::stress) goal.stress[k] = P + fraction * (target.value - P);
+    // What was prescribed keeps its digits.
+    if (target.kind == Kind::keep_stress) goal.stress[k] = prescribed_[k].value_or(P);
+  }
+  return goal;
+}
+
+bool Specimen::step(const SpecimenSegment& segment, const Tensor& deformation,
+                    const Tensor& stress, double from, double to, std::string& reason) {
+  constexpr double smallest_cut = 0.1;  // in one go
+  constexpr double usual_cut = 0.5;
+  const double smallest = std::ldexp(to - from, -scene_.max_cuts);
+  double done = from, part = to - from;
+  while (done < to) {
+    const double next = done + part > to - 1e-9 * (to - from) ? to : done + part;
+    const Goal goal = goal_at(segment, deformation, stress, next);
+    prescribe(goal.stress);
+    const Evaluation evaluation = evaluate(state_.get(), goal.deformation, 0);
+    record_.effort.add(evaluation.report);
+    if (evaluation.status == GRAINLAW_OK) {
+      record_.effort.history_advanced += evaluation.report.history_advanced;
+      accept(evaluation);
+      part = std::min(to - next, 2 * (next - done));
+      done = next;
+      continue;
+    }
+    ++record_.effort.cuts;
+    reason = grainlaw_status_text(evaluation.status);
+    part = (next - done) * std::clamp(evaluation.report.step_ratio, smallest_cut, usual_cut);
+    if (part < smallest) return false;
+  }
+  return true;
+}
+
+void Specimen::accept(const Evaluation& evaluation) {
+  const Tensor F = deformation_of(state_.get());
+  const double work = record_.external_work + 0.5 * volume_ *
+                                                  (evaluation_.stress + evaluation.stress)
+                                                      .cwiseProduct(F - deformation_)
+                                                      .sum();
+  const Effort effort = record_.effort;
+  const int number = record_.step;
+  record_ = make_record(state_.get(), F, evaluation.stress, evaluation.report);
+  record_.step = number;
+  record_.effort = effort;
+  record_.external_work = work;
+  check(grainlaw_commit(state_.get()), "committing a step");
+  deformation_ = F;
+  evaluation_ = evaluation;
+}
+
+}  // namespace verification

@@ -1,0 +1,132 @@
+// `grainlaw wave SCENE.toml`: a pulse through a specimen of particles, and through meshes of the same
+// representative volumes.
+
+#include "app/commands.hpp"
+#include "app/csv.hpp"
+#include "app/figure.hpp"
+#include "app/output.hpp"
+#include "dns/wave_run.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace verification {
+namespace {
+
+void draw_case(const WaveCase& one, const std::vector<WaveRun>& runs,
+               const std::filesystem::path& stem) {
+  constexpr std::array<const char*, 5> colours{colour::sky, colour::blue, colour::green,
+                                               colour::purple, colour::amber};
+  Figure figure{one.name, "time [ms]", {}};
+  const auto curve = [](const WaveRun& run, const auto& value) {
+    Curve curve;
+    for (const WaveRow& row : run.rows) {
+      curve.x.push_back(1e3 * row.time);
+      curve.y.push_back(value(row));
+    }
+    return curve;
+  };
+  const auto add = [&](const std::string& ordinate, const auto& value, bool with_end) {
+    Panel panel{ordinate, {}, 1.2, "top right"};
+    std::size_t k = 0;
+    for (const WaveRun& run : runs) {
+      Curve one_curve = curve(run, value);
+      const bool particles = run.points == 0;
+      one_curve.title = particles ? "particles" : run.name + " elements";
+      one_curve.colour = particles ? colour::orange : colours[k++ % colours.size()];
+      one_curve.stroke = particles ? Stroke::solid : Stroke::thin;
+      panel.curves.push_back(one_curve);
+    }
+    if (with_end) {
+      Curve pulse =
+          curve(runs.front(), [&](const WaveRow& row) { return row.end / one.pulse.amplitude; });
+      pulse.title = "pulse";
+      pulse.colour = colour::grey;
+      pulse.stroke = Stroke::dashed;
+      panel.curves.push_back(pulse);
+    }
+    figure.panels.push_back(panel);
+  };
+  for (std::size_t k = 0; k < one.sections.size(); ++k)
+    add(
+        fmt::format("u / A at {:.4g} mm [-]", 1e3 * one.sections[k]),
+        [&](const WaveRow& row) { return row.displacement[k] / one.pulse.amplitude; }, true);
+  for (std::size_t k = 0; k < one.windows.size(); ++k)
+    add(
+        fmt::format("-P22 at {:.4g} to {:.4g} mm [kPa]", 1e3 * one.windows[k][0],
+                    1e3 * one.windows[k][1]),
+        [&](const WaveRow& row) { return -1e-3 * row.stress[k]; }, false);
+  draw(figure, stem);
+}
+
+void run_case(const WaveCase& one, const std::string& directory) {
+  const auto stem = output_stem(directory, one.name);
+  std::vector<WaveRun> runs;
+  const WaveDomain domain = wave_domain(one);
+  for (const int divisions : one.divisions) runs.push_back(run_mesh(one, domain, divisions));
+  runs.push_back(run_particles(one));
+  const WaveRun& reference = runs.back();
+  std::vector<std::string> columns{"elements[-]", "points[-]",    "particles[-]",    "steps[-]",
+                                   "cuts[-]",     "time_step[s]", "core_seconds[s]", "wall[s]"};
+  for (std::size_t k = 0; k < one.sections.size(); ++k) {
+    columns.push_back(fmt::format("largest_error_{}[-]", k + 1));
+    columns.push_back(fmt::format("rms_error_{}[-]", k + 1));
+  }
+  CsvWriter table(stem.string() + "_cost.csv", columns);
+  for (const WaveRun& run : runs) {
+    write_rows(run, one,
+               stem.string() + (run.points == 0 ? "_dns.csv" : "_fe" + run.name + ".csv"));
+    std::vector<double> row{static_cast<double>(run.points),
+                            static_cast<double>(run.points),
+                            static_cast<double>(run.particles),
+                            static_cast<double>(run.steps),
+                            static_cast<double>(run.cuts),
+                            run.time_step,
+                            run.cpu,
+                            run.wall};
+    std::string errors;
+    for (std::size_t k = 0; k < one.sections.size(); ++k) {
+      const WaveError error = difference(run, reference, k, one.pulse.amplitude);
+      row.push_back(error.largest);
+      row.push_back(error.mean_square);
+      errors += fmt::format(" {:.2e}", error.largest);
+    }
+    table.row(row);
+    fmt::print("{}: {}, {} particles, {} steps, {:.2f} core-seconds{}\n", one.name,
+               run.points == 0 ? "particles" : run.name + " elements", run.particles, run.steps,
+               run.cpu, run.points == 0 ? "" : "; largest |du| / A against particles:" + errors);
+  }
+  draw_case(one, runs, stem);
+  fmt::print("wrote {}_*.csv, .svg, .png\n", stem.string());
+}
+
+}  // namespace
+
+void add_wave_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "wave",
+      "send a pulse through a specimen of particles, and through meshes of the same packing");
+  auto scene = std::make_shared<std::string>();
+  auto output = std::make_shared<std::string>(".");
+  auto only = std::make_shared<std::string>();
+  command->add_option("SCENE", *scene, "scene file (TOML)")->required();
+  command->add_option("--output", *output, "directory for the results")->capture_default_str();
+  command->add_option("--case", *only, "this case alone");
+  command->callback([scene, output, only] {
+    const WaveScene waves = read_wave_scene(SceneFile(*scene));
+    bool found = false;
+    for (const WaveCase& one : waves.cases) {
+      if (!only->empty() && one.name != waves.name + "_" + *only) continue;
+      found = true;
+      run_case(one, *output);
+    }
+    if (!found) throw InputError(fmt::format("{}: there is no case {}", *scene, *only));
+  });
+}
+
+}  // namespace verification

@@ -1,0 +1,102 @@
+// The particles of a specimen in motion (Liu's thesis, eq. 4.21): explicit integration with the
+// contact laws of the library, without damping.
+#pragma once
+
+#include "contact/contact_list.hpp"
+#include "dns/wave_specimen.hpp"
+#include "packing/neighbours.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace verification {
+
+// Energies of the specimen; work + stored at the start = kinetic + stored + dissipated.
+struct WaveEnergy {
+  double work = 0;        // done by the right end since the start [J]
+  double kinetic = 0;     // [J]
+  double coherent = 0;    // of it, in the mean motion of cross-sections [J]
+  double stored = 0;      // in contacts [J]
+  double dissipated = 0;  // by friction, broken bonds and damping [J]
+};
+
+// Damping that single grains feel and waves do not: the velocity of every particle decays towards
+// the mean of its cross-section at this rate. Momentum is conserved.
+struct AgitationDamping {
+  double rate = 0;   // [1/s]
+  double slice = 0;  // width of cross-sections [m]
+};
+
+// First-order finite differences as in eqs. 4.18-4.20, which are central ones with velocities half a
+// step behind: accelerations from the positions, velocities from the accelerations, positions from
+// the velocities.
+class WaveMotion {
+ public:
+  // Throws InputError when the time step [s] is beyond the limit of stability.
+  WaveMotion(const WaveSpecimen& specimen, const grainlaw::ContactLaw& law, double time_step);
+
+  // One time step; at its end the right end stands at this displacement [m]. Throws
+  // ComputationError when positions are lost.
+  void step(double end_displacement);
+
+  // Bring to rest what the supports left unbalanced, before the first step. Throws ComputationError
+  // when that takes too long.
+  void settle();
+  void damp(const AgitationDamping& damping) { damping_ = damping; }
+
+  [[nodiscard]] const WaveSpecimen& specimen() const { return *specimen_; }
+  [[nodiscard]] double displacement(std::size_t p) const {  // in x, since it was at rest [m]
+    return particles_[p].x - rest_[p];
+  }
+  // Sum of the contact forces on a particle [N].
+  [[nodiscard]] const grainlaw::ForceRecord& force(std::size_t p) const { return forces_[p]; }
+  // Cross-sections are `slice` wide [m].
+  [[nodiscard]] WaveEnergy energy(double slice) const;
+  [[nodiscard]] double broken_bonds() const { return broken_; }
+  [[nodiscard]] int touching() const;
+  // A bound of the largest stable time step [s]: 2 / the largest of the frequencies by Gershgorin.
+  [[nodiscard]] double largest_time_step() const { return largest_time_step_; }
+
+ private:
+  // Mean velocities of cross-sections, and which one a particle is in.
+  struct Slices {
+    std::vector<std::array<double, 2>> velocity;
+    std::vector<double> mass;
+    std::vector<std::uint32_t> of;
+  };
+  void list_contacts();
+  void keep_list();
+  void find_forces();
+  void break_bonds();
+  void damp_agitation();
+  void find_largest_time_step();
+  void find_slices(double width, Slices& slices) const;
+  void add_to_slices(double half_step, Slices& slices) const;
+  [[nodiscard]] std::vector<double> coordinates() const;
+
+  const WaveSpecimen* specimen_;
+  grainlaw::ContactLaw law_;
+  double time_step_;
+  AgitationDamping damping_;
+  Slices slices_;  // of the damping
+  double gap_;     // neighbours are listed within it [m]
+  double end_ = 0;
+  double work_ = 0, dissipated_ = 0, broken_ = 0, largest_time_step_ = 0;
+  std::vector<grainlaw::ParticleRecord> particles_;
+  std::vector<grainlaw::ForceRecord> forces_, velocity_, inverse_mass_;  // roll: R theta
+  std::vector<std::array<double, 2>> listed_;
+  std::vector<double> rest_;  // x where the wave starts [m]
+  std::vector<std::size_t> right_;
+  // What the next list starts from.
+  std::vector<grainlaw::ContactHistory> history_;
+  std::vector<double> moments_, gaps_;
+  std::vector<int> node_;
+  grainlaw::NeighbourSearch search_;
+  std::vector<grainlaw::NeighbourPair> pairs_;
+  std::vector<double> weights_;
+  grainlaw::ContactList list_;
+};
+
+}  // namespace verification

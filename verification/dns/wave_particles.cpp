@@ -1,0 +1,143 @@
+// The particles' side of a wave run: from a material to the rows of a table.
+
+#include "app/progress.hpp"
+#include "dns/wave_motion.hpp"
+#include "dns/wave_run.hpp"
+#include "error.hpp"
+#include "material/material_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace verification {
+namespace {
+
+std::shared_ptr<const grainlaw::Material> inner_material(const MaterialSource& source) {
+  const MaterialText description = material_text(source);
+  try {
+    return grainlaw::make_material(
+        grainlaw::parse_material(description.text, description.base, description.origin));
+  } catch (const grainlaw::Error& error) {
+    const std::string text = fmt::format("{}: {} ({})", description.origin, error.what(),
+                                         grainlaw_status_text(error.status));
+    if (error.status > 0) throw ComputationError(text);
+    throw InputError(text);
+  }
+}
+
+// Particles near a place, counted from the right end.
+std::vector<std::size_t> particles_in(const WaveSpecimen& specimen, double from, double to) {
+  const double end = specimen.right_end();
+  std::vector<std::size_t> found;
+  for (std::size_t p = 0; p < specimen.size(); ++p) {
+    const double distance = end - specimen.position[p];
+    if (distance >= from && distance <= to) found.push_back(p);
+  }
+  return found;
+}
+
+class Gauges {
+ public:
+  Gauges(const WaveSpecimen& specimen, const WaveCase& one) : specimen_(&specimen) {
+    const double half = specimen.mean_radius();
+    for (const double distance : one.sections) {
+      sections_.push_back(particles_in(specimen, distance - half, distance + half));
+      if (sections_.back().empty())
+        throw InputError(
+            fmt::format("{}: sections: found {} m, where no particle is; expected a "
+                        "distance from the right end within the length of {:.4g} m",
+                        one.name, distance, specimen.length));
+    }
+    for (const auto& [from, to] : one.windows) {
+      std::vector<std::size_t> top;
+      for (const std::size_t p : particles_in(specimen, from, to))
+        if ((specimen.side[p] & 2) != 0) top.push_back(p);
+      windows_.push_back({top, (to - from) * specimen.thickness});
+    }
+  }
+
+  // Means over the cross-section, by mass; the sum of the forces on the top supports.
+  void read(const WaveMotion& motion, WaveRow& row) const {
+    for (const auto& section : sections_) {
+      double mass = 0, sum = 0;
+      for (const std::size_t p : section) {
+        mass += specimen_->mass[p];
+        sum -= specimen_->mass[p] * motion.displacement(p);
+      }
+      row.displacement.push_back(sum / mass);
+    }
+    for (const auto& [particles, area] : windows_) {
+      double force = 0;
+      for (const std::size_t p : particles) force -= motion.force(p).y;
+      row.stress.push_back(force / area);
+    }
+  }
+
+ private:
+  struct Window {
+    std::vector<std::size_t> particles;
+    double area;
+  };
+  const WaveSpecimen* specimen_;
+  std::vector<std::vector<std::size_t>> sections_;
+  std::vector<Window> windows_;
+};
+
+}  // namespace
+
+WaveDomain wave_domain(const WaveCase& one) {
+  const auto material = inner_material(one.material);
+  const auto& h = material->packing.cell;
+  return {h[0] * static_cast<double>(one.repeat),
+          h[3],
+          material->packing.thickness,
+          mean_density(*material),
+          material->space.reference_volume,
+          material->packing.size()};
+}
+
+WaveRun run_particles(const WaveCase& one) {
+  const auto material = inner_material(one.material);
+  const WaveSpecimen specimen = repeat_along_x(*material, one.repeat);
+  const Gauges gauges(specimen, one);
+  const double slice = 4 * specimen.mean_radius();
+  WaveMotion motion(specimen, material->law, one.time_step);
+  motion.settle();
+  motion.damp({one.agitation_damping, slice});
+  WaveRun run;
+  run.name = "dns";
+  run.particles = specimen.size();
+  run.time_step = one.time_step;
+  run.steps = std::lround(std::ceil(one.duration / one.time_step - 1e-9));
+  const RowClock clock(run.steps, one.rows);
+  const double at_rest = motion.energy(slice).stored;
+  Progress progress(one.name + ", particles");
+  const CostClock cost;
+  for (long step = 0; step <= run.steps; ++step) {
+    const double time = static_cast<double>(step) * one.time_step;
+    if (step > 0) motion.step(-one.pulse.at(time));
+    if (!clock.due(step)) continue;
+    WaveRow row;
+    row.time = time;
+    row.end = one.pulse.at(time);
+    gauges.read(motion, row);
+    const WaveEnergy energy = motion.energy(slice);
+    row.work = energy.work;
+    row.kinetic = energy.kinetic;
+    row.coherent = energy.coherent;
+    row.stored = energy.stored - at_rest;
+    row.dissipated = energy.dissipated;
+    row.contacts = motion.touching();
+    run.rows.push_back(row);
+    progress.update(static_cast<double>(step) / static_cast<double>(run.steps),
+                    fmt::format("{:.2f} ms", 1e3 * time));
+  }
+  run.cpu = cost.cpu();
+  run.wall = cost.wall();
+  return run;
+}
+
+}  // namespace verification
