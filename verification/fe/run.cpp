@@ -65,7 +65,6 @@ class Run {
     const Material material = make_material(
         scene_.prestress.empty() ? scene_.material
                                  : prestressed(scene_.material, scene_.prestress, stem_));
->>>>>>> dns
     const bool found = std::filesystem::exists(checkpoint_);
     if (options.restart && found) {
       CheckpointReader in = read_checkpoint(checkpoint_);
