@@ -67,8 +67,9 @@ TEST_F(gmsh, quadrilaterals_with_their_named_sets_are_read) {
     for (const Side& side : mesh.side_sets.at("floor")) {
       const auto place = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)]; };
       EXPECT_NEAR((place(side[1]) - place(side[0])).x(), 1, 1e-14);  // the element on the left
-      if (order == 2)
+      if (order == 2) {
         EXPECT_LT((2 * place(side[2]) - place(side[0]) - place(side[1])).norm(), 1e-14);
+      }
     }
   }
 }

@@ -18,7 +18,7 @@ struct Sine {
 };
 
 // A straight way between two times, for what a run decides as it goes.
-struct Segment {
+struct StraightWay {
   double start_time = 0, start_value = 0;
   double end_time = 0, end_value = 0;
 
@@ -31,7 +31,7 @@ struct Segment {
 struct Program {
   std::vector<std::array<double, 2>> points;  // (time, value), times increasing, at least one
   Sine sine{};
-  std::shared_ptr<const Segment> steered{};  // instead of the others
+  std::shared_ptr<const StraightWay> steered{};  // instead of the others
 
   [[nodiscard]] double at(double time) const;
 

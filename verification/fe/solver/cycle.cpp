@@ -36,7 +36,7 @@ Cycle read_cycle(SceneTable table, Model& model) {
   cycle.cycles = table.integer("cycles", 1);
   cycle.end_displacement = table.number_or("end_displacement", never, positive);
   table.close();
-  cycle.segment = std::make_shared<Segment>();
+  cycle.segment = std::make_shared<StraightWay>();
   PrescribedDisplacement drive;
   drive.nodes = model.mesh.node_sets.at(set);
   drive.component = component == "x" ? 0 : 1;

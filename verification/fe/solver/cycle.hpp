@@ -19,7 +19,7 @@ struct Cycle {
   double tolerance = 0.01;  // of limit_force by which the force may miss it where it turns [-]
   int cycles = 1;           // from zero to both limits and back to zero
   double end_displacement = std::numeric_limits<double>::infinity();  // ends the run [m]
-  std::shared_ptr<Segment> segment;  // that the drive's program follows
+  std::shared_ptr<StraightWay> segment;  // that the drive's program follows
 };
 
 // Reads [cycle]: on, component, step, limit_displacement, limit_force, tolerance, cycles,
