@@ -192,7 +192,8 @@ GRAINLAW_API grainlaw_status grainlaw_revert(grainlaw_state*);
 GRAINLAW_API grainlaw_status grainlaw_state_save(const grainlaw_state*, void* bytes, size_t* size);
 
 /* Replace the committed state by saved bytes and drop the trial. Versioned, checksummed; refuses
- * anything damaged, of another version or of another material, and then changes nothing.
+ * anything damaged, of another version or of another material, and then changes nothing. Prescribed
+ * stresses are a load: a state goes on under a material that differs in them alone.
  * Errors: NULL_POINTER, BAD_HANDLE, BAD_BYTES, WRONG_VERSION, WRONG_MATERIAL, OUT_OF_MEMORY. */
 GRAINLAW_API grainlaw_status grainlaw_state_load(grainlaw_state*, const void* bytes, size_t size);
 
