@@ -44,7 +44,7 @@ const std::vector<Line> frictions{{"friction_02", "friction 0.2", colour::amber}
                                   {"friction_06", "friction 0.6", colour::green}};
 const std::vector<Line> rotations{{"biaxial_2x4", "free rotation", colour::blue},
                                   {"locked", "no rotation", colour::orange}};
-const std::vector<Line> anisotropies{{"biaxial_2x4", "A0 of figure 4", colour::blue},
+const std::vector<Line> anisotropies{{"biaxial_1x1", "A0 of figure 4", colour::blue},
                                      {"anisotropy_005", "A0 = 0.05", colour::orange},
                                      {"anisotropy_008", "A0 = 0.08", colour::green}};
 
@@ -83,7 +83,7 @@ void compare_meshes(PaperStudy& study) {
                         "anisotropy_peak[-]", "until_strain[-]"});
   for (const std::vector<Line>* lines : {&meshes, &frictions, &rotations, &anisotropies})
     for (const Line& line : *lines) {
-      if (lines != &meshes && std::string(line.name) == "biaxial_2x4") continue;
+      if (lines != &meshes && std::string(line.name).find("biaxial") == 0) continue;
       const auto run = load_biaxial(study, line.name);
       if (!run) continue;
       const std::size_t p = run->peak();
