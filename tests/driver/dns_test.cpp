@@ -1,4 +1,5 @@
 // Direct simulation: a repeated frame is the frame, one frame is a point, bad scenes are refused.
+#include "app/csv.hpp"
 #include "app/packing_source.hpp"
 #include "dns/repeat.hpp"
 #include "dns/run.hpp"
@@ -180,7 +181,7 @@ TEST(dns, bad_scenes_are_refused_with_what_was_expected) {
   expect_refusal(biaxial + material, {"repeat", "found nothing"});
   expect_refusal(one + material, {"segment", "at least one [[segment]]"});
   expect_refusal(one + "[[segment]]\nsteps = 1\nF22 = 1\nP22 = 0\n" + material,
-                 {"scene.toml:4", "segment.P22", "one condition per component"});
+                 {"scene.toml:5", "segment[1].P22", "one condition per component"});
   expect_refusal(one + "[[segment]]\nsteps = 1\nstretch12 = 1\n" + material,
                  {"stretch12", "stretch11 or stretch22"});
   expect_refusal(one + "[[segment]]\nsteps = 1\nP11 = 'free'\n" + material, {"P11", "held"});

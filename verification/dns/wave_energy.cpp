@@ -8,31 +8,30 @@
 
 namespace verification {
 
-// By the place at rest, so that particles do not change over.
+// By the place at rest, so that nodes do not change over.
 void WaveMotion::find_slices(double width, Slices& slices) const {
-  const std::size_t n = particles_.size();
   const double left = specimen_->right_end() - specimen_->length;
   const auto last = static_cast<std::size_t>(specimen_->length / width) + 2;
-  slices.of.resize(n);
-  for (std::size_t p = 0; p < n; ++p) {
-    const double place = std::max((specimen_->position[p] - left) / width + 1, 0.0);
-    slices.of[p] = static_cast<std::uint32_t>(std::min(static_cast<std::size_t>(place), last));
-  }
+  slices.of.resize(mass_.size());
   slices.mass.assign(last + 1, 0);
-  for (std::size_t p = 0; p < n; ++p)
-    if ((specimen_->held[p] & held_x) == 0) slices.mass[slices.of[p]] += specimen_->mass[p];
+  for (std::size_t q = 0; q < mass_.size(); ++q) {
+    const double x = specimen_->position[particle_of_[q]];
+    const double place = std::max((x - left) / width + 1, 0.0);
+    slices.of[q] = static_cast<std::uint32_t>(std::min(static_cast<std::size_t>(place), last));
+    if (inverse_mass_[q].x > 0) slices.mass[slices.of[q]] += mass_[q];
+  }
 }
 
 // Velocities at the present positions, with `half_step` half a time step; 0: as they are stored.
 void WaveMotion::add_to_slices(double half_step, Slices& slices) const {
   slices.velocity.assign(slices.mass.size(), {});
-  for (std::size_t p = 0; p < particles_.size(); ++p) {
-    if ((specimen_->held[p] & held_x) != 0) continue;
-    const auto& v = velocity_[p];
-    const auto& f = forces_[p];
-    const auto& w = inverse_mass_[p];
-    auto& mean = slices.velocity[slices.of[p]];
-    const double share = specimen_->mass[p] / slices.mass[slices.of[p]];
+  for (std::size_t q = 0; q < mass_.size(); ++q) {
+    const auto& w = inverse_mass_[q];
+    if (w.x == 0) continue;
+    const auto& v = velocity_[q];
+    const auto& f = forces_[q];
+    auto& mean = slices.velocity[slices.of[q]];
+    const double share = mass_[q] / slices.mass[slices.of[q]];
     mean[0] += share * (v.x + half_step * w.x * f.x);
     mean[1] += share * (v.y + half_step * w.y * f.y);
   }
@@ -43,36 +42,34 @@ void WaveMotion::damp_agitation() {
   add_to_slices(0, slices_);
   const double share = 1 - std::exp(-damping_.rate * time_step_);
   double lost = 0;
-  for (std::size_t p = 0; p < particles_.size(); ++p) {
-    if ((specimen_->held[p] & held_x) != 0) continue;
-    auto& v = velocity_[p];
-    const auto& mean = slices_.velocity[slices_.of[p]];
-    const auto& w = inverse_mass_[p];
-    const double m = specimen_->mass[p];
+  for (std::size_t q = 0; q < mass_.size(); ++q) {
+    const auto& w = inverse_mass_[q];
+    if (w.x == 0) continue;
+    auto& v = velocity_[q];
+    const auto& mean = slices_.velocity[slices_.of[q]];
     const auto damp = [&](double& velocity, double to, double inertia) {
       const double after = velocity + share * (to - velocity);
       lost += 0.5 * inertia * (velocity * velocity - after * after);
       velocity = after;
     };
-    damp(v.x, mean[0], m);
-    if (w.y > 0) damp(v.y, mean[1], m);
-    if (w.roll > 0) damp(v.roll, 0, 0.5 * m);
+    damp(v.x, mean[0], mass_[q]);
+    if (w.y > 0) damp(v.y, mean[1], mass_[q]);
+    if (w.roll > 0) damp(v.roll, 0, 0.5 * mass_[q]);
   }
   dissipated_ += lost;
 }
 
 WaveEnergy WaveMotion::energy(double slice) const {
-  const std::size_t n = particles_.size();
   WaveEnergy energy;
   energy.work = work_;
   energy.dissipated = dissipated_;
-  energy.stored = grainlaw::stored_energy(list_, coordinates(), n, law_);
-  for (std::size_t p = 0; p < n; ++p) {
+  energy.stored = grainlaw::stored_energy(list_, coordinates(), particles_.size(), law_);
+  for (std::size_t q = 0; q < mass_.size(); ++q) {
     // Velocities half a step before and behind the positions: their product is what is conserved.
-    const auto& v = velocity_[p];
-    const auto& f = forces_[p];
-    const auto& w = inverse_mass_[p];
-    const double dt = time_step_, m = specimen_->mass[p];
+    const auto& v = velocity_[q];
+    const auto& f = forces_[q];
+    const auto& w = inverse_mass_[q];
+    const double dt = time_step_, m = mass_[q];
     if (w.x > 0) energy.kinetic += 0.5 * m * v.x * (v.x + dt * w.x * f.x);
     if (w.y > 0) energy.kinetic += 0.5 * m * v.y * (v.y + dt * w.y * f.y);
     if (w.roll > 0) energy.kinetic += 0.25 * m * v.roll * (v.roll + dt * w.roll * f.roll);

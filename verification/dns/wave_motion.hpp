@@ -50,8 +50,8 @@ class WaveMotion {
   [[nodiscard]] double displacement(std::size_t p) const {  // in x, since it was at rest [m]
     return particles_[p].x - rest_[p];
   }
-  // Sum of the contact forces on a particle [N].
-  [[nodiscard]] const grainlaw::ForceRecord& force(std::size_t p) const { return forces_[p]; }
+  // Sums of the contact forces on every particle in y, copies apart [N].
+  [[nodiscard]] std::vector<double> vertical_forces() const;
   // Cross-sections are `slice` wide [m].
   [[nodiscard]] WaveEnergy energy(double slice) const;
   [[nodiscard]] double broken_bonds() const { return broken_; }
@@ -64,13 +64,18 @@ class WaveMotion {
   struct Slices {
     std::vector<std::array<double, 2>> velocity;
     std::vector<double> mass;
-    std::vector<std::uint32_t> of;
+    std::vector<std::uint32_t> of;  // nodes
   };
   void list_contacts();
   void keep_list();
   void find_forces();
   void break_bonds();
   void damp_agitation();
+  void move_particles();
+  [[nodiscard]] double force_on_right_end() const;
+  [[nodiscard]] std::size_t node(std::size_t p) const {
+    return static_cast<std::size_t>(specimen_->node[p]);
+  }
   void find_largest_time_step();
   void find_slices(double width, Slices& slices) const;
   void add_to_slices(double half_step, Slices& slices) const;
@@ -85,14 +90,16 @@ class WaveMotion {
   double end_ = 0;
   double work_ = 0, dissipated_ = 0, broken_ = 0, largest_time_step_ = 0;
   std::vector<grainlaw::ParticleRecord> particles_;
-  std::vector<grainlaw::ForceRecord> forces_, velocity_, inverse_mass_;  // roll: R theta
+  // Of the nodes; roll: R theta.
+  std::vector<grainlaw::ForceRecord> forces_, velocity_, inverse_mass_;
+  std::vector<double> mass_;              // of the nodes [kg]
+  std::vector<std::size_t> particle_of_;  // one of each node
   std::vector<std::array<double, 2>> listed_;
   std::vector<double> rest_;  // x where the wave starts [m]
   std::vector<std::size_t> right_;
   // What the next list starts from.
   std::vector<grainlaw::ContactHistory> history_;
   std::vector<double> moments_, gaps_;
-  std::vector<int> node_;
   grainlaw::NeighbourSearch search_;
   std::vector<grainlaw::NeighbourPair> pairs_;
   std::vector<double> weights_;

@@ -69,9 +69,11 @@ class Gauges {
       }
       row.displacement.push_back(sum / mass);
     }
+    if (windows_.empty()) return;
+    const std::vector<double> vertical = motion.vertical_forces();
     for (const auto& [particles, area] : windows_) {
       double force = 0;
-      for (const std::size_t p : particles) force -= motion.force(p).y;
+      for (const std::size_t p : particles) force -= vertical[p];
       row.stress.push_back(force / area);
     }
   }

@@ -130,6 +130,30 @@ void place_particles(const grainlaw::Material& material, const Numbering& number
     }
 }
 
+// Copies on the top move with their originals on the bottom.
+void join_copies(const Packing& packing, const Numbering& numbering, WaveSpecimen& specimen) {
+  std::vector<int> original(specimen.size());
+  std::iota(original.begin(), original.end(), 0);
+  if (specimen.shared) {
+    const grainlaw::Frame& frame = *packing.frame;
+    std::map<std::array<int, 2>, std::size_t> bottom_of;
+    for (std::size_t p = 0; p < packing.size(); ++p)
+      if (frame.offset[p][1] == 0) bottom_of[{frame.source[p], frame.offset[p][0]}] = p;
+    for (std::size_t k = 0; k < specimen.tiles; ++k)
+      for (std::size_t p = 0; p < packing.size(); ++p) {
+        if (frame.offset[p][1] != 1) continue;
+        const auto tile = static_cast<std::ptrdiff_t>(k);
+        const std::size_t twin = bottom_of.at({frame.source[p], frame.offset[p][0]});
+        original[numbering.at(tile, p)] = static_cast<int>(numbering.at(tile, twin));
+      }
+  }
+  specimen.node.resize(specimen.size());
+  for (std::size_t p = 0; p < specimen.size(); ++p)
+    if (original[p] == static_cast<int>(p)) specimen.node[p] = static_cast<int>(specimen.nodes++);
+  for (std::size_t p = 0; p < specimen.size(); ++p)
+    specimen.node[p] = specimen.node[static_cast<std::size_t>(original[p])];
+}
+
 void place_contacts(const grainlaw::Material& material, const Numbering& numbering,
                     WaveSpecimen& specimen) {
   const Configuration& initial = material.initial;
@@ -193,6 +217,7 @@ WaveSpecimen repeat_along_x(const grainlaw::Material& material, std::size_t tile
                                   : sides_of_cell(packing, material.initial.coordinates);
   const Numbering numbering(packing, side, tiles);
   place_particles(material, numbering, side, specimen);
+  join_copies(packing, numbering, specimen);
   place_contacts(material, numbering, specimen);
   return specimen;
 }

@@ -17,13 +17,16 @@ namespace verification {
 enum Held : unsigned char { held_x = 1, held_y = 2, held_rotation = 4 };
 
 // Particles of the left end are held, those of the right end move with the pulse; bottom and top
-// are supported in y. A frame's particles and contacts on bottom and top are shared with copies
-// outside, unless its material counts them whole (contact_weight = "one"): they have half their
-// mass and stiffness, so that the specimen weighs and carries as much as its representative volumes.
+// are supported in y. When a frame's bottom and top are copies of each other, the specimen is a slice
+// of a layer without end, as its representative volumes are: copies share their motion, and each has
+// half of the mass and of the contacts along its side. When its material counts contacts whole
+// (contact_weight = "one"), bottom and top are free surfaces but for their supports.
 struct WaveSpecimen {
-  std::vector<double> position;     // component-major [m]
-  std::vector<double> radius;       // [m]
-  std::vector<double> mass;         // [kg]
+  std::vector<double> position;  // component-major [m]
+  std::vector<double> radius;    // [m]
+  std::vector<double> mass;      // [kg]
+  std::vector<int> node;         // particles of the same node move together
+  std::size_t nodes = 0;
   std::vector<unsigned char> held;  // bits of Held
   std::vector<char> right;          // on the right end
   std::vector<unsigned char> side;  // 1: on the bottom, 2: on the top
@@ -31,7 +34,7 @@ struct WaveSpecimen {
   std::vector<grainlaw::ContactHistory> contacts;
   std::vector<double> moments;  // empty for laws without
   std::vector<double> gaps;     // empty unless bonds span gaps
-  bool shared = false;          // bottom and top, with copies outside
+  bool shared = false;          // bottom and top are copies that move together
   double length = 0;            // between the ends [m]
   double height = 0;            // [m]
   double thickness = 0;         // [m]

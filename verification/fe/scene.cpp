@@ -29,6 +29,8 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
   scene.output = read_output(table, model.mesh, scene.steps);
   for (SceneTable& entry : table.tables("probe"))
     scene.probes.push_back(read_probe(entry, model.mesh));
+  if (scene.solver.kind != SolverKind::dynamics && table.has("cycle"))
+    scene.cycle = read_cycle(table.table("cycle"), model);
   read_conditions(table, duration, model);
   number_dofs(model);  // conditions that contradict each other
   if (scene.solver.kind != SolverKind::dynamics) check_held(model, file.path.string());

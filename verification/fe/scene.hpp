@@ -6,8 +6,10 @@
 #include "fe/output/output_options.hpp"
 #include "fe/output/probe.hpp"
 #include "fe/prestress.hpp"
+#include "fe/solver/cycle.hpp"
 #include "fe/solver/solver_scene.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,7 @@ struct FiniteElementScene {
   std::vector<Segment> prestress;  // empty: none
   Model model;
   SolverOptions solver;
+  std::optional<Cycle> cycle;
   int threads = 0;  // <= 0: as many as the library takes
   int steps = 1;
   std::string abscissa;
