@@ -80,7 +80,7 @@ void compare_with_direct(PaperStudy& study) {
                  static_cast<double>(c.strains), m->ratio[m->peak()], ra->ratio[ra->peak()],
                  rb->ratio[rb->peak()]});
     study.facts.agree("4",
-                      fmt::format("{}: rms |MS - B| at most rms |A - B|, before the peak", packing),
+                      fmt::format("{}: rms of MS - B at most that of A - B, before the peak", packing),
                       "very close",
                       fmt::format("{:.4f} against {:.4f}; strain by strain in {} of {}", c.ms_b,
                                   c.a_b, c.within, c.strains),
