@@ -114,6 +114,7 @@ void add_study_command(CLI::App& app) {
   add_batch_study(*study, options);
   add_stability_study(*study, options);
   add_papers_study(*study, options);
+  add_waves_study(*study, options);
   add_papers_004_study(*study, options);
 }
 
