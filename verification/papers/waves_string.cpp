@@ -112,7 +112,7 @@ void study_dispersion(WaveStudy& study) {
       worst =
           std::max({worst, std::abs(k_particles[k] / right - 1), std::abs(k_mesh[k] / right - 1)});
   }
-  Figure figure{"Dispersion of the string", "ω / ω_max [-]", {}};
+  Figure figure{"Dispersion of the string", "ω / highest ω [-]", {}};
   figure.panels.push_back(
       {"phase velocity [m/s]", {closed, of_particles, of_mesh}, 1.4, "bottom left"});
   draw(figure, study.results / "dispersion");

@@ -19,7 +19,7 @@ void study_why_waves_differ(WaveStudy& study) {
     Panel panel{fmt::format("u / A at {} mm [-]", figure.panels.empty() ? "30" : "300"),
                 {},
                 1.2,
-                "top left"};
+                "bottom right"};
     const auto draw_run = [&](const WaveStudy::Run& run, const char* colour, Stroke stroke,
                               const char* title) {
       if (run)
@@ -33,7 +33,7 @@ void study_why_waves_differ(WaveStudy& study) {
     draw_run(mesh, colour::blue, Stroke::solid, "208 elements");
     figure.panels.push_back(panel);
   }
-  Panel energy{"energy / work [-]", {}, 1.2, "top left"};
+  Panel energy{"energy / work [-]", {}, 1.2, "center right"};
   const auto shares = [&](const PaperRun& run, auto value, const char* colour, Stroke stroke,
                           const char* title) {
     Curve curve{title, {}, {}, colour, stroke};
