@@ -57,6 +57,11 @@ BoundarySpace make_boundary_space(const Packing& packing, const BoundaryOptions&
     space.stress[k] = *options.stress[k];
   }
   space_of_sides(packing, sides_of(options), space);
+  if (options.type == BoundaryType::mixed) {
+    // Sides that do not share their fluctuations are no copies, however they began.
+    space.source = space.node;
+    space.sources = space.nodes;
+  }
   return space;
 }
 

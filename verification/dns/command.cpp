@@ -6,30 +6,56 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
+#include <exception>
 #include <memory>
 #include <string>
+#include <thread>
+#include <vector>
 
 namespace verification {
 namespace {
 
-void run_dns(const std::string& path, const std::string& directory) {
-  const SceneFile file(path);
-  const SpecimenScene scene = read_specimen_scene(file);
+// False when the path ended early and must not.
+bool run_one(const SpecimenScene& scene, const std::string& directory) {
   const auto stem = output_stem(directory, scene.name);
   const SpecimenEnd end = run_specimen(scene, stem);
   const Effort& effort = end.effort;
+  const bool early = end.steps < end.steps_wanted;
   fmt::print(
       "{}: {} particles, {} of them on the boundary; {} of {} steps, {} evaluations, {} cuts, {} "
       "relaxation steps, {} factorisations, {} with advanced history; {:.2f} s of CPU, {:.2f} s "
-      "elapsed\n",
+      "elapsed{}\nwrote {}.csv, .svg, .png, _cost.csv and the specimen\n",
       scene.name, end.particles, end.boundary, end.steps, end.steps_wanted, effort.evaluations,
       effort.cuts, effort.relaxation_steps, effort.factorisations, effort.history_advanced, end.cpu,
-      end.elapsed);
-  if (end.steps < end.steps_wanted) {
-    if (!scene.may_end) throw ComputationError(fmt::format("{}: {}", path, end.text));
-    fmt::print("  ended: {}\n", end.text);
+      end.elapsed, early ? "\n  ended: " + end.text : "", stem.string());
+  return !early || scene.may_end;
+}
+
+void run_dns(const std::string& path, const std::string& directory, int jobs) {
+  const std::vector<SpecimenScene> scenes = read_specimen_scenes(SceneFile(path));
+  std::vector<std::exception_ptr> errors(scenes.size());
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t k = next++; k < scenes.size(); k = next++) {
+      try {
+        if (!run_one(scenes[k], directory))
+          throw ComputationError(
+              fmt::format("{}: {} ended before its last step", path, scenes[k].name));
+      } catch (...) {
+        errors[k] = std::current_exception();
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (int k = 1; k < std::min(jobs, static_cast<int>(scenes.size())); ++k)
+      others.emplace_back(work);
+    work();
   }
-  fmt::print("wrote {}.csv, .svg, .png, _cost.csv and the specimen\n", stem.string());
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
 }
 
 }  // namespace
@@ -42,7 +68,11 @@ void add_dns_command(CLI::App& app) {
   auto output = std::make_shared<std::string>(".");
   command->add_option("SCENE", *scene, "scene file (TOML)")->required();
   command->add_option("--output", *output, "directory for the results")->capture_default_str();
-  command->callback([scene, output] { run_dns(*scene, *output); });
+  auto jobs = std::make_shared<int>(1);
+  command->add_option("--jobs", *jobs, "cases at a time")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->callback([scene, output, jobs] { run_dns(*scene, *output, *jobs); });
 }
 
 }  // namespace verification

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace verification {
 namespace {
 
@@ -59,12 +61,9 @@ SpecimenTarget read_target(SceneTable& segment, std::size_t k) {
   return target;
 }
 
-}  // namespace
-
-SpecimenScene read_specimen_scene(const SceneFile& file) {
-  SceneTable table = file.root();
+SpecimenScene read_scene(SceneTable table, const std::string& name) {
   SpecimenScene scene;
-  scene.name = table.text_or("name", file.path.stem().string());
+  scene.name = table.text_or("name", name);
   scene.material = read_material_source(table);
   constexpr Range counts{1, 100, false, "an integer from 1 to 100"};
   const std::vector<double> repeat = table.numbers("repeat", 2, counts);
@@ -98,6 +97,26 @@ SpecimenScene read_specimen_scene(const SceneFile& file) {
   }
   table.close();
   return scene;
+}
+
+}  // namespace
+
+std::vector<SpecimenScene> read_specimen_scenes(const SceneFile& file) {
+  const std::string stem = file.path.stem().string();
+  SceneTable root = file.root();
+  const std::string name = root.text_or("name", stem);
+  std::vector<SceneTable> cases = root.tables("case");
+  if (cases.empty()) return {read_scene(std::move(root), stem)};
+  std::vector<SpecimenScene> scenes;
+  for (SceneTable& of_case : cases) {
+    const std::string case_name = of_case.text("name");
+    toml::table content = file.content;
+    content.erase("case");
+    merge(content, of_case.content());
+    content.insert_or_assign("name", name + "_" + case_name);
+    scenes.push_back(read_scene({content, file.path, ""}, stem));
+  }
+  return scenes;
 }
 
 }  // namespace verification

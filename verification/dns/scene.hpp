@@ -49,7 +49,10 @@ struct SpecimenScene {
   int vtk_every = 0;             // steps; 0: never
 };
 
-// Throws InputError that names file, line, key and what was expected.
-SpecimenScene read_specimen_scene(const SceneFile& file);
+// A scene without [[case]] is one specimen. Otherwise every [[case]] is one: the scene with the keys
+// of the case laid over it, tables merged and all else replaced. Its results are SCENE_CASE, where
+// CASE is the key `name` of the case. Throws InputError that names file, line, key and what was
+// expected.
+std::vector<SpecimenScene> read_specimen_scenes(const SceneFile& file);
 
 }  // namespace verification

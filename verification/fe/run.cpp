@@ -62,7 +62,10 @@ class Run {
         stem_(output_stem(options.directory, scene_.name)),
         checkpoint_(stem_.string() + ".checkpoint"),
         progress_(scene_.name) {
-    const Material material = make_material(scene_.material);
+    const Material material = make_material(
+        scene_.prestress.empty() ? scene_.material
+                                 : prestressed(scene_.material, scene_.prestress, stem_));
+    if (scene_.cycle) cycle_.emplace(*scene_.cycle, scene_.model, 1.0 / scene_.steps);
     const bool found = std::filesystem::exists(checkpoint_);
     if (options.restart && found) {
       CheckpointReader in = read_checkpoint(checkpoint_);
@@ -73,6 +76,7 @@ class Run {
       RunTables tables(stem_, in);
       solver_ = make_solver(scene_.solver, scene_.model, material, scene_.threads);
       solver_->restore(in);
+      if (cycle_) cycle_->restore(in);
       output_.emplace(scene_, std::move(tables), *solver_);
       output_->restore(in);
       fmt::print("{}: goes on after step {} of {}\n", scene_.name, done_, scene_.steps);
@@ -92,8 +96,11 @@ class Run {
     const auto observe = [&](const LoadStep& step, const Solver&) { after(step); };
     const int last = std::min(stop_after_, scene_.steps);
     try {
-      run_load_steps(*solver_, scene_.solver.duration(), scene_.steps, last, observe,
-                     done_ + 1);
+      if (cycle_)
+        run_cycles(*cycle_, *solver_, last, observe, done_ + 1);
+      else
+        run_load_steps(*solver_, scene_.solver.duration(), scene_.steps, last, observe,
+                       done_ + 1);
     } catch (const ComputationError& error) {
       try {
         finish();
@@ -115,7 +122,7 @@ class Run {
   void after(const LoadStep& step) {
     done_ = step.record.step;
     output_->add(step);
-    const bool last = done_ == scene_.steps;
+    const bool last = done_ == scene_.steps || (cycle_ && cycle_->finished());
     const int signal = last ? 0 : Interrupt::signal();
     const bool stops = !last && (signal != 0 || done_ >= stop_after_);
     const bool regular = every_ > 0 && (last || (done_ > 0 && done_ % every_ == 0));
@@ -142,6 +149,7 @@ class Run {
     out.write(done_);
     output_->save_tables(out);
     solver_->save(out);
+    if (cycle_) cycle_->save(out);
     output_->save(out);
     write_checkpoint(checkpoint_, out);
   }
@@ -155,6 +163,7 @@ class Run {
   std::filesystem::path stem_;
   std::filesystem::path checkpoint_;
   std::unique_ptr<Solver> solver_;
+  std::optional<CycleControl> cycle_;
   std::optional<RunOutput> output_;
   Progress progress_;
   int done_ = -1;  // last step that is done

@@ -14,6 +14,7 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
   FiniteElementScene scene;
   scene.name = table.text_or("name", file.path.stem().string());
   scene.material = read_material_source(table);
+  scene.prestress = read_prestress(table);
   scene.solver = read_solver(table);
   const double duration = scene.solver.duration();
   scene.threads = table.integer_or("threads", 0, 0);
@@ -28,6 +29,8 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
   scene.output = read_output(table, model.mesh, scene.steps);
   for (SceneTable& entry : table.tables("probe"))
     scene.probes.push_back(read_probe(entry, model.mesh));
+  if (scene.solver.kind != SolverKind::dynamics && table.has("cycle"))
+    scene.cycle = read_cycle(table.table("cycle"), model);
   read_conditions(table, duration, model);
   number_dofs(model);  // conditions that contradict each other
   if (scene.solver.kind != SolverKind::dynamics) check_held(model, file.path.string());

@@ -5,8 +5,11 @@
 #include "app/scene.hpp"
 #include "fe/output/output_options.hpp"
 #include "fe/output/probe.hpp"
+#include "fe/prestress.hpp"
+#include "fe/solver/cycle.hpp"
 #include "fe/solver/solver_scene.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +18,10 @@ namespace verification {
 struct FiniteElementScene {
   std::string name;
   MaterialSource material;
+  std::vector<Segment> prestress;  // empty: none
   Model model;
   SolverOptions solver;
+  std::optional<Cycle> cycle;
   int threads = 0;  // <= 0: as many as the library takes
   int steps = 1;
   std::string abscissa;

@@ -1,3 +1,4 @@
+#include "papers/biaxial.hpp"
 #include "papers/papers.hpp"
 
 namespace verification {
@@ -13,6 +14,14 @@ void add_papers_study(CLI::App& study, const std::shared_ptr<StudyOptions>& opti
     study_servo_cost(papers);
     papers.facts.print();
     papers.facts.write(papers.results / "papers_002_facts.csv");
+  });
+  CLI::App* biaxial = study.add_subcommand(
+      "papers-000", "figures and tables of the scenes in papers-000, which were run before");
+  biaxial->callback([options] {
+    PaperStudy papers{std::filesystem::path(options->scenes) / "papers-000", options->output, {}};
+    study_biaxial(papers);
+    papers.facts.print();
+    papers.facts.write(papers.results / "papers_000_facts.csv");
   });
 }
 

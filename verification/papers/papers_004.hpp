@@ -27,6 +27,8 @@ std::optional<MeshRun> load_mesh_run(const std::filesystem::path& directory,
 std::optional<CsvTable> load_every(const std::filesystem::path& directory, const std::string& name,
                                    const std::string& field);
 
+void add_papers_004_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
+
 void study_localisation(HierarchicalStudy& study);  // figures 10, 12, 13
 void study_local_response(HierarchicalStudy& study);  // figures 15, 17
 void study_liquefaction(HierarchicalStudy& study);  // figures 20, 22

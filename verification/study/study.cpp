@@ -1,5 +1,7 @@
 #include "study/study.hpp"
 
+#include "papers/papers_004.hpp"
+
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 

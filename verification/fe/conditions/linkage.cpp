@@ -63,6 +63,7 @@ bool Linkage::link(std::size_t follower, std::size_t leader, const Offset& offse
 bool Linkage::vanishes(const Offset& offset) const {
   std::vector<double> times;
   for (const auto& entry : offset) {
+    if (programs_[entry.first].steered != nullptr) return false;  // who knows where it goes
     const std::vector<double> more = sample_times(programs_[entry.first]);
     times.insert(times.end(), more.begin(), more.end());
   }

@@ -24,10 +24,18 @@ double Sine::at(double time) const {
   return amplitude * std::sin(2 * std::numbers::pi * turns);
 }
 
-double Program::at(double time) const { return interpolate(points, time) + sine.at(time); }
+double StraightWay::at(double time) const {
+  if (time >= end_time) return end_value;
+  if (time <= start_time) return start_value;
+  return start_value + (time - start_time) / (end_time - start_time) * (end_value - start_value);
+}
+
+double Program::at(double time) const {
+  return steered != nullptr ? steered->at(time) : interpolate(points, time) + sine.at(time);
+}
 
 Program Program::linear(double start, double end, double duration) {
-  return {{{0, start}, {duration, end}}, {}};
+  return {{{0, start}, {duration, end}}};
 }
 
 }  // namespace verification

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace verification {
@@ -16,11 +17,21 @@ struct Sine {
   [[nodiscard]] double at(double time) const;
 };
 
-// Piecewise linear in time, constant before the first and after the last point, plus a sine. Time
-// runs from 0 to 1 in quasi-static runs, and in seconds in dynamic ones.
+// A straight way between two times, for what a run decides as it goes.
+struct StraightWay {
+  double start_time = 0, start_value = 0;
+  double end_time = 0, end_value = 0;
+
+  [[nodiscard]] double at(double time) const;
+};
+
+// Piecewise linear in time, constant before the first and after the last point, plus a sine; or what
+// the owner of a segment makes of it. Time runs from 0 to 1 in quasi-static runs, and in seconds in
+// dynamic ones.
 struct Program {
   std::vector<std::array<double, 2>> points;  // (time, value), times increasing, at least one
   Sine sine{};
+  std::shared_ptr<const StraightWay> steered{};  // instead of the others
 
   [[nodiscard]] double at(double time) const;
 

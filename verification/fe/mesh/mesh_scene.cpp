@@ -1,5 +1,6 @@
 #include "fe/mesh/mesh_scene.hpp"
 
+#include "fe/mesh/gmsh_file.hpp"
 #include "fe/mesh/quality.hpp"
 
 #include <fmt/format.h>
@@ -16,17 +17,35 @@ ElementKind read_element_kind(SceneTable& table) {
   return ElementKind::q4;
 }
 
-}  // namespace
-
-Mesh read_mesh(SceneTable& table) {
+Mesh read_rectangle(SceneTable& table) {
   constexpr Range counts{1, 1e4, false, "an integer >= 1"};
   const std::vector<double> size = table.numbers("size", 2, positive);
   const std::vector<double> divisions = table.numbers("divisions", 2, counts);
   for (const double value : divisions)
     if (value != std::floor(value)) table.fail("divisions", fmt::format("{}", value), counts.text);
-  const Mesh mesh = rectangle_mesh({size[0], size[1]},
-                                   {static_cast<int>(divisions[0]), static_cast<int>(divisions[1])},
-                                   read_element_kind(table));
+  return rectangle_mesh({size[0], size[1]},
+                        {static_cast<int>(divisions[0]), static_cast<int>(divisions[1])},
+                        read_element_kind(table));
+}
+
+// The file says the kind of its elements; the scene may ask for one point in its q4.
+Mesh read_file(SceneTable& table) {
+  for (const char* key : {"size", "divisions"})
+    if (table.has(key)) table.fail(key, fmt::format("both file and {}", key), "one of them");
+  Mesh mesh = read_gmsh_mesh(table.file().parent_path() / table.text("file"));
+  if (!table.has("element")) return mesh;
+  const ElementKind wanted = read_element_kind(table);
+  if (wanted == ElementKind::q4r && mesh.kind == ElementKind::q4) mesh.kind = wanted;
+  if (wanted != mesh.kind)
+    table.fail("element", element_type(wanted).name,
+               fmt::format("{}, as the file has them", element_type(mesh.kind).name));
+  return mesh;
+}
+
+}  // namespace
+
+Mesh read_mesh(SceneTable& table) {
+  const Mesh mesh = table.has("file") ? read_file(table) : read_rectangle(table);
   check_shapes(mesh, table.place());
   return mesh;
 }

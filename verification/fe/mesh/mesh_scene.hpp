@@ -6,8 +6,8 @@
 
 namespace verification {
 
-// The scene's `mesh`: element with size and divisions. Throws InputError, also for badly shaped
-// elements. Leaves other keys to the caller, who closes the table.
+// The scene's `mesh`: element with size and divisions, or a file of Gmsh, relative to the scene.
+// Throws InputError, also for badly shaped elements. Leaves other keys to the caller, who closes the table.
 Mesh read_mesh(SceneTable& table);
 
 }  // namespace verification

@@ -2,6 +2,7 @@
 
 #include "fe/conditions/dofs.hpp"
 #include "fe/solver/forces.hpp"
+#include "fe/solver/parts.hpp"
 
 #include <fmt/format.h>
 
@@ -14,8 +15,6 @@
 namespace verification {
 namespace {
 
-constexpr double smallest_cut = 0.1;  // of a step in one go
-constexpr double usual_cut = 0.5;
 // An attempt with an exact tangent ends when this many iterations in a row have not halved the
 // residual: after the peak P(F) has jumps, and Newton then goes to and fro across one.
 constexpr int patience = 4;
@@ -83,48 +82,27 @@ class NewtonSolver final : public Solver {
 
   LoadStep advance(double to, int number) override {
     LoadStep step;
-    const double from = time_;
-    int cuts = 0;
     int iterations = 0;
-    int loose_parts = 0;
-    double done = from;
-    double part = to - from;
-    const double smallest = std::ldexp(to - from, -options_.max_cuts);
-    bool loose = false;
-    do {
-      const double next = done + part > to - 1e-9 * (to - from) ? to : done + part;
-      double ratio = usual_cut;
-      std::string reason;
+    const auto attempt = [&](double next, bool loose) {
       const auto first = step.residuals.size();
+      step.attempts.push_back(first);
       const double tolerance = loose ? options_.loose_tolerance : options_.tolerance;
-      bool at_jump = false;
-      const bool converged = attempt(next, tolerance, step.residuals, ratio, at_jump, reason);
+      const Attempt result = equilibrate(next, tolerance, step.residuals);
       iterations += static_cast<int>(step.residuals.size() - first) - 1;
-      if (converged) {
+      if (result.converged)
         points_.commit();
-        part = std::min(to - next, 2 * (next - done));
-        done = next;
-        loose = false;
-        loose_parts += at_jump ? 1 : 0;
-        continue;
-      }
-      points_.revert();
-      ++cuts;
-      part = (next - done) * std::clamp(ratio, smallest_cut, usual_cut);
-      if (part >= smallest && to > from) continue;
-      if (loose || options_.loose_tolerance == 0)
-        throw ComputationError(
-            fmt::format("load step {} failed at {:.1e} of the run: {}", number, part, reason));
-      loose = true;
-      ++loose_parts;
-      part = to - done;
-    } while (done < to);
+      else
+        points_.revert();
+      return result;
+    };
+    const Parts parts =
+        solve_in_parts(time_, to, number, options_.max_cuts, options_.loose_tolerance > 0, attempt);
     step.time = to;
     step.record = points_.record();
     step.record.step = number;
     step.record.effort.iterations = iterations;
-    step.record.effort.cuts = cuts;
-    step.record.effort.loose = loose_parts;
+    step.record.effort.cuts = parts.cuts;
+    step.record.effort.loose = parts.loose;
     report_supports(model_, to, displacement_, system_.residual, step);
     return step;
   }
@@ -149,8 +127,7 @@ class NewtonSolver final : public Solver {
   // Increments of prescribed displacement enter through the right-hand side of the first solve,
   // which extrapolates the committed equilibrium by its tangent; boundary values never jump ahead
   // alone.
-  bool attempt(double time, double tolerance, std::vector<double>& residuals, double& ratio,
-               bool& at_jump, std::string& reason) {
+  Attempt equilibrate(double time, double tolerance, std::vector<double>& residuals) {
     Eigen::VectorXd displacement = displacement_;
     System system = system_;
     const Eigen::VectorXd target = dofs_.prescribed_at(time);
@@ -166,26 +143,20 @@ class NewtonSolver final : public Solver {
         correction = solve(system, dofs_, prescribed);
       }
       prescribed.setZero();
-      if (!correction.allFinite()) {
-        reason = "the stiffness is singular";
-        return false;
-      }
+      if (!correction.allFinite()) return {.reason = "the stiffness is singular"};
       if (const double factor = bound(correction); factor < 1) {
-        if (iteration == 0) {
-          ratio = factor;
-          reason = "the load increment strains a point beyond newton.largest_correction";
-          return false;
-        }
+        if (iteration == 0)
+          return {.ratio = factor,
+                  .reason = "the load increment strains a point beyond newton.largest_correction"};
         correction *= factor;
       }
-      displacement += correction;
-      if (points_.evaluate(displacement, options_.tangent, threads_) != GRAINLAW_OK) {
-        ratio = points_.step_ratio();
-        reason = points_.message();
+      const int halvings = iteration == 0 ? 0 : options_.line_search;
+      const Attempt step =
+          correct(displacement, system, correction, time, residuals.back(), halvings);
+      if (!step.converged) {
         residuals.push_back(std::numeric_limits<double>::quiet_NaN());
-        return false;
+        return step;
       }
-      system = assemble(model_, points_, displacement, time);
       residuals.push_back(error(system, prescribed));
       if (residuals.back() < 0.5 * best) {
         best = residuals.back();
@@ -194,18 +165,42 @@ class NewtonSolver final : public Solver {
       const bool near = residuals.back() <= options_.jump_tolerance;
       const bool stalled = iteration >= best_iteration + (near ? jump_patience : patience) &&
                            options_.tangent == GRAINLAW_WANT_TANGENT_EXACT;
-      at_jump = near && residuals.back() > tolerance &&
-                (stalled || iteration + 1 == options_.max_iterations);
+      const bool at_jump = near && residuals.back() > tolerance &&
+                           (stalled || iteration + 1 == options_.max_iterations);
       if (residuals.back() <= tolerance || at_jump) {
         displacement_ = displacement;
         system_ = system;
         time_ = time;
-        return true;
+        return {.converged = true, .loose = at_jump};
       }
       if (stalled) break;
     }
-    reason = fmt::format("Newton did not converge (best relative residual {:.1e} [-])", best);
-    return false;
+    return {.reason =
+                fmt::format("Newton did not converge (best relative residual {:.1e} [-])", best)};
+  }
+
+  // Goes the way of the correction. With halvings left, a way that a point refuses or that ends at a
+  // larger residual than `before` is halved; without any to begin with it is gone whole.
+  Attempt correct(Eigen::VectorXd& displacement, System& system, const Eigen::VectorXd& correction,
+                  double time, double before, int halvings) {
+    double fraction = 1;
+    for (int halving = 0;; ++halving, fraction *= 0.5) {
+      const Eigen::VectorXd place = displacement + fraction * correction;
+      const bool reached = points_.evaluate(place, options_.tangent, threads_) == GRAINLAW_OK;
+      if (reached) {
+        System found = assemble(model_, points_, place, time);
+        const double residual = dofs_.reduce(found.residual).norm() / found.scale;
+        if (halvings == 0 || residual <= before) {
+          displacement = place;
+          system = std::move(found);
+          return {.converged = true};
+        }
+      }
+      if (halving < halvings) continue;
+      if (!reached) return {.ratio = points_.step_ratio(), .reason = points_.message()};
+      return {.reason =
+                  fmt::format("{} halvings of a correction did not lower the residual", halvings)};
+    }
   }
 
   // How much of a correction may be made, 1: all of it.

@@ -21,6 +21,10 @@ struct NewtonOptions {
   // far beyond the load increment costs far more to evaluate, and seldom leads anywhere. A load
   // increment whose first correction is longer is cut; 0: no bound [-].
   double largest_correction = 0;
+  // Corrections are halved at most so many times until the residual does not increase, or a point
+  // does not refuse; then the step is cut. The first, which brings the load, is made whole; 0: all
+  // are.
+  int line_search = 0;
 };
 
 // Throws InputError for contradictory conditions, ComputationError when F = I cannot be evaluated.

@@ -1,9 +1,9 @@
 // A load step solved in as many parts as it takes.
 #pragma once
 
-#include <fmt/format.h>
-
 #include "app/library.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,35 +14,50 @@ namespace verification {
 // How an attempt at a part of a load step ended.
 struct Attempt {
   bool converged = false;
-  double ratio = 0.5;  // of the part that seems feasible
-  std::string reason;
+  bool loose = false;       // converged to a residual beyond the tolerance
+  double ratio = 0.5;       // of the part that seems feasible
+  std::string reason = {};  // of the failure
 };
 
-// From one time to another: attempt(next) goes from the time of the last success to `next`, whole or
-// not at all. After a failure the part is cut by the ratio, at most to a tenth and at least to half;
-// after a success the next one is twice as long. Returns the number of cuts. Throws ComputationError
-// when 2^-max_cuts of the step fails.
+struct Parts {
+  int cuts = 0;
+  int loose = 0;
+};
+
+// From one time to another: attempt(next, loose) goes from the time of the last success to `next`,
+// whole or not at all. After a failure the part is cut by the ratio, at most to a tenth and at least
+// to half; after a success the next one is twice as long. When 2^-max_cuts of the step fails, the
+// rest is tried once more as a loose part, if they are allowed. Throws ComputationError when that
+// fails.
 template <class Function>
-int solve_in_parts(double from, double to, int number, int max_cuts, Function&& attempt) {
+Parts solve_in_parts(double from, double to, int number, int max_cuts, bool loose_allowed,
+                     Function&& attempt) {
   const double smallest = std::ldexp(to - from, -max_cuts);
   double done = from;
   double part = to - from;
-  int cuts = 0;
+  bool loose = false;
+  Parts parts;
   do {
     const double next = done + part > to - 1e-9 * (to - from) ? to : done + part;
-    const Attempt result = attempt(next);
+    const Attempt result = attempt(next, loose);
     if (result.converged) {
       part = std::min(to - next, 2 * (next - done));
       done = next;
+      loose = false;
+      parts.loose += result.loose ? 1 : 0;
       continue;
     }
-    ++cuts;
+    ++parts.cuts;
     part = (next - done) * std::clamp(result.ratio, 0.1, 0.5);
-    if (part < smallest || to == from)
+    if (part >= smallest && to > from) continue;
+    if (loose || !loose_allowed)
       throw ComputationError(
           fmt::format("load step {} failed at {:.1e} of the run: {}", number, part, result.reason));
+    loose = true;
+    ++parts.loose;
+    part = to - done;
   } while (done < to);
-  return cuts;
+  return parts;
 }
 
 }  // namespace verification

@@ -43,17 +43,18 @@ class RelaxationSolver final : public Solver {
   LoadStep advance(double to, int number) override {
     LoadStep step;
     int iterations = 0;
-    const auto attempt = [&](double next) {
+    const auto attempt = [&](double next, bool) {
+      step.attempts.push_back(step.residuals.size());
       const Attempt result = relax(next, step.residuals, iterations);
       if (!result.converged) points_.revert();
       return result;
     };
-    const int cuts = solve_in_parts(rest_.time, to, number, options_.max_cuts, attempt);
+    const Parts parts = solve_in_parts(rest_.time, to, number, options_.max_cuts, false, attempt);
     step.time = to;
     step.record = points_.record();
     step.record.step = number;
     step.record.effort.iterations = iterations;
-    step.record.effort.cuts = cuts;
+    step.record.effort.cuts = parts.cuts;
     report_supports(model_, to, rest_.displacement, rest_.imbalance, step);
     return step;
   }
@@ -112,19 +113,19 @@ class RelaxationSolver final : public Solver {
       const bool first = iteration == 0;
       const unsigned want = first ? unsigned{GRAINLAW_WANT_TANGENT_ELASTIC} : 0U;
       if (points_.evaluate(place, want, threads_) != GRAINLAW_OK)
-        return {false, points_.step_ratio(), points_.message()};
+        return {.ratio = points_.step_ratio(), .reason = points_.message()};
       now = balance(place, time);
       residuals.push_back(now.residual);
       if (now.residual <= options_.tolerance) break;
       if (!std::isfinite(now.residual) || iteration == options_.max_iterations)
-        return {false, 0.5,
-                fmt::format("dynamic relaxation did not converge in {} iterations (relative "
-                            "residual {:.1e} [-])",
-                            iteration, now.residual)};
+        return {.reason =
+                    fmt::format("dynamic relaxation did not converge in {} iterations (relative "
+                                "residual {:.1e} [-])",
+                                iteration, now.residual)};
       if (first) {
         first_internal = now.internal;
         highest = highest_frequency(points_, dofs_, mass_);
-        if (highest == 0) return {false, 0.5, "the packings have no stiffness"};
+        if (highest == 0) return {.reason = "the packings have no stiffness"};
       }
       // Rayleigh quotient (eq. 26) of the motion since the start, the supports at rest.
       const Eigen::VectorXd moved = place - origin;
@@ -146,7 +147,7 @@ class RelaxationSolver final : public Solver {
     rest_.displacement = place;
     rest_.imbalance = now.imbalance;
     rest_.time = time;
-    return {true, 1, {}};
+    return {.converged = true};
   }
 
   const Model& model_;

@@ -27,6 +27,7 @@ struct LoadStep {
   Record record;  // means over the integration points
   double time = 0;
   std::vector<double> residuals;
+  std::vector<std::size_t> attempts;  // entry of the first residual of each
   // Of every monitor of the model: how far it has moved [m], and the force on its nodes [N/m].
   std::vector<double> displacements;
   std::vector<double> reactions;

@@ -1,0 +1,35 @@
+// Gmsh's own library, loaded when a scene names a mesh file: it takes a tenth of a second and ninety
+// libraries with it, which no other scene should pay for.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace verification {
+
+// Elements of one Gmsh type: the tags of their nodes, `nodes` per element.
+struct GmshElements {
+  int type = 0;
+  std::size_t nodes = 1;
+  std::vector<std::size_t> tags;
+};
+
+struct GmshGroup {
+  int dimension;
+  std::string name;
+  std::vector<GmshElements> elements;
+};
+
+struct GmshContent {
+  std::vector<std::size_t> node_tags;
+  std::vector<std::array<double, 3>> node_places;  // [m]
+  std::vector<GmshElements> surface;               // all elements of dimension 2
+  std::vector<GmshGroup> groups;                   // named physical groups
+};
+
+// Throws InputError for a file that Gmsh cannot read, and where the program was built without Gmsh.
+GmshContent read_gmsh(const std::filesystem::path& path);
+
+}  // namespace verification

@@ -1,0 +1,34 @@
+// `grainlaw study papers-000`: figures and tables of Liu, Bosco & Suiker (2017b), from the tables
+// that the scenes in papers-000/ left in the output directory.
+#pragma once
+
+#include "papers/papers.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace verification {
+
+// A biaxial test, counted from the state under isotropic stress, its first row.
+struct Biaxial {
+  std::string name;
+  std::vector<double> strain;        // axial, compression positive (eq. 41) [-]
+  std::vector<double> ratio;         // |s11 - s22| / |s11 + s22| of the mean stress (eq. 40) [-]
+  std::vector<double> volume;        // J / J of the start - 1, dilation positive [-]
+  std::vector<double> coordination;  // [-]
+  std::vector<double> anisotropy;    // eq. 38 [-]
+
+  [[nodiscard]] std::size_t peak() const;  // row of the largest ratio
+  // Linear between the rows; NaN outside.
+  [[nodiscard]] double ratio_at(double strain) const;
+};
+
+std::optional<Biaxial> load_biaxial(const PaperStudy& study, const std::string& name);
+
+// Figures 4 to 14, the comparison of multi-scale and direct simulation, the table of costs.
+void study_biaxial(PaperStudy& study);
+void tabulate_costs(const PaperStudy& study);
+void compare_with_direct(PaperStudy& study);  // also every packing of dns_packings.toml
+
+}  // namespace verification
