@@ -48,4 +48,6 @@ void study_packing_waves(WaveStudy& study);  // figures 4.6 to 4.11
 void study_why_waves_differ(WaveStudy& study);
 void study_wave_cost(WaveStudy& study);
 
+void add_waves_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
+
 }  // namespace verification

@@ -1,6 +1,7 @@
 #include "study/study.hpp"
 
 #include "papers/papers_004.hpp"
+#include "papers/waves.hpp"
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"

@@ -85,6 +85,5 @@ void add_features_study(CLI::App& study, const std::shared_ptr<StudyOptions>& op
 void add_batch_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_stability_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_papers_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
-void add_waves_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 
 }  // namespace verification
