@@ -159,12 +159,12 @@ GRAINLAW_API grainlaw_report grainlaw_report_default(void);
  * CONTACTS_LOST, INVERTED, STEP_TOO_LARGE, COLLAPSED (a boundary under uniform stress: next to no
  * force is left, or a particle of it has no contact). On any of them P and A are untouched and the
  * committed state keeps its bits. With solver.contacts_lost = "stress_free" F at which no contact
- * carries is no error: P and A are zero, tangent_exact is 1, contacts 0, the message says so, and the
- * state may be committed; particles go where F carries them, and bear when they meet again. At F
- * where they just touch A is one of two derivatives, that of the free side. Where stress components are prescribed (boundary "mixed") the
- * components of F that belong to them are ignored and found instead (measure
- * DEFORMATION_GRADIENT), P returns the prescribed ones to the tolerance, and A has zero rows and
- * columns there.
+ * carries is no error: P and A are zero, tangent_exact is 1, contacts 0, the message says so, and
+ * the state may be committed; particles go where F carries them, and bear when they meet again. At
+ * F where they just touch A is one of two derivatives, that of the free side. Where stress
+ * components are prescribed (boundary "mixed") the components of F that belong to them are ignored
+ * and found instead (measure DEFORMATION_GRADIENT), P returns the prescribed ones to the tolerance,
+ * and A has zero rows and columns there.
  * F that is refused or leads nowhere also drops the trial, so that an ignored failure cannot commit
  * an older one. */
 GRAINLAW_API grainlaw_status grainlaw_evaluate(grainlaw_state*, const double* F, unsigned want,

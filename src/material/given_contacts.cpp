@@ -56,7 +56,8 @@ void add_bonds_and_moments(const Material& material, Configuration& given) {
   for (const auto& c : given.contacts) contacts[{c.i, c.j, c.shift}].first = c;
   if (law.bonds() && !named) {
     constexpr double touch = 1e-9;  // of the radius: discs that rounding holds apart touch too
-    for (const auto& pair : near_pairs(material, std::max(law.bond.gap, touch * mean_radius(packing)))) {
+    const double reach = std::max(law.bond.gap, touch * mean_radius(packing));
+    for (const auto& pair : near_pairs(material, reach)) {
       auto& [contact, extra] = contacts[{pair.i, pair.j, pair.shift}];
       contact.i = pair.i;
       contact.j = pair.j;

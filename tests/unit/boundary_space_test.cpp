@@ -202,14 +202,18 @@ TEST(boundary_space, saved_state_goes_on_with_the_same_bits) {
   }
 }
 
+// But for the stresses that are prescribed: a state goes over from one to another.
 TEST(boundary_space, saved_states_of_other_spaces_are_refused) {
-  std::vector<std::shared_ptr<const Material>> materials;
+  std::map<std::string, std::shared_ptr<const Material>> materials;
   for (const auto& [name, description] : all_spaces(small_packing())) {
-    materials.push_back(make_material(description));
+    materials[name] = make_material(description);
   }
-  for (const auto& a : materials) {
-    for (const auto& b : materials) {
-      EXPECT_EQ(a->fingerprint == b->fingerprint, a == b);
+  const auto kind = [](const std::string& name) {
+    return name == "layer under a given F" ? "layer" : name;
+  };
+  for (const auto& [one, a] : materials) {
+    for (const auto& [other, b] : materials) {
+      EXPECT_EQ(a->fingerprint == b->fingerprint, kind(one) == kind(other)) << one << ", " << other;
     }
   }
 }

@@ -35,7 +35,8 @@ double line_stiffness(const Packing& packing, const ContactLaw& law) {
 
 TEST(disc_row, bears_along_its_length_by_springs_in_line) {
   for (const auto& radii : rows) {
-    for (const auto& law : {compressive_law(), rough_law(), bonded_law(1e6), locked_bonded_law(1e6)}) {
+    for (const auto& law :
+         {compressive_law(), rough_law(), bonded_law(1e6), locked_bonded_law(1e6)}) {
       for (const double overlap : {0.0, 1e-6}) {
         const Packing packing = disc_row(radii, overlap);
         MaterialDescription description = describe(packing, law);
@@ -89,7 +90,9 @@ TEST(disc_row, tangent_of_bonds_without_force_is_the_derivative) {
           Tensor F = identity;
           F[k] += side * step;
           const Tensor stress = evaluate(state, F).stress;
-          for (std::size_t m = 0; m < 4; ++m) differences[m * 4 + k] += side * stress[m] / (2 * step);
+          for (std::size_t m = 0; m < 4; ++m) {
+            differences[m * 4 + k] += side * stress[m] / (2 * step);
+          }
         }
       }
       EXPECT_LE(relative_difference(at.tangent, differences), bar);
