@@ -27,8 +27,8 @@ contact = { law = "frictional", kn = 1e4, ratio = 0.2, friction = 0.4 }
 // Of this test alone: tests run beside each other.
 std::filesystem::path directory() {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const auto path = std::filesystem::path(testing::TempDir()) /
-                    (std::string("grainlaw_dns_") + test->name());
+  const auto path =
+      std::filesystem::path(testing::TempDir()) / (std::string("grainlaw_dns_") + test->name());
   std::filesystem::create_directories(path);
   return path;
 }
@@ -78,8 +78,8 @@ TEST(dns, a_repeated_frame_has_the_copies_and_shares_the_sides) {
   const std::size_t cell = one.size() - across - up - 1;  // of the periodic packing
   EXPECT_EQ(many.size(), 6 * cell + 3 * across + 2 * up + 1);
   EXPECT_EQ(many.boundary.size(), 2 * (3 * across + 2 * up));
-  EXPECT_EQ(many.corner, (std::array<std::size_t, 4>{0, 3 * across, 3 * across + 2 * up,
-                                                     6 * across + 2 * up}));
+  EXPECT_EQ(many.corner,
+            (std::array<std::size_t, 4>{0, 3 * across, 3 * across + 2 * up, 6 * across + 2 * up}));
 }
 
 TEST(dns, a_repeated_frame_carries_the_stress_of_the_frame) {
@@ -192,8 +192,7 @@ TEST(dns, bad_scenes_are_refused_with_what_was_expected) {
 }
 
 TEST(dns, sides_the_library_does_not_know_are_refused) {
-  const SpecimenScene wrong =
-      scene("repeat = [1, 1]\nsides.left = { x = 'Q' }\n" + biaxial);
+  const SpecimenScene wrong = scene("repeat = [1, 1]\nsides.left = { x = 'Q' }\n" + biaxial);
   Specimen specimen(wrong, directory() / "refused");
   try {
     specimen.run({});

@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 namespace verification {
 namespace {
 
@@ -27,7 +25,6 @@ Model specimen(int divisions, double strain) {
 struct Result {
   Record record;
   int cuts = 0;
-  double displacement = 0;  // of the upper right corner along x [m]
 };
 
 Result compress(int divisions, const NewtonOptions& options) {
@@ -37,25 +34,24 @@ Result compress(int divisions, const NewtonOptions& options) {
   const Material material = packing_material();
   const auto solver = make_newton_solver(model, material, options, 1);
   Result result;
-  run_load_steps(*solver, 1, steps, steps, [&](const LoadStep& step, const Solver& s) {
+  run_load_steps(*solver, 1, steps, steps, [&](const LoadStep& step, const Solver&) {
     result.record = step.record;
     result.cuts += step.record.effort.cuts;
-    result.displacement = s.displacement()(s.displacement().size() - 2);
   });
   return result;
 }
 
 TEST(localising, meshes_agree_before_the_peak) {
-  const NewtonOptions options{.tolerance = 1e-8};
+  const NewtonOptions options{.tolerance = 1e-6};
   const Result coarse = compress(1, options);
   const Result fine = compress(2, options);
+  EXPECT_EQ(coarse.cuts + fine.cuts, 0);  // the same increments
   EXPECT_LT((fine.record.cauchy - coarse.record.cauchy).norm(), 1e-5 * coarse.record.cauchy.norm());
-  EXPECT_NEAR(fine.displacement, coarse.displacement, 1e-4 * std::abs(coarse.displacement));
   EXPECT_NEAR(coarse.record.cauchy(0, 0), -100e3, 1e-4 * 100e3);
 }
 
 TEST(localising, a_load_increment_beyond_the_largest_correction_is_cut) {
-  NewtonOptions options{.tolerance = 1e-8};
+  NewtonOptions options{.tolerance = 1e-6};
   const Result whole = compress(1, options);
   EXPECT_EQ(whole.cuts, 0);
   options.largest_correction = 7e-4;  // less than the 0.1 % of a step

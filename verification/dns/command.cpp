@@ -62,8 +62,9 @@ void run_dns(const std::string& path, const std::string& directory, int jobs) {
 
 void add_dns_command(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("dns", "simulate a specimen of repeated frames directly, particle by "
-                                "particle");
+      app.add_subcommand("dns",
+                         "simulate a specimen of repeated frames directly, particle by "
+                         "particle");
   auto scene = std::make_shared<std::string>();
   auto output = std::make_shared<std::string>(".");
   command->add_option("SCENE", *scene, "scene file (TOML)")->required();

@@ -103,8 +103,10 @@ class Repeated {
       const int count = along ? columns_ : rows_;
       for (int k = 0; k < count; ++k) {
         const int at = side < 2 ? k : count - 1 - k;
-        if (along) add_side(side, at, side == 0 ? 0 : rows_ - 1);
-        else add_side(side, side == 3 ? 0 : columns_ - 1, at);
+        if (along)
+          add_side(side, at, side == 0 ? 0 : rows_ - 1);
+        else
+          add_side(side, side == 3 ? 0 : columns_ - 1, at);
       }
     }
   }
@@ -147,9 +149,10 @@ FramePacking read_frame(const std::string& prefix) {
   const CsvTable contacts = read_csv(prefix + "_contacts.csv");
   const CsvTable cell = read_csv(prefix + "_cell.csv");
   const auto wrong = [&](const std::string& found) {
-    throw InputError(fmt::format("{}_particles.csv: found {}, expected a frame whose opposite "
-                                 "sides are copies of each other",
-                                 prefix, found));
+    throw InputError(
+        fmt::format("{}_particles.csv: found {}, expected a frame whose opposite "
+                    "sides are copies of each other",
+                    prefix, found));
   };
   if (!has_column(particles, "frame_order")) wrong("no column frame_order");
   FramePacking frame;

@@ -14,17 +14,17 @@ namespace verification {
 struct FrameContact {
   int i = 0;
   int j = 0;
-  double normal_force = 0;                     // [N], compression positive
-  std::array<double, 2> tangential_force{};    // [N]
-  double moment = 0;                           // [N m]
-  std::optional<bool> bonded;                  // nothing: the law says
-  double bond_gap = 0;                         // [m]
+  double normal_force = 0;                   // [N], compression positive
+  std::array<double, 2> tangential_force{};  // [N]
+  double moment = 0;                         // [N m]
+  std::optional<bool> bonded;                // nothing: the law says
+  double bond_gap = 0;                       // [m]
 };
 
 // A frame of boundary particles as the library writes it to files.
 struct FramePacking {
-  std::vector<double> x, y, radius;  // [m]
-  std::vector<int> boundary;         // anticlockwise from corner 0: bottom, right, top, left
+  std::vector<double> x, y, radius;     // [m]
+  std::vector<int> boundary;            // anticlockwise from corner 0: bottom, right, top, left
   std::array<std::size_t, 4> corner{};  // places in the boundary; the first is 0
   std::vector<FrameContact> contacts;
   std::array<double, 4> cell{};  // H, row-major: columns lead from a side to its copy [m]

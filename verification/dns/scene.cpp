@@ -14,8 +14,7 @@ using Kind = SpecimenTarget::Kind;
 toml::table usual_sides() {
   const toml::table flexible{{"x", "T"}, {"y", "T"}};
   const toml::table platen{{"x", "T"}, {"y", "D"}};
-  return toml::table{
-      {"left", flexible}, {"right", flexible}, {"bottom", platen}, {"top", platen}};
+  return toml::table{{"left", flexible}, {"right", flexible}, {"bottom", platen}, {"top", platen}};
 }
 
 std::array<std::optional<double>, 4> read_start(SceneTable table) {
@@ -56,7 +55,8 @@ SpecimenTarget read_target(SceneTable& segment, std::size_t k) {
       continue;
     }
     target.kind = key.kind;
-    target.value = key.kind == Kind::stretch ? segment.number(name, positive) : segment.number(name);
+    target.value =
+        key.kind == Kind::stretch ? segment.number(name, positive) : segment.number(name);
   }
   return target;
 }

@@ -88,8 +88,8 @@ void Specimen::bring_to_start() {
   for (int round = 0; round < most; ++round) {
     Tensor sigma = Tensor::Zero();
     Stresses stress;
-    for (std::size_t k = 0; k < 4; ++k) sigma(static_cast<int>(k / 2), static_cast<int>(k % 2)) =
-        scene_.start[k].value_or(0);
+    for (std::size_t k = 0; k < 4; ++k)
+      sigma(static_cast<int>(k / 2), static_cast<int>(k % 2)) = scene_.start[k].value_or(0);
     const Vector4 wanted = to_vector(F.determinant() * sigma * F.inverse().transpose());
     for (std::size_t k = 0; k < 4; ++k)
       if (scene_.start[k]) stress[k] = wanted(static_cast<Eigen::Index>(k));
@@ -128,8 +128,8 @@ SpecimenEnd Specimen::run(const Observer& observe) {
         if (!step(segment, F, P, static_cast<double>(k - 1) / segment.steps,
                   static_cast<double>(k) / segment.steps, reason)) {
           end_.effort.add(record_.effort);
-          throw ComputationError(fmt::format("step {} failed (F22 = {:.6f}): {}", number,
-                                             deformation_(1, 1), reason));
+          throw ComputationError(
+              fmt::format("step {} failed (F22 = {:.6f}): {}", number, deformation_(1, 1), reason));
         }
         record_.step = end_.steps = number;
         end_.effort.add(record_.effort);
@@ -140,8 +140,7 @@ SpecimenEnd Specimen::run(const Observer& observe) {
     end_.text = error.what();
   }
   end_.cpu += cpu_seconds() - cpu;
-  end_.elapsed =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+  end_.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
   return end_;
 }
 
@@ -153,8 +152,10 @@ Specimen::Goal Specimen::goal_at(const SpecimenSegment& segment, const Tensor& d
     const SpecimenTarget& target = segment.target[k];
     const auto i = static_cast<int>(k / 2), j = static_cast<int>(k % 2);
     const double F = deformation(i, j), P = stress(i, j);
-    if (target.kind == Kind::deformation) goal.deformation(i, j) = F + fraction * (target.value - F);
-    if (target.kind == Kind::stretch) goal.deformation(i, j) = F * (1 + fraction * (target.value - 1));
+    if (target.kind == Kind::deformation)
+      goal.deformation(i, j) = F + fraction * (target.value - F);
+    if (target.kind == Kind::stretch)
+      goal.deformation(i, j) = F * (1 + fraction * (target.value - 1));
     if (target.kind == Kind::stress) goal.stress[k] = P + fraction * (target.value - P);
     // What was prescribed keeps its digits.
     if (target.kind == Kind::keep_stress) goal.stress[k] = prescribed_[k].value_or(P);
@@ -162,8 +163,8 @@ Specimen::Goal Specimen::goal_at(const SpecimenSegment& segment, const Tensor& d
   return goal;
 }
 
-bool Specimen::step(const SpecimenSegment& segment, const Tensor& deformation,
-                    const Tensor& stress, double from, double to, std::string& reason) {
+bool Specimen::step(const SpecimenSegment& segment, const Tensor& deformation, const Tensor& stress,
+                    double from, double to, std::string& reason) {
   constexpr double smallest_cut = 0.1;  // in one go
   constexpr double usual_cut = 0.5;
   const double smallest = std::ldexp(to - from, -scene_.max_cuts);
@@ -191,10 +192,9 @@ bool Specimen::step(const SpecimenSegment& segment, const Tensor& deformation,
 
 void Specimen::accept(const Evaluation& evaluation) {
   const Tensor F = deformation_of(state_.get());
-  const double work = record_.external_work + 0.5 * volume_ *
-                                                  (evaluation_.stress + evaluation.stress)
-                                                      .cwiseProduct(F - deformation_)
-                                                      .sum();
+  const double work =
+      record_.external_work +
+      0.5 * volume_ * (evaluation_.stress + evaluation.stress).cwiseProduct(F - deformation_).sum();
   const Effort effort = record_.effort;
   const int number = record_.step;
   record_ = make_record(state_.get(), F, evaluation.stress, evaluation.report);

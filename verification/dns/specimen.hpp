@@ -18,10 +18,10 @@ struct SpecimenEnd {
   int boundary = 0;  // of them
   int steps = 0;
   int steps_wanted = 0;
-  Record start;        // under the stress of the start
-  Effort effort;       // sum over the steps
-  double cpu = 0;      // of the thread, output left out [s]
-  double elapsed = 0;  // [s]
+  Record start;               // under the stress of the start
+  Effort effort;              // sum over the steps
+  double cpu = 0;             // of the thread, output left out [s]
+  double elapsed = 0;         // [s]
   std::string text = "done";  // why it ended
 };
 

@@ -32,12 +32,13 @@ void draw_case(const WaveCase& one, const std::vector<WaveRun>& runs,
     return curve;
   };
   const auto add = [&](const std::string& ordinate, const auto& value, bool with_end) {
-    Panel panel{ordinate, {}, 1.2, "top right"};
+    Panel panel{ordinate, {}, 1.2, "bottom center"};
+    const bool first = figure.panels.empty();
     std::size_t k = 0;
     for (const WaveRun& run : runs) {
       Curve one_curve = curve(run, value);
       const bool particles = run.points == 0;
-      one_curve.title = particles ? "particles" : run.name + " elements";
+      if (first) one_curve.title = particles ? "particles" : run.name + " elements";
       one_curve.colour = particles ? colour::orange : colours[k++ % colours.size()];
       one_curve.stroke = particles ? Stroke::solid : Stroke::thin;
       panel.curves.push_back(one_curve);
@@ -45,7 +46,7 @@ void draw_case(const WaveCase& one, const std::vector<WaveRun>& runs,
     if (with_end) {
       Curve pulse =
           curve(runs.front(), [&](const WaveRow& row) { return row.end / one.pulse.amplitude; });
-      pulse.title = "pulse";
+      if (first) pulse.title = "pulse";
       pulse.colour = colour::grey;
       pulse.stroke = Stroke::dashed;
       panel.curves.push_back(pulse);

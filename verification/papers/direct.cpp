@@ -14,13 +14,16 @@ constexpr double strain_step = 0.0025;
 
 // Differences of the stress ratio over the strains before the first peak of the three.
 struct Comparison {
-  int strains = 0, within = 0;  // within: |MS - A| or |MS - B| at most |A - B|
+  int strains = 0, within = 0;         // within: |MS - A| or |MS - B| at most |A - B|
   double ms_a = 0, ms_b = 0, a_b = 0;  // root mean squares
+  // From 2 B - A: what A and B lead to when the error of a specimen goes with its surface over its
+  // volume, which B halves.
+  double ms_limit = 0;
   double until = 0;
 };
 
-Comparison compare(const Biaxial& ms, const Biaxial& a, const Biaxial& b, const std::string& packing,
-                   Table& table) {
+Comparison compare(const Biaxial& ms, const Biaxial& a, const Biaxial& b,
+                   const std::string& packing, Table& table) {
   Comparison c;
   c.until = std::min({ms.strain[ms.peak()], a.strain[a.peak()], b.strain[b.peak()]});
   for (double strain = strain_step; strain <= c.until + 1e-9; strain += strain_step) {
@@ -33,8 +36,10 @@ Comparison compare(const Biaxial& ms, const Biaxial& a, const Biaxial& b, const 
     c.ms_a += ma * ma;
     c.ms_b += mb * mb;
     c.a_b += ab * ab;
+    c.ms_limit += (m - 2 * rb + ra) * (m - 2 * rb + ra);
   }
-  for (double* sum : {&c.ms_a, &c.ms_b, &c.a_b}) *sum = std::sqrt(*sum / std::max(c.strains, 1));
+  for (double* sum : {&c.ms_a, &c.ms_b, &c.a_b, &c.ms_limit})
+    *sum = std::sqrt(*sum / std::max(c.strains, 1));
   return c;
 }
 
@@ -48,8 +53,7 @@ Spread spread(const std::vector<double>& values) {
   for (const double value : values) s.mean += value / static_cast<double>(values.size());
   double square = 0;
   for (const double value : values) square += (value - s.mean) * (value - s.mean);
-  s.deviation =
-      values.size() > 1 ? std::sqrt(square / static_cast<double>(values.size() - 1)) : 0;
+  s.deviation = values.size() > 1 ? std::sqrt(square / static_cast<double>(values.size() - 1)) : 0;
   return s;
 }
 
@@ -60,26 +64,27 @@ void compare_with_direct(PaperStudy& study) {
                 {"packing", "strain[-]", "MS[-]", "A[-]", "B[-]", "abs(MS-A)[-]", "abs(MS-B)[-]",
                  "abs(A-B)[-]", "within"});
   Table summary("Stress ratio before the peak: root mean squares of differences",
-                {"packing", "until_strain[-]", "MS-A[-]", "MS-B[-]", "A-B[-]", "strains_within[-]",
-                 "strains[-]", "peak_MS[-]", "peak_A[-]", "peak_B[-]"});
+                {"packing", "until_strain[-]", "MS-A[-]", "MS-B[-]", "A-B[-]", "MS-(2B-A)[-]",
+                 "strains_within[-]", "strains[-]", "peak_MS[-]", "peak_A[-]", "peak_B[-]"});
   struct Triple {
     Biaxial ms, a, b;
   };
   std::vector<Triple> packings;
   const auto add = [&](const std::string& packing, const std::string& ms, const std::string& a,
                        const std::string& b, bool own) {
-    const auto m = load_biaxial(study, ms), ra = load_biaxial(study, a), rb = load_biaxial(study, b);
+    const auto m = load_biaxial(study, ms), ra = load_biaxial(study, a),
+               rb = load_biaxial(study, b);
     if (!m || !ra || !rb) return;
     const Comparison c = compare(*m, *ra, *rb, packing, strains);
-    summary.row({packing, c.until, c.ms_a, c.ms_b, c.a_b, static_cast<double>(c.within),
+    summary.row({packing, c.until, c.ms_a, c.ms_b, c.a_b, c.ms_limit, static_cast<double>(c.within),
                  static_cast<double>(c.strains), m->ratio[m->peak()], ra->ratio[ra->peak()],
                  rb->ratio[rb->peak()]});
-    study.facts.agree("4", fmt::format("{}: multi-scale within |A - B| of A or B before the peak",
-                                       packing),
+    study.facts.agree("4",
+                      fmt::format("{}: rms of MS - B at most that of A - B, before the peak", packing),
                       "very close",
-                      fmt::format("{} of {} strains; rms |MS - B| {:.4f}, |A - B| {:.4f}", c.within,
-                                  c.strains, c.ms_b, c.a_b),
-                      c.within == c.strains);
+                      fmt::format("{:.4f} against {:.4f}; strain by strain in {} of {}", c.ms_b,
+                                  c.a_b, c.within, c.strains),
+                      c.ms_b <= c.a_b);
     if (own) packings.push_back({*m, *ra, *rb});
   };
   for (const char* mesh : {"1x1", "1x2", "2x4", "4x8"})
@@ -89,10 +94,10 @@ void compare_with_direct(PaperStudy& study) {
     add(fmt::format("packing {}", k), stem + "rve", stem + "a", stem + "b", true);
   }
   if (!packings.empty()) {
-    Table means("Mean over the packings (standard deviation)",
-                {"strain[-]", "packings[-]", "MS[-]", "sd_MS[-]", "A[-]", "sd_A[-]", "B[-]",
-                 "sd_B[-]"});
-    for (double strain = 0.005; strain <= 0.0601; strain += 0.005) {
+    Table means(
+        "Mean over the packings (standard deviation)",
+        {"strain[-]", "packings[-]", "MS[-]", "sd_MS[-]", "A[-]", "sd_A[-]", "B[-]", "sd_B[-]"});
+    for (double strain = 0.005; strain <= 0.0451; strain += 0.005) {
       std::vector<double> ms, a, b;
       for (const Triple& t : packings) {
         ms.push_back(t.ms.ratio_at(strain));

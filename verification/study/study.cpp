@@ -1,6 +1,7 @@
 #include "study/study.hpp"
 
 #include "papers/papers_004.hpp"
+#include "papers/waves.hpp"
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"
@@ -116,6 +117,7 @@ void add_study_command(CLI::App& app) {
   add_batch_study(*study, options);
   add_stability_study(*study, options);
   add_papers_study(*study, options);
+  add_waves_study(*study, options);
   add_papers_004_study(*study, options);
 }
 
