@@ -28,8 +28,8 @@ Model compressed_model(ElementKind kind) {
   Model model;
   model.mesh = rectangle_mesh({0.5, 1}, {2, 3}, kind);
   const auto hold = [&](const char* side, int component, double value) {
-    model.displacements.push_back({model.mesh.node_sets[side], component,
-                                   Program::linear(0, value), std::string(side)});
+    model.displacements.push_back(
+        {model.mesh.node_sets[side], component, Program::linear(0, value), std::string(side)});
   };
   hold("left", 0, 0);
   hold("bottom", 1, 0);
@@ -88,15 +88,15 @@ TEST(fields, strains_and_stresses_are_those_of_the_paper) {
   };
   EXPECT_NEAR(value("volumetric_strain"), 0.02, 1e-15);
   // e = dev(eps): +-0.02 on the diagonal, 0.015 beside it; sqrt(2 e:e).
-  EXPECT_NEAR(value("deviatoric_strain"),
-              std::sqrt(2 * (2 * 0.02 * 0.02 + 2 * 0.015 * 0.015)), 1e-15);
+  EXPECT_NEAR(value("deviatoric_strain"), std::sqrt(2 * (2 * 0.02 * 0.02 + 2 * 0.015 * 0.015)),
+              1e-15);
   const Tensor cauchy = cauchy_stress(stress, deformation);
   EXPECT_NEAR(value("mean_stress"), -0.5 * (cauchy(0, 0) + cauchy(1, 1)), 1e-9);
   const double half = 0.5 * (cauchy(0, 0) - cauchy(1, 1));
-  EXPECT_NEAR(value("deviatoric_stress"),
-              std::sqrt(half * half + 0.5 * (cauchy(0, 1) * cauchy(0, 1) +
-                                             cauchy(1, 0) * cauchy(1, 0))),
-              1e-9);
+  EXPECT_NEAR(
+      value("deviatoric_stress"),
+      std::sqrt(half * half + 0.5 * (cauchy(0, 1) * cauchy(0, 1) + cauchy(1, 0) * cauchy(1, 0))),
+      1e-9);
   EXPECT_THROW(field("colour"), InputError);
 }
 
@@ -237,18 +237,17 @@ TEST(output_options, wrong_ones_are_refused_with_what_was_expected) {
   EXPECT_EQ(refusal("points = [7]\nvtk_every = 2\npackings = [0]\n"
                     "[picture]\nfields = [\"void_ratio\"]\nsteps = [10]"),
             "accepted");
-  for (const auto& [text, expected] :
-       {std::pair{"points = [8]", "integration points, 0 to 7"},
-        {"points = [-1]", "integration points, 0 to 7"},
-        {"points = 1", "integration points, 0 to 7"},
-        {"points = [1.5]", "integration points, 0 to 7"},
-        {"packings = [1]", "vtk_every"},
-        {"vtk_every = -1", "vtk_every"},
-        {"checkpoint_every = -1", "checkpoint_every"},
-        {"[picture]\nfields = [\"colour\"]", "void_ratio"},
-        {"[picture]\nfields = [\"stress\"]", "void_ratio"},
-        {"[picture]\nsteps = [11]", "load steps, 0 to 10"},
-        {"[picture]\nstep = [1]", "picture.step"}})
+  for (const auto& [text, expected] : {std::pair{"points = [8]", "integration points, 0 to 7"},
+                                       {"points = [-1]", "integration points, 0 to 7"},
+                                       {"points = 1", "integration points, 0 to 7"},
+                                       {"points = [1.5]", "integration points, 0 to 7"},
+                                       {"packings = [1]", "vtk_every"},
+                                       {"vtk_every = -1", "vtk_every"},
+                                       {"checkpoint_every = -1", "checkpoint_every"},
+                                       {"[picture]\nfields = [\"colour\"]", "void_ratio"},
+                                       {"[picture]\nfields = [\"stress\"]", "void_ratio"},
+                                       {"[picture]\nsteps = [11]", "load steps, 0 to 10"},
+                                       {"[picture]\nstep = [1]", "picture.step"}})
     EXPECT_NE(refusal(text).find(expected), std::string::npos) << text << ": " << refusal(text);
 }
 

@@ -41,10 +41,10 @@ CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::s
   std::error_code error;
   const std::uintmax_t found = std::filesystem::file_size(path, error);
   if (error || found < length || line + "\n" != header(columns))
-    throw InputError(fmt::format("{}: cannot be continued: found {}, expected the table of the "
-                                 "interrupted run with at least {} bytes",
-                                 path.string(),
-                                 error ? error.message() : fmt::format("{} bytes", found), length));
+    throw InputError(fmt::format(
+        "{}: cannot be continued: found {}, expected the table of the "
+        "interrupted run with at least {} bytes",
+        path.string(), error ? error.message() : fmt::format("{} bytes", found), length));
   std::filesystem::resize_file(path, length);
   stream_.open(path, std::ios::app);
   if (!stream_) throw ComputationError(fmt::format("{}: cannot be written", path.string()));

@@ -16,7 +16,7 @@ extern "C" void note(int number) {
 
 void handle(void (*handler)(int)) {
   for (const int number : {SIGINT, SIGTERM}) {
-    struct sigaction action{};
+    struct sigaction action {};
     action.sa_handler = handler;
     action.sa_flags = SA_RESTART;
     sigaction(number, &action, nullptr);

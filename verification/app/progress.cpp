@@ -52,9 +52,9 @@ void Progress::update(double fraction, const std::string& text) {
     const double per_run = seconds(now - first_) / (fraction - first_fraction_);
     left = fmt::format(", {} left", duration((1 - fraction) * per_run));
   }
-  const std::string line = fmt::format("{}: {:3.0f} %, {}{}{}{}", what_, 100 * fraction,
-                                       duration(seconds(now - start_)), left,
-                                       text.empty() ? "" : ", ", text);
+  const std::string line =
+      fmt::format("{}: {:3.0f} %, {}{}{}{}", what_, 100 * fraction, duration(seconds(now - start_)),
+                  left, text.empty() ? "" : ", ", text);
   if (terminal_)
     fmt::print(stderr, "\r\033[K{}", line);
   else

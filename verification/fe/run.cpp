@@ -99,8 +99,7 @@ class Run {
       if (cycle_)
         run_cycles(*cycle_, *solver_, last, observe, done_ + 1);
       else
-        run_load_steps(*solver_, scene_.solver.duration(), scene_.steps, last, observe,
-                       done_ + 1);
+        run_load_steps(*solver_, scene_.solver.duration(), scene_.steps, last, observe, done_ + 1);
     } catch (const ComputationError& error) {
       try {
         finish();
@@ -129,9 +128,10 @@ class Run {
     if (stops || regular || (last && std::filesystem::exists(checkpoint_))) save();
     if (stops) {
       progress_.clear();
-      fmt::print("{}: ended after step {} of {} as asked; go on with\n  grainlaw solve {} "
-                 "--output {} --restart\n",
-                 scene_.name, done_, scene_.steps, file_.string(), directory_);
+      fmt::print(
+          "{}: ended after step {} of {} as asked; go on with\n  grainlaw solve {} "
+          "--output {} --restart\n",
+          scene_.name, done_, scene_.steps, file_.string(), directory_);
     }
     if (signal != 0) throw Interrupted{signal};
     if (!stops)

@@ -110,9 +110,9 @@ void draw_error(const HierarchicalStudy& study) {
 void study_cost_of_scenes(HierarchicalStudy& study) {
   const auto rve = load_run(study.results, "rve");
   Table table("Scenes of papers-004",
-              {"scene", "points[-]", "particles[-]", "steps[-]", "of[-]", "wall[s]",
-               "core_time[s]", "core_ms_per_point_step[ms]", "newton_iterations[-]", "cuts[-]",
-               "loose_parts[-]", "fallbacks[-]", "error_against_rve[-]", "paper"});
+              {"scene", "points[-]", "particles[-]", "steps[-]", "of[-]", "wall[s]", "core_time[s]",
+               "core_ms_per_point_step[ms]", "newton_iterations[-]", "cuts[-]", "loose_parts[-]",
+               "fallbacks[-]", "error_against_rve[-]", "paper"});
   for (const Scene& scene : scenes) {
     const auto run = load_mesh_run(study.results, scene.name);
     if (!run || run->steps() < 2) continue;

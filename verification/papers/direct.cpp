@@ -79,12 +79,12 @@ void compare_with_direct(PaperStudy& study) {
     summary.row({packing, c.until, c.ms_a, c.ms_b, c.a_b, c.ms_limit, static_cast<double>(c.within),
                  static_cast<double>(c.strains), m->ratio[m->peak()], ra->ratio[ra->peak()],
                  rb->ratio[rb->peak()]});
-    study.facts.agree("4",
-                      fmt::format("{}: rms of MS - B at most that of A - B, before the peak", packing),
-                      "very close",
-                      fmt::format("{:.4f} against {:.4f}; strain by strain in {} of {}", c.ms_b,
-                                  c.a_b, c.within, c.strains),
-                      c.ms_b <= c.a_b);
+    study.facts.agree(
+        "4", fmt::format("{}: rms of MS - B at most that of A - B, before the peak", packing),
+        "very close",
+        fmt::format("{:.4f} against {:.4f}; strain by strain in {} of {}", c.ms_b, c.a_b, c.within,
+                    c.strains),
+        c.ms_b <= c.a_b);
     if (own) packings.push_back({*m, *ra, *rb});
   };
   for (const char* mesh : {"1x1", "1x2", "2x4", "4x8"})

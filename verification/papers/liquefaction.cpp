@@ -26,8 +26,11 @@ struct Loop {
 };
 
 Loop loop(const PaperRun& run, const std::string& title) {
-  Loop l{title, run.column("F12", percent), run.column("sigma12", 1e-3),
-         run.column("sigma22", -1e-3), run.column("sigma11", -1e-3),
+  Loop l{title,
+         run.column("F12", percent),
+         run.column("sigma12", 1e-3),
+         run.column("sigma22", -1e-3),
+         run.column("sigma11", -1e-3),
          run.history["void_ratio"].front()};
   for (std::size_t k = 0; k < l.steps(); ++k) l.mean[k] = 0.5 * (l.mean[k] + l.normal[k]);
   return l;
@@ -43,10 +46,12 @@ double cycles(const std::vector<double>& path, std::size_t until) {
 }
 
 void draw_loop(const Loop& l, const std::string& figure, const std::filesystem::path& results) {
-  draw({l.title, "shear F12 [%]",
+  draw({l.title,
+        "shear F12 [%]",
         {{"shear stress [kPa]", {{"", l.shear, l.stress, colour::blue, Stroke::thin}}, 1}}},
        results / (figure + "_loop"));
-  draw({l.title, "vertical stress [kPa]",
+  draw({l.title,
+        "vertical stress [kPa]",
         {{"shear stress [kPa]", {{"", l.normal, l.stress, colour::blue, Stroke::thin}}, 1}}},
        results / (figure + "_path"));
 }
@@ -84,12 +89,12 @@ void stress_controlled(HierarchicalStudy& study, const std::string& name,
     most = std::max(most, std::abs(l.shear[k]));
     if (far == 0 && std::abs(l.shear[k]) >= 5) far = k;
   }
-  study.facts.agree(
-      "22", title + ": void ratio, cycles until 5 % shear strain", "0.209; 13 cycles",
-      far > 0 ? fmt::format("{:.4f}; {:.1f} cycles", l.void_ratio, cycles(l.stress, far))
-              : fmt::format("{:.4f}; {:.1f} % after {:.1f} cycles", l.void_ratio, most,
-                            cycles(l.stress, l.steps())),
-      far > 0);
+  study.facts.agree("22", title + ": void ratio, cycles until 5 % shear strain", "0.209; 13 cycles",
+                    far > 0
+                        ? fmt::format("{:.4f}; {:.1f} cycles", l.void_ratio, cycles(l.stress, far))
+                        : fmt::format("{:.4f}; {:.1f} % after {:.1f} cycles", l.void_ratio, most,
+                                      cycles(l.stress, l.steps())),
+                    far > 0);
 }
 
 }  // namespace

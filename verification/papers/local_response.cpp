@@ -80,22 +80,23 @@ void draw_points(HierarchicalStudy& study, const std::string& name, const Fields
   const auto largest = [](std::vector<double> v) { return *std::max_element(v.begin(), v.end()); };
   const auto q_out = scaled(f.deviator, outside, 1e-3);
   const auto strain_out = scaled(f.strain, outside, percent);
-  study.facts.agree("15", "outside the band", "unloads after a strain of 2.8 %",
-                    fmt::format("q {:.0f} kPa at most, {:.0f} kPa at the end; strain {:.1f} % at "
-                                "most, {:.1f} % at the end",
-                                largest(q_out), q_out.back(), largest(strain_out),
-                                strain_out.back()),
-                    q_out.back() < 0.95 * largest(q_out));
+  study.facts.agree(
+      "15", "outside the band", "unloads after a strain of 2.8 %",
+      fmt::format("q {:.0f} kPa at most, {:.0f} kPa at the end; strain {:.1f} % at "
+                  "most, {:.1f} % at the end",
+                  largest(q_out), q_out.back(), largest(strain_out), strain_out.back()),
+      q_out.back() < 0.95 * largest(q_out));
   study.facts.add("15", "inside the band", "60 % strain, dilation 4.5 %",
-                  fmt::format("{:.0f} % strain, dilation {:.1f} %", f.strain.columns[inside + 1].back() * percent,
+                  fmt::format("{:.0f} % strain, dilation {:.1f} %",
+                              f.strain.columns[inside + 1].back() * percent,
                               f.volume.columns[inside + 1].back() * percent),
                   "not stated");
-  study.facts.add("15", "the most dilated point", "dilation 7.4 %, p and q to zero",
-                  fmt::format("dilation {:.1f} %, p {:.1f} kPa, q {:.1f} kPa",
-                              f.volume.columns[edge + 1].back() * percent,
-                              f.mean.columns[edge + 1].back() / 1e3,
-                              f.deviator.columns[edge + 1].back() / 1e3),
-                  "not stated");
+  study.facts.add(
+      "15", "the most dilated point", "dilation 7.4 %, p and q to zero",
+      fmt::format("dilation {:.1f} %, p {:.1f} kPa, q {:.1f} kPa",
+                  f.volume.columns[edge + 1].back() * percent,
+                  f.mean.columns[edge + 1].back() / 1e3, f.deviator.columns[edge + 1].back() / 1e3),
+      "not stated");
 }
 
 void draw_failed(HierarchicalStudy& study, const std::string& name, const Fields& f) {
@@ -111,7 +112,8 @@ void draw_failed(HierarchicalStudy& study, const std::string& name, const Fields
     share.push_back(percent * failed / static_cast<double>(f.points()));
     if (failed > 0 && !(first >= 0)) first = strain[k];
   }
-  draw({"points under less than 1 kPa, " + name, "axial strain [%]",
+  draw({"points under less than 1 kPa, " + name,
+        "axial strain [%]",
         {{"share of the points [%]", {{"", strain, share, colour::blue, Stroke::solid}}, 1}}},
        study.results / "figure_17");
   study.facts.add("17", "points that have lost their strength", "from 5.3 %, 1.5 % of the points",

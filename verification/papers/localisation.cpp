@@ -71,7 +71,8 @@ void newton_facts(HierarchicalStudy& study, const MeshRun& run, const Response& 
     const int iterations = static_cast<int>(run.history["newton_iterations"][k]);
     if (k <= r.peak()) {
       ++steps;
-      quick += iterations <= 5 && run.history["step_cuts"][k] == 0 ? 1 : 0;
+      const bool whole = run.history["step_cuts"][k] == 0 && run.history["loose_parts"][k] == 0;
+      quick += iterations <= 5 && whole ? 1 : 0;
       most = std::max(most, iterations);
     } else {
       ++later;
@@ -79,11 +80,11 @@ void newton_facts(HierarchicalStudy& study, const MeshRun& run, const Response& 
       loose += run.history["loose_parts"][k] > 0 ? 1 : 0;
     }
   }
-  study.facts.agree("7", fmt::format("{}: Newton before the peak, force residual 1e-6", r.title),
-                    "more than ten iterations at 5 %, displacement error 0.01",
-                    fmt::format("at most five iterations in {} of {} steps; most {}", quick, steps,
-                                most),
-                    10 * quick >= 9 * steps);
+  study.facts.agree(
+      "7", fmt::format("{}: Newton before the peak, force residual 1e-6", r.title),
+      "more than ten iterations at 5 %, displacement error 0.01",
+      fmt::format("at most five iterations in {} of {} steps; most {}", quick, steps, most),
+      10 * quick >= 9 * steps);
   if (later > 0)
     study.facts.add("7", fmt::format("{}: after the peak", r.title), "not stated",
                     fmt::format("{} steps to {:.1f} %, {:.0f} cuts, {} steps balanced up to a jump "
@@ -98,8 +99,8 @@ void draw_meshes(HierarchicalStudy& study) {
   std::optional<Response> reference;
   if (std::filesystem::is_regular_file(rve)) {
     reference = response(*load_run(study.results, "rve"), "RVE alone");
-    panel.curves.push_back({"RVE alone", reference->strain, reference->stress, colour::black,
-                            Stroke::dashed});
+    panel.curves.push_back(
+        {"RVE alone", reference->strain, reference->stress, colour::black, Stroke::dashed});
   }
   std::optional<Response> first;
   for (const Mesh& mesh : meshes) {
@@ -111,12 +112,12 @@ void draw_meshes(HierarchicalStudy& study) {
     const double peak = r.stress[r.peak()];
     if (reference && r.peak() + 1 < r.stress.size()) {
       const double other = reference->stress[reference->peak()];
-      study.facts.agree("10", r.title + ": peak against the RVE's", "close",
-                        fmt::format("{:.1f} kPa at {:.1f} %, RVE {:.1f} kPa at {:.1f} %: {:+.2f} %",
-                                    peak, r.strain[r.peak()], other,
-                                    reference->strain[reference->peak()],
-                                    percent * (peak / other - 1)),
-                        std::abs(peak / other - 1) < 0.01);
+      study.facts.agree(
+          "10", r.title + ": peak against the RVE's", "close",
+          fmt::format("{:.1f} kPa at {:.1f} %, RVE {:.1f} kPa at {:.1f} %: {:+.2f} %", peak,
+                      r.strain[r.peak()], other, reference->strain[reference->peak()],
+                      percent * (peak / other - 1)),
+          std::abs(peak / other - 1) < 0.01);
     }
     if (first)
       study.facts.agree("10", r.title + " against " + first->title + ", before the peak",
@@ -132,12 +133,11 @@ void draw_meshes(HierarchicalStudy& study) {
         least = std::min(least, strain->columns[p].back());
         most = std::max(most, strain->columns[p].back());
       }
-      study.facts.agree("12", fmt::format("{}: deviatoric strain at {:.1f} %", r.title,
-                                          r.strain.back()),
-                        "a single band; largest at 10 %: 0.507 on 6 x 10, 0.809 on 12 x 20, 1.249 on "
-                        "6 x 10 with Q8",
-                        fmt::format("{:.3f} to {:.3f} over the points", least, most),
-                        most > 3 * least);
+      study.facts.agree(
+          "12", fmt::format("{}: deviatoric strain at {:.1f} %", r.title, r.strain.back()),
+          "a single band; largest at 10 %: 0.507 on 6 x 10, 0.809 on 12 x 20, 1.249 on "
+          "6 x 10 with Q8",
+          fmt::format("{:.3f} to {:.3f} over the points", least, most), most > 3 * least);
     }
   }
   if (panel.curves.empty()) return;

@@ -1,7 +1,7 @@
 // `grainlaw study newton`: convergence of the finite element Newton method by kind of tangent.
 
-#include "study/study.hpp"
 #include "study/statistics.hpp"
+#include "study/study.hpp"
 
 #include "app/progress.hpp"
 #include "fe/scene.hpp"

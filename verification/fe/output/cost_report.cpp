@@ -40,8 +40,7 @@ void CostReport::add(const LoadStep& step, CsvWriter& table) {
   const Reading reading = now();
   const Spent total = reading.total - last_.total;
   std::vector<double> row{static_cast<double>(step.record.step), total.elapsed, total.cpu};
-  for (std::size_t k = 0; k < stages; ++k)
-    row.push_back((reading.stage[k] - last_.stage[k]).cpu);
+  for (std::size_t k = 0; k < stages; ++k) row.push_back((reading.stage[k] - last_.stage[k]).cpu);
   const Effort& effort = step.record.effort;
   for (const int count : {effort.evaluations, effort.iterations, effort.cuts, effort.loose,
                           effort.history_advanced, points_without_contacts(solver_.points())})

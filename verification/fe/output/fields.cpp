@@ -87,8 +87,8 @@ const Field& field(std::string_view name) {
     if (candidate.name == name) return candidate;
   std::vector<std::string_view> names;
   for (const Field& candidate : fields()) names.push_back(candidate.name);
-  throw InputError(fmt::format("there is no field \"{}\"; there are {}", name,
-                               fmt::join(names, ", ")));
+  throw InputError(
+      fmt::format("there is no field \"{}\"; there are {}", name, fmt::join(names, ", ")));
 }
 
 std::vector<std::string> columns(const Field& field) {

@@ -48,8 +48,8 @@ MeshPanel mesh_panel(const Mesh& mesh, const PointField& points,
     throw InputError(fmt::format("the field \"{}\" is a tensor and cannot be drawn", field.name));
   const ElementType& type = element_type(mesh.kind);
   MeshPanel panel;
-  panel.title = std::string(field.label) +
-                (field.unit == "-" ? "" : fmt::format(" [{}]", field.unit));
+  panel.title =
+      std::string(field.label) + (field.unit == "-" ? "" : fmt::format(" [{}]", field.unit));
   panel.values = values(field, points);
   for (const std::vector<int>& element : mesh.elements) {
     const auto place = [&](const Polygon& local) {

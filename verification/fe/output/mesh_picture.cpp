@@ -58,9 +58,8 @@ std::string plot(const MeshPanel& panel, std::size_t number, const std::array<do
   std::vector<std::string> blocks(levels + 1);
   for (std::size_t p = 0; p < panel.patches.size(); ++p) {
     const double place = (panel.values[p] - range[0]) / (range[1] - range[0]);
-    const int level = std::isfinite(place)
-                          ? std::clamp(static_cast<int>(place * levels), 0, levels - 1)
-                          : levels;
+    const int level =
+        std::isfinite(place) ? std::clamp(static_cast<int>(place * levels), 0, levels - 1) : levels;
     append_closed(blocks[static_cast<std::size_t>(level)], panel.patches[p]);
   }
   std::vector<std::string> items;
@@ -71,8 +70,8 @@ std::string plot(const MeshPanel& panel, std::size_t number, const std::array<do
     const std::string colour = level == levels
                                    ? std::string("rgb '#bbbbbb'")
                                    : fmt::format("palette frac {:.4f}", (level + 0.5) / levels);
-    items.push_back(fmt::format("$m{}_{} with filledcurves closed fs solid 1 lc {}", number, level,
-                                colour));
+    items.push_back(
+        fmt::format("$m{}_{} with filledcurves closed fs solid 1 lc {}", number, level, colour));
   }
   std::string outlines;
   for (const Polygon& element : panel.elements) append_closed(outlines, element);
@@ -126,8 +125,8 @@ bool draw_mesh(const std::vector<MeshPanel>& panels, const std::string& title,
     body += fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n",
                         millimetre * b.low.x(), millimetre * b.high.x(), millimetre * b.low.y(),
                         millimetre * b.high.y());
-    body += fmt::format("set cbrange [{:.6g}:{:.6g}]\nset cbtics scale 0.5 format '%g'\n",
-                        range[0], range[1]);
+    body += fmt::format("set cbrange [{:.6g}:{:.6g}]\nset cbtics scale 0.5 format '%g'\n", range[0],
+                        range[1]);
     body += fmt::format(
         "set colorbox user origin screen {:.5f},{:.5f} size screen {:.5f},{:.5f} "
         "border\n",

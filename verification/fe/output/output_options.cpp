@@ -48,8 +48,7 @@ std::vector<std::string> read_fields(SceneTable& table, std::string_view key) {
   if (list == nullptr) table.fail(key, "no list", expected);
   for (const toml::node& entry : *list) {
     const auto name = entry.value<std::string>().value_or("another type");
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      table.fail(key, name, expected);
+    if (std::find(names.begin(), names.end(), name) == names.end()) table.fail(key, name, expected);
     result.push_back(name);
   }
   return result;
@@ -72,10 +71,10 @@ OutputOptions read_output(SceneTable& scene, const Mesh& mesh, int steps) {
   options.pictures.fields = read_fields(table, "fields");
   options.pictures.extremes = read_fields(table, "extremes");
   options.pictures.packings = read_points(table, "packings", points);
-  options.pictures.steps =
-      table.has("steps")
-          ? read_integers(table, "steps", steps, fmt::format("a list of load steps, 0 to {}", steps))
-          : std::vector<int>{steps};
+  options.pictures.steps = table.has("steps")
+                               ? read_integers(table, "steps", steps,
+                                               fmt::format("a list of load steps, 0 to {}", steps))
+                               : std::vector<int>{steps};
   table.close();
   return options;
 }

@@ -118,8 +118,9 @@ void RunOutput::draw(const LoadStep& step) const {
     const auto [least, largest] = std::minmax_element(all.begin(), all.end());
     for (const auto& [end, word] : {std::pair{least, "least"}, std::pair{largest, "largest"}}) {
       const auto point = static_cast<std::size_t>(end - all.begin());
-      packings.push_back({fmt::format("point {}: {} {} {:.3g}", point, word, field(name).label, *end),
-                          take_snapshot(points.state(point), scratch)});
+      packings.push_back(
+          {fmt::format("point {}: {} {} {:.3g}", point, word, field(name).label, *end),
+           take_snapshot(points.state(point), scratch)});
     }
   }
   if (packings.empty()) return;
@@ -139,8 +140,8 @@ std::string RunOutput::summary() const {
 
 std::string RunOutput::written() const {
   const OutputOptions& output = scene_.output;
-  std::string text =
-      fmt::format("{}.csv, _newton.csv, _force.csv, _cost.csv, .svg, .png", tables_.stem().string());
+  std::string text = fmt::format("{}.csv, _newton.csv, _force.csv, _cost.csv, .svg, .png",
+                                 tables_.stem().string());
   if (energies_ != nullptr) text += ", _energy.csv";
   if (probes_ != nullptr) text += ", _probes.csv";
   if (!output.points.empty()) text += ", _pointN.csv";
@@ -148,7 +149,8 @@ std::string RunOutput::written() const {
   if (output.vtk_every > 0) text += ", _mesh.pvd, _points.pvd";
   if (!output.packings.empty()) text += ", _packingN.pvd";
   if (!output.pictures.fields.empty()) text += ", _STEP_FIELD.svg";
-  if (!output.pictures.packings.empty() || !output.pictures.extremes.empty()) text += ", _STEP_packings.svg";
+  if (!output.pictures.packings.empty() || !output.pictures.extremes.empty())
+    text += ", _STEP_packings.svg";
   return text;
 }
 

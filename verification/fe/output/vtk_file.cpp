@@ -94,8 +94,7 @@ void write_vtp(const std::filesystem::path& path, const std::vector<double>& poi
   const std::string vertices = "<Verts>\n" +
                                array("Int64", "connectivity", 1, encoded(connectivity)) +
                                array("Int64", "offsets", 1, encoded(offsets)) + "</Verts>\n";
-  write_file(path,
-             file("PolyData", counts, places(points) + vertices + data("PointData", arrays)));
+  write_file(path, file("PolyData", counts, places(points) + vertices + data("PointData", arrays)));
 }
 
 void write_pvd(const std::filesystem::path& path, const std::vector<VtkSeriesEntry>& entries) {

@@ -71,8 +71,7 @@ void VtkSeries::add(const LoadStep& step, const Solver& solver) {
 
   VtkMesh grid;
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-    append(grid.points,
-           mesh.nodes[n] + displacement.segment<2>(2 * static_cast<Eigen::Index>(n)));
+    append(grid.points, mesh.nodes[n] + displacement.segment<2>(2 * static_cast<Eigen::Index>(n)));
   for (const std::vector<int>& element : mesh.elements) {
     grid.connectivity.insert(grid.connectivity.end(), element.begin(), element.end());
     grid.offsets.push_back(static_cast<std::int64_t>(grid.connectivity.size()));
