@@ -106,7 +106,7 @@ TEST_F(mgis_state, a_failed_step_leaves_the_host_and_the_state_alone) {
 
 TEST_F(mgis_state, a_step_that_was_cut_ends_like_the_same_steps_uncut) {
   constexpr double target =
-      0.4;  // simple shear of which 0.1 is more than the packing takes at once
+      0.7;  // simple shear of which 0.1 is more than the packing takes at once
   Manager host = manager();
   std::vector<double> shears;
   double shear = 0, step = target;
