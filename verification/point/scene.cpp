@@ -1,5 +1,6 @@
 #include "point/scene.hpp"
 
+#include "app/cases.hpp"
 #include "app/history.hpp"
 
 #include <algorithm>
@@ -42,19 +43,11 @@ PointScene read_scene(SceneTable table, const std::string& name) {
 
 std::vector<PointScene> read_point_scenes(const SceneFile& file) {
   const std::string stem = file.path.stem().string();
+  const std::vector<toml::table> cases = scene_cases(file);
+  if (cases.empty()) return {read_scene(file.root(), stem)};
   std::vector<PointScene> scenes;
-  SceneTable root = file.root();
-  const std::string name = root.text_or("name", stem);
-  std::vector<SceneTable> cases = root.tables("case");
-  if (cases.empty()) return {read_scene(std::move(root), stem)};
-  for (SceneTable& of_case : cases) {
-    const std::string case_name = of_case.text("name");
-    toml::table content = file.content;
-    content.erase("case");
-    merge(content, of_case.content());
-    content.insert_or_assign("name", name + "_" + case_name);
+  for (const toml::table& content : cases)
     scenes.push_back(read_scene({content, file.path, ""}, stem));
-  }
   return scenes;
 }
 
