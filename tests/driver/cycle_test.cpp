@@ -98,6 +98,12 @@ TEST_F(cycle, a_large_displacement_ends_the_test) {
   EXPECT_LE(rows.size(), 3U);
 }
 
+TEST_F(cycle, a_low_mean_stress_ends_the_test) {
+  const std::string options = "step = 3e-5\nlimit_displacement = 1e-4\ncycles = 1\n";
+  EXPECT_EQ(Test(options + "end_mean_stress = 1.0\n").run().size(), Test(options).run().size());
+  EXPECT_EQ(Test(options + "end_mean_stress = 1e9\n").run().size(), 2U);
+}
+
 TEST_F(cycle, a_saved_test_goes_on_to_the_same_bits) {
   const std::string options = "step = 3e-5\nlimit_force = 5e3\ncycles = 1\n";
   const auto whole = Test(options).run();

@@ -81,12 +81,12 @@ void newton_facts(HierarchicalStudy& study, const MeshRun& run, const Response& 
     }
   }
   study.facts.agree(
-      "7", fmt::format("{}: Newton before the peak, force residual 1e-6", r.title),
+      "newton", fmt::format("{}: Newton before the peak, force residual 1e-6", r.title),
       "more than ten iterations at 5 %, displacement error 0.01",
       fmt::format("at most five iterations in {} of {} steps; most {}", quick, steps, most),
       10 * quick >= 9 * steps);
   if (later > 0)
-    study.facts.add("7", fmt::format("{}: after the peak", r.title), "not stated",
+    study.facts.add("newton", fmt::format("{}: after the peak", r.title), "not stated",
                     fmt::format("{} steps to {:.1f} %, {:.0f} cuts, {} steps balanced up to a jump "
                                 "of P alone",
                                 later, r.strain.back(), cuts, loose),

@@ -27,6 +27,7 @@ void add_papers_004_study(CLI::App& study, const std::shared_ptr<StudyOptions>& 
       "papers-004", "figures and tables of the scenes in papers-004, which were run before");
   command->callback([options] {
     HierarchicalStudy papers{options->output, {}};
+    study_single_element(papers);
     study_localisation(papers);
     study_local_response(papers);
     study_liquefaction(papers);

@@ -29,7 +29,8 @@ std::optional<CsvTable> load_every(const std::filesystem::path& directory, const
 
 void add_papers_004_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 
-void study_localisation(HierarchicalStudy& study);    // figures 10, 12, 13
+void study_single_element(HierarchicalStudy& study);  // figures 6, 7
+void study_localisation(HierarchicalStudy& study);    // Newton on meshes, figures 10, 12, 13
 void study_local_response(HierarchicalStudy& study);  // figures 15, 17
 void study_liquefaction(HierarchicalStudy& study);    // figures 20, 22
 void study_cost_of_scenes(HierarchicalStudy& study);  // table of all runs, error against time

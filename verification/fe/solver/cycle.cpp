@@ -35,6 +35,7 @@ Cycle read_cycle(SceneTable table, Model& model) {
   cycle.tolerance = table.number_or("tolerance", cycle.tolerance, positive);
   cycle.cycles = table.integer("cycles", 1);
   cycle.end_displacement = table.number_or("end_displacement", never, positive);
+  cycle.end_mean_stress = table.number_or("end_mean_stress", 0, not_negative);
   table.close();
   cycle.segment = std::make_shared<StraightWay>();
   PrescribedDisplacement drive;
@@ -84,7 +85,7 @@ LoadStep CycleControl::advance(Solver& solver, int number) {
     step.record.effort.add(taken_back);
     time_ = next;
     displacement_ = goal;
-    look(step.reactions[monitor_]);
+    look(step.reactions[monitor_], -0.5 * (step.record.cauchy(0, 0) + step.record.cauchy(1, 1)));
     return step;
   }
 }
@@ -98,12 +99,13 @@ double CycleControl::target() const {
 }
 
 // Turns or ends where the limits say so.
-void CycleControl::look(double force) {
+void CycleControl::look(double force, double mean_stress) {
   force_ = force;
   const bool last_way = reversals_ >= 2 * cycle_.cycles;
   const double controlled = std::isinf(cycle_.limit_force) ? displacement_ : force_;
   if ((last_way && direction_ * controlled >= 0) ||
-      std::abs(displacement_) >= cycle_.end_displacement)
+      std::abs(displacement_) >= cycle_.end_displacement ||
+      (cycle_.end_mean_stress > 0 && mean_stress < cycle_.end_mean_stress))
     finished_ = true;
   if (direction_ * displacement_ < cycle_.limit_displacement &&
       direction_ * force_ < (1 - cycle_.tolerance) * cycle_.limit_force)

@@ -19,11 +19,12 @@ struct Cycle {
   double tolerance = 0.01;  // of limit_force by which the force may miss it where it turns [-]
   int cycles = 1;           // from zero to both limits and back to zero
   double end_displacement = std::numeric_limits<double>::infinity();  // ends the run [m]
+  double end_mean_stress = 0;  // ends the run where the specimen's compression falls below it [Pa]
   std::shared_ptr<StraightWay> segment;  // that the drive's program follows
 };
 
 // Reads [cycle]: on, component, step, limit_displacement, limit_force, tolerance, cycles,
-// end_displacement; and adds the displacement that it drives to the model. Throws InputError.
+// end_displacement, end_mean_stress; and adds the displacement that it drives to the model. Throws InputError.
 Cycle read_cycle(SceneTable table, Model& model);
 
 // Where a cyclic test stands. The solver's model must have the cycle's displacement.
@@ -43,7 +44,7 @@ class CycleControl {
 
  private:
   [[nodiscard]] double target() const;
-  void look(double force);
+  void look(double force, double mean_stress);
 
   Cycle cycle_;
   std::size_t monitor_ = 0;
