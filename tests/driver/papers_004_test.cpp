@@ -32,7 +32,7 @@ TEST(papers_004, every_scene_reads) {
     }
   }
   EXPECT_GE(meshes, 20);
-  EXPECT_EQ(points, 3);
+  EXPECT_EQ(points, 4);
 }
 
 TEST(papers_004, meshes_of_one_test_are_loaded_alike) {

@@ -125,7 +125,7 @@ void draw_error(const HierarchicalStudy& study) {
 
 void study_cost_of_scenes(HierarchicalStudy& study) {
   const auto rve = load_run(study.results, "rve");
-  const auto lattice = load_run(study.results, "rve_hexagonal");
+  const auto lattice = load_lattice(study.results);
   const auto column = load_run(study.results, "cyclic_strain_column");
   const auto found_error = [&](std::string_view name, const CsvTable& history) {
     const auto has = [&](const char* part) { return name.find(part) != std::string_view::npos; };

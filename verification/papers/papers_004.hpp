@@ -27,6 +27,11 @@ std::optional<MeshRun> load_mesh_run(const std::filesystem::path& directory,
 std::optional<CsvTable> load_every(const std::filesystem::path& directory, const std::string& name,
                                    const std::string& field);
 
+// A lattice alone from the isotropic stress on that its first segment leads to; strains count from
+// there.
+std::optional<PaperRun> load_lattice(const std::filesystem::path& directory,
+                                     const std::string& name = "rve_hexagonal");
+
 void add_papers_004_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 
 void study_single_element(HierarchicalStudy& study);  // figures 6, 7
