@@ -120,8 +120,9 @@ class Run {
 
   void after(const LoadStep& step) {
     done_ = step.record.step;
-    output_->add(step);
-    const bool last = done_ == scene_.steps || (cycle_ && cycle_->finished());
+    const bool turned_enough = cycle_ && cycle_->finished();
+    const bool last = done_ == scene_.steps || turned_enough;
+    output_->add(step, turned_enough && done_ < scene_.steps);
     const int signal = last ? 0 : Interrupt::signal();
     const bool stops = !last && (signal != 0 || done_ >= stop_after_);
     const bool regular = every_ > 0 && (last || (done_ > 0 && done_ % every_ == 0));

@@ -53,15 +53,15 @@ RunOutput::RunOutput(const FiniteElementScene& scene, RunTables tables, const So
   if (!scene.probes.empty()) probes_ = &tables_.open("_probes.csv", probe_columns(scene.probes));
 }
 
-void RunOutput::add(const LoadStep& step) {
+void RunOutput::add(const LoadStep& step, bool ends_before) {
   {
     const auto measure = solver_.points().cost().measure(Stage::output);
-    write(step);
+    write(step, ends_before);
   }
   cost_.add(step, costs_);
 }
 
-void RunOutput::write(const LoadStep& step) {
+void RunOutput::write(const LoadStep& step, bool ends_before) {
   const int number = step.record.step;
   history_.row(record_values(step.record));
   for (std::size_t k = 0; k < step.residuals.size(); ++k)
@@ -83,7 +83,7 @@ void RunOutput::write(const LoadStep& step) {
   }
   if (output.vtk_every > 0 && number % output.vtk_every == 0) series_.add(step, solver_);
   const std::vector<int>& drawn = output.pictures.steps;
-  if (std::find(drawn.begin(), drawn.end(), number) != drawn.end()) draw(step);
+  if (ends_before || std::find(drawn.begin(), drawn.end(), number) != drawn.end()) draw(step);
 }
 
 void RunOutput::add_point(std::size_t point, const LoadStep& step, CsvWriter& table) const {

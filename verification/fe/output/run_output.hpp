@@ -16,7 +16,8 @@ class RunOutput {
   // Opens the tables. Scene and solver must outlive it. Errors as RunTables has them.
   RunOutput(const FiniteElementScene& scene, RunTables tables, const Solver& solver);
 
-  void add(const LoadStep& step);
+  // `ends_before`: the last step of a run that ends before the scene's number of steps; it is drawn.
+  void add(const LoadStep& step, bool ends_before = false);
   // Draws what shows the whole run.
   void finish() const;
 
@@ -29,7 +30,7 @@ class RunOutput {
   [[nodiscard]] std::string written() const;
 
  private:
-  void write(const LoadStep& step);
+  void write(const LoadStep& step, bool ends_before);
   void add_point(std::size_t point, const LoadStep& step, CsvWriter& table) const;
   void draw(const LoadStep& step) const;
 
