@@ -42,11 +42,20 @@ struct Ends {
   }
 };
 
+double fluctuation_of_pressure(const PaperRun& run) {
+  Sample pressure;
+  for (std::size_t k = 0; k < run.steps(); ++k)
+    if (run.history["F12"][k] > early)
+      pressure.value.push_back(-0.5 * (run.history["sigma11"][k] + run.history["sigma22"][k]));
+  return pressure.deviation() / pressure.mean();
+}
+
 // The seeds of one case.
 struct Ensemble {
   int seeds = 0;
   Sample particles, fraction;
   Sample norm, early_norm;  // of those that were led to the end [-]
+  Sample fluctuation;       // s.d. / mean of the pressure along the later path [-]
   Sample reached;           // F12, 0 without an equilibrium at F = I [-]
   int carried = 0;          // with an equilibrium at F = I
 };
@@ -66,6 +75,7 @@ Ensemble read_ensemble(const PaperStudy& study, const Ends& all, const PaperUnit
     if (ends.table["steps"][*k] < ends.table["steps_wanted"][*k]) continue;
     ensemble.norm.value.push_back(integrated_norm(*run, units));
     ensemble.early_norm.value.push_back(integrated_norm(*run, units, early));
+    ensemble.fluctuation.value.push_back(fluctuation_of_pressure(*run));
   }
   return ensemble;
 }
@@ -88,7 +98,7 @@ Means stress_norms(const PaperStudy& study, const Ends& ends, const PaperUnits& 
               {"condition", "packing[-]", "seeds[-]", "led_to_the_end[-]", "particles_mean[-]",
                "volume_fraction_mean[-]", "volume_fraction_sd[-]", "stress_norm_mean[-]",
                "stress_norm_sd[-]", "standard_error[-]", "norm_to_0.1_mean[-]",
-               "norm_to_0.1_standard_error[-]"});
+               "norm_to_0.1_standard_error[-]", "later_pressure_sd_over_mean[-]"});
   Panel panel{"|σ R / kn|, mean ± s.d. [-]", {}, 1.5, "top right"};
   Means means;
   for (std::size_t c = 0; c < rows.size(); ++c) {
@@ -100,7 +110,7 @@ Means stress_norms(const PaperStudy& study, const Ends& ends, const PaperUnits& 
       table.row({rows[c].text, fmt::format("{}", size), static_cast<double>(e.seeds),
                  static_cast<double>(e.norm.value.size()), e.particles.mean(), e.fraction.mean(),
                  e.fraction.deviation(), e.norm.mean(), e.norm.deviation(), e.norm.error(),
-                 e.early_norm.mean(), e.early_norm.error()});
+                 e.early_norm.mean(), e.early_norm.error(), e.fluctuation.mean()});
       for (Curve* one : {&curve, &low, &high}) one->x.push_back(static_cast<double>(size));
       curve.y.push_back(e.norm.mean());
       low.y.push_back(e.norm.mean() - e.norm.deviation());
