@@ -24,16 +24,17 @@ Model specimen(int divisions, double strain) {
 
 struct Result {
   Record record;
+  Eigen::Vector2d corner = Eigen::Vector2d::Zero();  // where the upper right one went [m]
   int cuts = 0;
   int iterations = 0;
   int loose = 0;
 };
 
-Result compress(int divisions, const NewtonOptions& options) {
+Result compress(int divisions, const NewtonOptions& options,
+                const Material& material = packing_material()) {
   constexpr double strain = 2e-3;
   constexpr int steps = 2;
   const Model model = specimen(divisions, strain);
-  const Material material = packing_material();
   const auto solver = make_newton_solver(model, material, options, 1);
   Result result;
   run_load_steps(*solver, 1, steps, steps, [&](const LoadStep& step, const Solver&) {
@@ -42,6 +43,7 @@ Result compress(int divisions, const NewtonOptions& options) {
     result.iterations += step.record.effort.iterations;
     result.loose += step.record.effort.loose;
   });
+  result.corner = solver->displacement().segment<2>(2 * model.mesh.node_sets.at("top_right").front());
   return result;
 }
 
@@ -52,6 +54,32 @@ TEST(localising, meshes_agree_before_the_peak) {
   EXPECT_EQ(coarse.cuts + fine.cuts, 0);  // the same increments
   EXPECT_LT((fine.record.cauchy - coarse.record.cauchy).norm(), 1e-5 * coarse.record.cauchy.norm());
   EXPECT_NEAR(coarse.record.cauchy(0, 0), -100e3, 1e-4 * 100e3);
+}
+
+// Uniform deformation is in equilibrium there.
+TEST(localising, meshes_of_a_symmetric_packing_agree_in_their_displacements) {
+  const NewtonOptions options{.tolerance = 1e-9};
+  const Result coarse = compress(1, options, lattice_material());
+  const Result fine = compress(2, options, lattice_material());
+  EXPECT_NEAR(coarse.record.deformation(0, 1), 0, 1e-9);
+  EXPECT_LT((fine.corner - coarse.corner).norm(), 1e-7 * coarse.corner.norm());
+}
+
+// A packing that is not symmetric shears by itself between smooth platens. Uniform deformation then
+// asks for P21 = P12 F22 / F11 - P22 F12 / F11 on the sides, by the balance of moments, and the
+// membranes give p F12: what is missing, the deviatoric stress times F12, bends the sides of a mesh
+// that has nodes there.
+TEST(localising, meshes_of_a_packing_that_shears_differ_by_what_membranes_do_not_balance) {
+  const NewtonOptions options{.tolerance = 1e-8};
+  const Result coarse = compress(1, options), fine = compress(2, options);
+  const Tensor &F = coarse.record.deformation, P = coarse.record.stress;
+  EXPECT_NEAR(P(0, 1), 0, 1e-6 * 100e3);
+  EXPECT_GT(std::abs(F(0, 1)), 1e-4);
+  const double missing = P(1, 0) - 100e3 * F(0, 1);
+  EXPECT_NEAR(missing, (-P(1, 1) / F(0, 0) - 100e3) * F(0, 1), 1e-3 * std::abs(missing));
+  const double apart = (fine.corner - coarse.corner).norm() / coarse.corner.norm();
+  EXPECT_GT(apart, 1e-4);
+  EXPECT_LT(apart, 1e-2);
 }
 
 TEST(localising, a_correction_beyond_the_largest_is_made_in_parts_to_the_same_equilibrium) {

@@ -1,6 +1,7 @@
 // Solved conditions on small meshes: platens, resultants, periodic sides, tractions.
 #include "fe/conditions/conditions_scene.hpp"
 #include "fe/conditions/monitors.hpp"
+#include "fe/conditions/rigid_motion.hpp"
 #include "fe/mesh/mesh_scene.hpp"
 #include "fe/solver/newton.hpp"
 #include "support.hpp"
@@ -13,18 +14,19 @@
 namespace verification {
 namespace {
 
-// Two cells wide and high, sides of length 1; forces per metre of thickness.
+// Two cells wide and high, 1 m wide and unless told otherwise as high; forces per metre of thickness.
 struct Solved {
-  Solved(const std::string& conditions, const std::string& element, int steps = 1) {
-    const toml::table content = toml::parse(
-        "mesh = { element = '" + element + "', size = [1, 1], divisions = [2, 2] }\n" + conditions);
+  Solved(const std::string& conditions, const std::string& element,
+         const std::string& height = "1") {
+    const toml::table content = toml::parse("mesh = { element = '" + element + "', size = [1, " +
+                                            height + "], divisions = [2, 2] }\n" + conditions);
     SceneTable scene(content, "scene.toml", "");
     SceneTable mesh = scene.table("mesh");
     model.mesh = read_mesh(mesh);
     read_conditions(scene, 1, model);
     const Material material = lattice_material();
     const auto solver = make_newton_solver(model, material, {.tolerance = 1e-10}, 1);
-    run_load_steps(*solver, 1, steps, steps,
+    run_load_steps(*solver, 1, 1, 1,
                    [&](const LoadStep& found, const Solver&) { step = found; });
     displacement = solver->displacement();
   }
@@ -160,6 +162,81 @@ TEST_P(platen, newton_takes_few_iterations_under_every_kind_of_load) {
       GetParam());
   EXPECT_LE(solved.step.record.effort.iterations, 5);
   EXPECT_EQ(solved.step.record.effort.cuts, 0);
+}
+
+// Pure bending of a block with smooth ends and free sides: top and bottom stay straight, and beam
+// theory is exact: angle = height dM / (E' b^3 / 12) where dF = -E' b settlement / height. The block is
+// low, for the pressure on it, 1/500 of its modulus, bends it further by that times 12 (height / b)^2.
+TEST(platen_on_a_hinge, turns_by_the_angle_of_pure_bending) {
+  const std::string block =
+      "[[displacement]]\non = 'bottom'\ncomponent = 'y'\nvalue = 0.0\n"
+      "[[displacement]]\non = 'bottom_left'\ncomponent = 'x'\nvalue = 0.0\n"
+      "[[traction]]\non = 'left'\ncomponent = 'x'\nstart = 1e5\nvalue = 1e5\n"
+      "[[traction]]\non = 'right'\ncomponent = 'x'\nstart = -1e5\nvalue = -1e5\n"
+      "[[platen]]\non = 'top'\nrotation = 'free'\n";
+  const std::string load =
+      "[[resultant]]\non = 'top'\ncomponent = 'y'\nstart = -1e5\nvalue = -1.001e5\n";
+  const Solved centred(block + load, "q8", "0.2");
+  EXPECT_NEAR(centred.motion("top_hinge"), 0, 1e-9);
+  EXPECT_NEAR(centred.force("top_y"), -1.001e5, 1e-4);
+  // The load at rest in the middle, 100 N/m more 0.05 m beside it: as one load on a hinge between.
+  const double eccentricity = 0.05;
+  const double hinge = 0.5 + eccentricity;
+  const Solved bent("[[traction]]\non = 'top'\ncomponent = 'y'\nstart = -1e5\nvalue = -1e5\n" +
+                        block + "hinge = " + std::to_string(hinge) +
+                        "\n[[resultant]]\non = 'top'\ncomponent = 'y'\nvalue = -100\n",
+                    "q8", "0.2");
+  const double settlement = -centred.motion("top_y");
+  EXPECT_GT(settlement, 1e-8);
+  const double angle = -12 * eccentricity * settlement;  // clockwise
+  EXPECT_NEAR(bent.motion("top_hinge"), angle, 1e-3 * std::abs(angle));
+  EXPECT_NEAR(bent.motion("top_y"), -settlement + angle * eccentricity,
+              1e-3 * std::abs(angle) * eccentricity + 1e-3 * settlement);
+  EXPECT_NEAR(bent.force("top_hinge"), 0, 1e-3);
+  for (const int node : bent.model.mesh.node_sets.at("top")) {
+    const double arm = bent.model.mesh.nodes[static_cast<std::size_t>(node)].x() - hinge;
+    EXPECT_NEAR(bent.displacement(2 * node + 1),
+                bent.motion("top_y") + bent.motion("top_hinge") * arm, 1e-15);
+  }
+}
+
+TEST(platen_on_a_hinge, pushed_down_turns_as_the_weaker_side_yields) {
+  const std::string supports =
+      "[[displacement]]\non = 'bottom'\ncomponent = 'y'\nvalue = 0.0\n"
+      "[[displacement]]\non = 'bottom'\ncomponent = 'x'\nvalue = 0.0\n"
+      "[[pressure]]\non = 'left'\nvalue = 1e5\n[[pressure]]\non = 'right'\nvalue = 0.9e5\n";
+  const Solved solved(supports +
+                          "[[platen]]\non = 'top'\nsurface = 'rough'\nrotation = 'free'\n"
+                          "[[displacement]]\non = 'top'\ncomponent = 'y'\nvalue = -1e-4\n",
+                      "q4");
+  EXPECT_NEAR(solved.motion("top_y"), -1e-4, 1e-15);
+  EXPECT_GT(std::abs(solved.motion("top_hinge")), 1e-7);
+  EXPECT_NEAR(solved.force("top_hinge"), 0, 1e-4);
+  EXPECT_LE(solved.step.record.effort.iterations, 5);
+}
+
+TEST(platen_on_a_hinge, does_not_hold_the_specimen_against_turning) {
+  const auto held = [](const std::string& rotation) {
+    const toml::table content = toml::parse(
+        "mesh = { size = [1, 1], divisions = [2, 2] }\n"
+        "[[platen]]\non = 'top'\nrotation = '" + rotation + "'\n"
+        "[[displacement]]\non = 'top'\ncomponent = 'y'\nvalue = 0.0\n"
+        "[[displacement]]\non = 'bottom_left'\ncomponent = 'x'\nvalue = 0.0\n");
+    SceneTable scene(content, "scene.toml", "");
+    Model model;
+    SceneTable mesh = scene.table("mesh");
+    model.mesh = read_mesh(mesh);
+    read_conditions(scene, 1, model);
+    check_held(model, "scene.toml");
+  };
+  EXPECT_NO_THROW(held("fixed"));
+  try {
+    held("free");
+    ADD_FAILURE() << "a hinge held it";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("holds rotation about (0.5, 0)"), std::string::npos)
+        << error.what();
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(kinds, platen, testing::Values("q4", "q4r", "q8", "t3"),

@@ -1,6 +1,7 @@
 // Runs that go on from a checkpoint, against runs that were never interrupted.
 #include "app/interrupt.hpp"
 #include "fe/run.hpp"
+#include "scene_text.hpp"
 #include "temporary_directory.hpp"
 
 #include <gtest/gtest.h>
@@ -12,40 +13,12 @@
 namespace verification {
 namespace {
 
-// A specimen of small packings between smooth platens.
-constexpr const char* specimen = R"(
-steps = 4
-threads = 1
-vtk_every = 2
-packings = [1]
-points = [2]
-
-[material]
-dimension = 2
-thickness = 0.1
-packing = { generator = "compaction", count = 30, radii = [4e-3, 9e-3], seed = 3, pressure = 1e5, friction = 0.3 }
-contact = { law = "frictional", young = 6e8, ratio = 0.8, friction = 0.5 }
-boundary = { type = "periodic-cell" }
-solver = { start = "trial" }
-)";
-constexpr const char* compression = R"(
-[newton]
-tolerance = 1e-6
-
-[mesh]
-size = [0.5, 1.0]
-divisions = [1, 2]
-
-[[displacement]]
-on = "left"
-component = "x"
-value = 0.0
-
-[[displacement]]
-on = "bottom"
-component = "y"
-value = 0.0
-
+// With a table of a point, series for ParaView of the mesh and of a packing.
+const std::string specimen = std::string("steps = 4\nthreads = 1\nvtk_every = 2\npackings = [1]\n"
+                                         "points = [2]\n") +
+                             small_packing;
+const std::string compression = std::string("[newton]\ntolerance = 1e-6\n") + narrow_mesh +
+                                bottom_and_left + R"(
 [[displacement]]
 on = "top"
 component = "y"
@@ -104,30 +77,13 @@ class restart : public testing::Test {
 };
 
 TEST_F(restart, ends_in_the_bytes_of_an_uninterrupted_run) {
-  write_scene(std::string(specimen) + compression);
+  write_scene(specimen + compression);
   expect_same_files_in_pieces();
 }
 
 TEST_F(restart, of_a_dynamic_run_ends_in_the_same_bytes) {
-  write_scene("solver = \"dynamics\"\n" + std::string(specimen) + R"(
-[dynamics]
-density = 2000
-duration = 1e-3
-
-[mesh]
-size = [0.5, 1.0]
-divisions = [1, 2]
-
-[[displacement]]
-on = "bottom"
-component = "y"
-value = 0.0
-
-[[displacement]]
-on = "bottom"
-component = "x"
-value = 0.0
-
+  write_scene("solver = \"dynamics\"\n" + specimen + "[dynamics]\ndensity = 2000\nduration = 1e-3\n" +
+              narrow_mesh + held_bottom + R"(
 [[displacement]]
 on = "top"
 component = "y"
@@ -136,8 +92,85 @@ value = -1e-5
   expect_same_files_in_pieces();
 }
 
+TEST_F(restart, of_dynamic_relaxation_ends_in_the_same_bytes) {
+  std::string relaxed = "solver = \"relaxation\"\n" + specimen + compression;
+  relaxed.replace(relaxed.find("[newton]"), 8, "[relaxation]");
+  write_scene(relaxed);
+  expect_same_files_in_pieces();
+}
+
+TEST_F(restart, with_platens_periodic_sides_and_resultants_ends_in_the_same_bytes) {
+  write_scene(specimen + narrow_mesh + held_bottom + R"(
+[[periodic]]
+sides = ["left", "right"]
+
+[[tie]]
+on = "top"
+component = "y"
+
+[[resultant]]
+on = "top"
+component = "y"
+start = -50e3
+value = -52e3
+
+[[tie]]
+on = "top"
+component = "x"
+
+[[resultant]]
+on = "top"
+component = "x"
+value = 1e3
+)");
+  expect_same_files_in_pieces();
+}
+
+TEST_F(restart, with_a_platen_on_a_hinge_ends_in_the_same_bytes) {
+  write_scene(specimen + "[newton]\ntolerance = 1e-6\n" + narrow_mesh + held_bottom + R"(
+[[platen]]
+on = "top"
+surface = "rough"
+rotation = "free"
+hinge = 0.2
+
+[[displacement]]
+on = "top"
+component = "y"
+path = [[0, 0], [0.4, -2e-3], [1, -1e-3]]
+
+[[pressure]]
+on = "right"
+value = 100e3
+
+[[pressure]]
+on = "left"
+value = 100e3
+)");
+  expect_same_files_in_pieces();
+}
+
+TEST_F(restart, of_a_cyclic_test_ends_in_the_same_bytes) {
+  write_scene("abscissa = \"F12\"\n" + specimen + narrow_mesh + held_bottom + R"(
+[cycle]
+on = "top"
+step = 5e-4
+limit_displacement = 1e-3
+cycles = 1
+
+[[displacement]]
+on = "top"
+component = "y"
+value = 0.0
+
+[[periodic]]
+sides = ["left", "right"]
+)");
+  expect_same_files_in_pieces();
+}
+
 TEST_F(restart, drops_what_came_after_the_checkpoint) {
-  write_scene(std::string(specimen) + compression);
+  write_scene(specimen + compression);
   run("whole");
   run("killed", false, 1);
   const std::string checkpoint = contents(file("killed", "s.checkpoint"));
@@ -149,7 +182,7 @@ TEST_F(restart, drops_what_came_after_the_checkpoint) {
 }
 
 TEST_F(restart, without_a_checkpoint_starts_anew_and_after_the_end_changes_nothing) {
-  write_scene(std::string(specimen) + compression);
+  write_scene(specimen + compression);
   run("whole");
   run("again", true);
   expect_same_files("whole", "again");
@@ -158,18 +191,18 @@ TEST_F(restart, without_a_checkpoint_starts_anew_and_after_the_end_changes_nothi
 }
 
 TEST_F(restart, of_another_scene_material_or_table_is_refused) {
-  write_scene(std::string(specimen) + compression);
+  write_scene(specimen + compression);
   run("run", false, 1);
   const std::string checkpoint = contents(file("run", "s.checkpoint"));
 
-  std::string changed = std::string(specimen) + compression;
+  std::string changed = specimen + compression;
   changed.replace(changed.find("-3e-3"), 5, "-2e-3");
   write_scene(changed);
   EXPECT_NE(refusal("run").find("found `value = -0.002` now, expected `value = -0.003"),
             std::string::npos)
       << refusal("run");
 
-  write_scene("checkpoint_every = 7\n" + std::string(specimen) + compression);
+  write_scene("checkpoint_every = 7\n" + specimen + compression);
   std::filesystem::resize_file(file("run", "s_force.csv"), 10);
   EXPECT_NE(refusal("run").find("s_force.csv"), std::string::npos) << refusal("run");
   std::filesystem::remove(file("run", "s_force.csv"));

@@ -44,9 +44,6 @@ const std::vector<Line> frictions{{"friction_02", "friction 0.2", colour::amber}
                                   {"friction_06", "friction 0.6", colour::green}};
 const std::vector<Line> rotations{{"biaxial_2x4", "free rotation", colour::blue},
                                   {"locked", "no rotation", colour::orange}};
-const std::vector<Line> anisotropies{{"biaxial_1x1", "A0 of figure 4", colour::blue},
-                                     {"anisotropy_005", "A0 = 0.05", colour::orange},
-                                     {"anisotropy_008", "A0 = 0.08", colour::green}};
 
 std::vector<Biaxial> load_all(const PaperStudy& study, const std::vector<Line>& lines) {
   std::vector<Biaxial> runs;
@@ -80,7 +77,7 @@ void compare_meshes(PaperStudy& study) {
   Table table("Peaks", {"run", "peak_ratio[-]", "strain_at_peak[-]", "largest_compaction[-]",
                         "coordination_start[-]", "coordination_peak[-]", "anisotropy_start[-]",
                         "anisotropy_peak[-]", "until_strain[-]"});
-  for (const std::vector<Line>* lines : {&meshes, &frictions, &rotations, &anisotropies})
+  for (const std::vector<Line>* lines : {&meshes, &frictions, &rotations})
     for (const Line& line : *lines) {
       if (lines != &meshes && std::string(line.name).find("biaxial") == 0) continue;
       const auto run = load_biaxial(study, line.name);
@@ -151,13 +148,6 @@ void compare_parameters(PaperStudy& study) {
     study.facts.agree("11", "coordination at strain 0.03: free, no rotation",
                       "smaller without rotation", list(runs, last), last(runs[1]) < last(runs[0]));
   }
-  if (const auto runs = load_all(study, anisotropies); runs.size() == anisotropies.size()) {
-    const auto minus = [](const Biaxial& run) { return -peak_of(run); };
-    study.facts.agree("13", "peak ratio, rising initial anisotropy", "falls", list(runs, peak_of),
-                      rising(runs, minus));
-    study.facts.agree("13", "largest compaction, rising initial anisotropy", "falls",
-                      list(runs, compaction, "{:.4f}"), rising(runs, compaction));
-  }
 }
 
 }  // namespace
@@ -168,17 +158,18 @@ std::size_t Biaxial::peak() const {
 
 double Biaxial::ratio_at(double at) const { return interpolate(strain, ratio, at); }
 
-std::optional<Biaxial> load_biaxial(const PaperStudy& study, const std::string& name) {
+std::optional<Biaxial> load_biaxial(const PaperStudy& study, const std::string& name,
+                                    std::size_t first) {
   const auto run = study.run(name);
-  if (!run || run->steps() < 2) return std::nullopt;
+  if (!run || run->steps() < first + 2) return std::nullopt;
   const CsvTable& h = run->history;
   Biaxial test;
   test.name = name;
-  const double start = h["F22"].front(), volume = 1 + h["volumetric_strain"].front();
-  for (std::size_t k = 0; k < h.rows(); ++k) {
+  const double start = h["F22"][first], volume = 1 + h["volumetric_strain"][first];
+  for (std::size_t k = first; k < h.rows(); ++k) {
     const double s1 = h["sigma11"][k], s2 = h["sigma22"][k];
     const double strain = 1 - h["F22"][k] / start;
-    if (k > 0 && strain <= test.strain.back()) continue;  // a step that brings loads on only
+    if (k > first && strain <= test.strain.back()) continue;  // a step that brings loads on only
     test.strain.push_back(strain);
     test.ratio.push_back(std::abs((s1 - s2) / (s1 + s2)));
     test.volume.push_back((1 + h["volumetric_strain"][k]) / volume - 1);
@@ -195,11 +186,12 @@ void study_biaxial(PaperStudy& study) {
   draw_runs(study, "Fig. 9: friction", frictions, false, "figure_09");
   draw_runs(study, "Fig. 10: rotation", rotations, true, "figure_10");
   draw_runs(study, "Fig. 11: rotation", rotations, false, "figure_11");
-  draw_runs(study, "Fig. 13: initial anisotropy", anisotropies, true, "figure_13");
-  draw_runs(study, "Fig. 14: initial anisotropy", anisotropies, false, "figure_14");
+  draw_points(study);
   compare_meshes(study);
   compare_parameters(study);
+  study_initial_anisotropy(study);
   compare_with_direct(study);
+  compare_sizes(study);
   tabulate_costs(study);
 }
 

@@ -24,11 +24,16 @@ struct Biaxial {
   [[nodiscard]] double ratio_at(double strain) const;
 };
 
-std::optional<Biaxial> load_biaxial(const PaperStudy& study, const std::string& name);
+// From the row `start` of its history on.
+std::optional<Biaxial> load_biaxial(const PaperStudy& study, const std::string& name,
+                                    std::size_t start = 0);
 
 // Figures 4 to 14, the comparison of multi-scale and direct simulation, the table of costs.
 void study_biaxial(PaperStudy& study);
 void tabulate_costs(const PaperStudy& study);
 void compare_with_direct(PaperStudy& study);  // also every packing of dns_packings.toml
+void compare_sizes(PaperStudy& study);        // specimens A, B, C of each packing with its mesh
+void draw_points(PaperStudy& study);          // figure 6
+void study_initial_anisotropy(PaperStudy& study);  // figures 12 to 14
 
 }  // namespace verification

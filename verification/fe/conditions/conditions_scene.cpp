@@ -65,17 +65,40 @@ int normal_component(const Mesh& mesh, const std::vector<int>& nodes) {
   return -1;
 }
 
+// Of the nodes about the hinge, by default the middle of the platen.
+std::vector<double> read_arms(SceneTable& table, const Mesh& mesh, const std::vector<int>& nodes,
+                              int normal) {
+  const int along = 1 - normal;
+  const auto place = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)](along); };
+  const auto [low, high] =
+      std::minmax_element(nodes.begin(), nodes.end(), [&](int a, int b) { return place(a) < place(b); });
+  if (!(place(*high) > place(*low)))
+    table.fail("rotation", "a platen on one node", "two nodes at least");
+  const double hinge = table.number_or("hinge", 0.5 * (place(*low) + place(*high)), any_number);
+  const double sign = normal == 1 ? 1 : -1;
+  std::vector<double> arms;
+  for (const int node : nodes) arms.push_back(sign * (place(node) - hinge));
+  return arms;
+}
+
 void read_platen(SceneTable& table, Model& model) {
   const std::string set = read_set(table, model.mesh.node_sets);
   const bool rough = table.choice_or("surface", "smooth", {"smooth", "rough"}) == "rough";
-  table.close();
+  const bool turns = table.choice_or("rotation", "fixed", {"fixed", "free"}) == "free";
   const std::vector<int>& nodes = model.mesh.node_sets[set];
   const int normal = normal_component(model.mesh, nodes);
   if (normal < 0)
     table.fail("on", fmt::format("the bent or inclined set {}", set),
                "a straight side along x or y");
+  std::vector<double> arms;
+  if (turns) arms = read_arms(table, model.mesh, nodes, normal);
+  if (!turns && table.has("hinge"))
+    table.fail("hinge", "a platen that does not turn", "rotation = \"free\" beside it");
+  table.close();
   for (const int i : {0, 1})
-    if (rough || i == normal) model.ties.push_back({nodes, i, set, table.place(), true});
+    if (rough || i == normal)
+      model.ties.push_back(
+          {nodes, i, set, table.place(), true, i == normal ? arms : std::vector<double>{}});
 }
 
 // Partners of the nodes of the first set: those of the second, all shifted by the same vector.
@@ -149,7 +172,7 @@ void read_resultant(SceneTable& table, double duration, Model& model) {
                  "either the displacement or the force of a platen");
   if (std::any_of(model.resultants.begin(), model.resultants.end(), same))
     table.fail("on", fmt::format("{} once more", name), "one resultant for it");
-  resultant.node = tie->nodes.front();
+  resultant.nodes = hinge_weights(*tie);
   model.resultants.push_back(resultant);
 }
 

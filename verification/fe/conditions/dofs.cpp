@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <set>
 
 namespace verification {
@@ -12,15 +13,42 @@ namespace verification {
 Eigen::VectorXd Dofs::expand(const Eigen::VectorXd& reduced) const {
   Eigen::VectorXd full = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(unknown.size()));
   for (std::size_t d = 0; d < unknown.size(); ++d)
-    if (unknown[d] >= 0) full(static_cast<Eigen::Index>(d)) = reduced(unknown[d]);
+    follow(d, [&](int k, double factor) {
+      full(static_cast<Eigen::Index>(d)) += factor * reduced(k);
+    });
   return full;
 }
 
 Eigen::VectorXd Dofs::reduce(const Eigen::VectorXd& full) const {
   Eigen::VectorXd reduced = Eigen::VectorXd::Zero(unknowns);
   for (std::size_t d = 0; d < unknown.size(); ++d)
-    if (unknown[d] >= 0) reduced(unknown[d]) += full(static_cast<Eigen::Index>(d));
+    follow(d, [&](int k, double factor) {
+      reduced(k) += factor * full(static_cast<Eigen::Index>(d));
+    });
   return reduced;
+}
+
+Eigen::VectorXd Dofs::reduce_mass(const Eigen::VectorXd& full) const {
+  Eigen::VectorXd reduced = Eigen::VectorXd::Zero(unknowns);
+  for (std::size_t d = 0; d < unknown.size(); ++d)
+    follow(d, [&](int k, double factor) {
+      reduced(k) += factor * factor * full(static_cast<Eigen::Index>(d));
+    });
+  return reduced;
+}
+
+bool Dofs::masses_coupled(const Eigen::VectorXd& full) const {
+  std::vector<double> coupling(static_cast<std::size_t>(unknowns)), size = coupling;
+  for (std::size_t d = 0; d < unknown.size(); ++d) {
+    if (turn[d].angle < 0 || unknown[d] < 0) continue;
+    const double product = full(static_cast<Eigen::Index>(d)) * turn[d].arm;
+    coupling[static_cast<std::size_t>(turn[d].angle)] += product;
+    size[static_cast<std::size_t>(turn[d].angle)] += std::abs(product);
+  }
+  constexpr double round_off = 1e-9;
+  for (std::size_t k = 0; k < coupling.size(); ++k)
+    if (std::abs(coupling[k]) > round_off * size[k]) return true;
+  return false;
 }
 
 Eigen::VectorXd Dofs::prescribed_at(double time) const {
@@ -95,6 +123,13 @@ class Linker {
 
   void repeat(const Periodic& periodic) {
     for (const int i : {0, 1}) {
+      for (const auto& pair : periodic.pairs)
+        for (const int node : {pair.first, pair.second}) {
+          const Tie* other = tied_by_[dof(node, i)];
+          if (other != nullptr && !other->arms.empty())
+            refuse(periodic.place, node, i, fmt::format("on a platen that turns, {}", other->place),
+                   "no periodic sides across it");
+        }
       const bool jumps = periodic.jump[static_cast<std::size_t>(i)].has_value();
       const Offset offset = jumps ? Offset{{next_program_++, 1}} : Offset{};
       for (const auto& [first, second] : periodic.pairs) {
@@ -133,6 +168,13 @@ Dofs number_dofs(const Model& model) {
     dofs.unknown.push_back(root == ground ? -1 : number[root]);
     for (const auto& [program, factor] : offset)
       dofs.prescribed.push_back({static_cast<int>(d), program, factor});
+  }
+  dofs.turn.resize(ground);
+  for (const Tie& tie : model.ties) {
+    if (tie.arms.empty()) continue;
+    for (std::size_t k = 0; k < tie.nodes.size(); ++k)
+      dofs.turn[dof(tie.nodes[k], tie.component)] = {dofs.unknowns, tie.arms[k]};
+    ++dofs.unknowns;
   }
   return dofs;
 }

@@ -13,7 +13,13 @@ struct Model;
 
 // Displacement components are numbered dof = 2 * node + component. Each is the value of one unknown
 // or of none, plus programs of prescribed displacements and jumps; tied components share an unknown.
+// Those of a platen that turns follow its angle too.
 struct Dofs {
+  struct Turn {
+    int angle = -1;  // number of its unknown, -1: none
+    double arm = 0;  // [m]
+  };
+
   struct Prescribed {
     int dof;
     std::size_t program;  // entry of `programs`
@@ -21,14 +27,26 @@ struct Dofs {
   };
 
   std::vector<int> unknown;  // [dofs] number of its unknown, -1: none
+  std::vector<Turn> turn;    // [dofs]
   std::vector<Prescribed> prescribed;
   std::vector<Program> programs;  // [m]
   int unknowns = 0;
+
+  // Calls visit(unknown, factor) for every unknown that the component follows.
+  template <class Visit>
+  void follow(std::size_t dof, Visit&& visit) const {
+    if (unknown[dof] >= 0) visit(unknown[dof], 1.0);
+    if (turn[dof].angle >= 0) visit(turn[dof].angle, turn[dof].arm);
+  }
 
   // Values of the unknowns as a field over all components, programs zero.
   [[nodiscard]] Eigen::VectorXd expand(const Eigen::VectorXd& reduced) const;
   // Forces on the unknowns: the sum over the components that follow each.
   [[nodiscard]] Eigen::VectorXd reduce(const Eigen::VectorXd& full) const;
+  // Masses of the unknowns, from those of the components. Couplings between the two unknowns of a
+  // platen that turns are left out: there are none when its mass is centred on the hinge.
+  [[nodiscard]] Eigen::VectorXd reduce_mass(const Eigen::VectorXd& full) const;
+  [[nodiscard]] bool masses_coupled(const Eigen::VectorXd& full) const;
   // Programs at this time, unknowns zero [m].
   [[nodiscard]] Eigen::VectorXd prescribed_at(double time) const;
 };

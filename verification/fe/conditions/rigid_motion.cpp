@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/SparseCholesky>
+
 #include <cmath>
 
 namespace verification {
@@ -43,17 +45,24 @@ void check_held(const Model& model, const std::string& place) {
     const Eigen::Vector2d arm = (nodes[d / 2] - centre) / size;
     return d % 2 == 0 ? Eigen::RowVector3d(1, 0, -arm.y()) : Eigen::RowVector3d(0, 1, arm.x());
   };
-  Eigen::Matrix3d held = Eigen::Matrix3d::Zero();
-  std::vector<int> first(static_cast<std::size_t>(dofs.unknowns), -1);
+  // What of a rigid motion the components cannot follow: least squares over the unknowns.
+  const auto count = static_cast<Eigen::Index>(dofs.unknown.size());
+  Triplets triplets;
+  Eigen::MatrixX3d motions(count, 3);
   for (std::size_t d = 0; d < dofs.unknown.size(); ++d) {
-    Eigen::RowVector3d row = motion(d);
-    if (dofs.unknown[d] >= 0) {
-      int& leader = first[static_cast<std::size_t>(dofs.unknown[d])];
-      if (leader < 0) leader = static_cast<int>(d);
-      row -= motion(static_cast<std::size_t>(leader));
-    }
-    held += row.transpose() * row;
+    const auto row = static_cast<Eigen::Index>(d);
+    motions.row(row) = motion(d);
+    dofs.follow(d, [&](int k, double factor) {
+      triplets.emplace_back(row, k, k == dofs.turn[d].angle ? factor / size : factor);
+    });
   }
+  Eigen::SparseMatrix<double> follows(count, dofs.unknowns);
+  follows.setFromTriplets(triplets.begin(), triplets.end());
+  const Eigen::SparseMatrix<double> normal = follows.transpose() * follows;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(normal);
+  Eigen::MatrixX3d rest = motions;
+  if (dofs.unknowns > 0) rest -= follows * factor.solve(follows.transpose() * motions);
+  const Eigen::Matrix3d held = rest.transpose() * rest;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(held);
   if (modes.eigenvalues()(0) > small) return;
   int free = 0;

@@ -53,6 +53,12 @@ const std::vector<Field>& fields() {
        [](const PointView& p, double* out) {
          out[0] = std::sqrt(0.5) * deviator(cauchy_stress(p.stress, p.deformation)).norm();
        }},
+      {"stress_ratio", "-", "stress ratio |s11 - s22| / |s11 + s22|", 1,
+       [](const PointView& p, double* out) {
+         const Tensor stress = cauchy_stress(p.stress, p.deformation);
+         const double sum = std::abs(stress.trace());
+         out[0] = sum > 0 ? std::abs(stress(0, 0) - stress(1, 1)) / sum : 0;
+       }},
       {"strain", "-", "strain", 4,
        [](const PointView& p, double* out) { put(small_strain(p.deformation), out); }},
       {"volumetric_strain", "-", "volumetric strain, dilation +", 1,

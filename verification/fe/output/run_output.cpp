@@ -16,10 +16,8 @@ namespace {
 
 std::vector<std::string> force_columns(const Model& model) {
   std::vector<std::string> names{"step[-]"};
-  for (const Monitor& monitor : make_monitors(model)) {
-    names.push_back(monitor.name + "_displacement[m]");
-    names.push_back(monitor.name + "_force[N/m]");
-  }
+  for (const Monitor& monitor : make_monitors(model))
+    for (const std::string& name : columns(monitor)) names.push_back(name);
   return names;
 }
 

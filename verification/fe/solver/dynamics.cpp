@@ -46,9 +46,13 @@ class DynamicsSolver final : public Solver {
         dofs_(number_dofs(model)),
         points_(model.mesh, material, model.hourglass),
         mass_(lumped_mass(model.mesh, options.density)),
-        unknown_mass_(dofs_.reduce(mass_)) {
+        unknown_mass_(dofs_.reduce_mass(mass_)) {
     motion_.displacement = Eigen::VectorXd::Zero(mass_.size());
     motion_.velocity = motion_.displacement;
+    if (dofs_.masses_coupled(mass_))
+      throw InputError(
+          "dynamics: found a platen that turns about a hinge away from the centre of the mass on "
+          "it, expected the hinge there, or the motion of the platen prescribed");
     if (dofs_.prescribed_at(0).any())
       throw InputError(
           "dynamics: the run starts at F = I, but a displacement is prescribed that is "

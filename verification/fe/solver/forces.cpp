@@ -7,8 +7,9 @@ namespace verification {
 void add_external_force(const Model& model, double time, const Eigen::VectorXd& displacement,
                         Eigen::VectorXd& force, Triplets* stiffness) {
   add_loads(model.loads, time, model.mesh, displacement, force, stiffness);
-  for (const Resultant& resultant : model.resultants)  // moves together: any of its nodes will do
-    force(2 * resultant.node + resultant.component) += resultant.value.at(time);
+  for (const Resultant& resultant : model.resultants)
+    for (const auto& [node, weight] : resultant.nodes)
+      force(2 * node + resultant.component) += weight * resultant.value.at(time);
 }
 
 void report_supports(const Model& model, double time, const Eigen::VectorXd& displacement,

@@ -9,7 +9,7 @@ double highest_frequency(const PointField& points, const Dofs& dofs, const Eigen
   points.add_stiffness(triplets);
   Eigen::SparseMatrix<double> stiffness(mass.size(), mass.size());
   stiffness.setFromTriplets(triplets.begin(), triplets.end());
-  const Eigen::VectorXd scale = dofs.reduce(mass).cwiseSqrt().cwiseInverse();
+  const Eigen::VectorXd scale = dofs.reduce_mass(mass).cwiseSqrt().cwiseInverse();
   // Neighbouring nodes with opposite signs, the shape of the highest modes, and a little of all.
   Eigen::VectorXd vector(dofs.unknowns);
   for (Eigen::Index k = 0; k < vector.size(); ++k)

@@ -48,12 +48,12 @@ Eigen::VectorXd solve(const System& system, const Dofs& dofs, const Eigen::Vecto
   Triplets triplets;
   for (int column = 0; column < system.stiffness.outerSize(); ++column)
     for (Eigen::SparseMatrix<double>::InnerIterator entry(system.stiffness, column); entry;
-         ++entry) {
-      const int row_unknown = dofs.unknown[static_cast<std::size_t>(entry.row())];
-      const int column_unknown = dofs.unknown[static_cast<std::size_t>(entry.col())];
-      if (row_unknown >= 0 && column_unknown >= 0)
-        triplets.emplace_back(row_unknown, column_unknown, entry.value());
-    }
+         ++entry)
+      dofs.follow(static_cast<std::size_t>(entry.row()), [&](int i, double row_factor) {
+        dofs.follow(static_cast<std::size_t>(entry.col()), [&](int k, double column_factor) {
+          triplets.emplace_back(i, k, row_factor * entry.value() * column_factor);
+        });
+      });
   Eigen::SparseMatrix<double> reduced(dofs.unknowns, dofs.unknowns);
   reduced.setFromTriplets(triplets.begin(), triplets.end());
   Eigen::SparseLU<Eigen::SparseMatrix<double>> factor(reduced);

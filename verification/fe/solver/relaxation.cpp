@@ -30,7 +30,7 @@ class RelaxationSolver final : public Solver {
         dofs_(number_dofs(model)),
         points_(model.mesh, material, model.hourglass),
         mass_(lumped_mass(model.mesh, 1)),
-        unknown_mass_(dofs_.reduce(mass_)) {
+        unknown_mass_(dofs_.reduce_mass(mass_)) {
     if (dofs_.unknowns == 0) throw InputError("every displacement is prescribed: nothing to solve");
     rest_.displacement = Eigen::VectorXd::Zero(mass_.size());
     rest_.rate = rest_.displacement;

@@ -1,0 +1,102 @@
+// A biaxial test past its peak in small: the whole way from the scene file to the tables.
+#include "app/csv.hpp"
+#include "fe/run.hpp"
+#include "scene_text.hpp"
+#include "temporary_directory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numeric>
+#include <string>
+
+namespace verification {
+namespace {
+
+class biaxial_scene : public testing::Test {
+ protected:
+  // 2 x 4 elements between smooth platens, membranes under 100 kPa, in steps of 0.1 % axial strain.
+  void run(int steps, const std::string& more) {
+    const auto path = directory_.path() / "biaxial.toml";
+    const double way = 1e-4 * steps;
+    std::ofstream(path) << "steps = " << steps << "\nthreads = 1\n"
+                        << more << small_packing
+                        << R"(
+[newton]
+tolerance = 1e-6
+loose_tolerance = 1e-2
+jump_tolerance = 5e-3
+max_cuts = 6
+
+[mesh]
+size = [0.05, 0.1]
+divisions = [2, 4]
+
+[[displacement]]
+on = "bottom"
+component = "y"
+value = 0.0
+
+[[displacement]]
+on = "bottom_left"
+component = "x"
+value = 0.0
+
+[[displacement]]
+on = "top"
+component = "y"
+value = )" << -way << R"(
+
+[[pressure]]
+on = "left"
+value = 100e3
+
+[[pressure]]
+on = "right"
+value = 100e3
+)";
+    run_fe_scene(SceneFile(path), {directory_.path().string(), false, {}, {}});
+  }
+  [[nodiscard]] CsvTable table(const std::string& end) const {
+    return read_csv(directory_.path() / ("biaxial" + end + ".csv"));
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(biaxial_scene, reaches_the_end_past_its_peak) {
+  run(30, "every_point = [\"mean_stress\", \"stress_ratio\"]\n");
+  const CsvTable history = table(""), forces = table("_force"), ratios = table("_every_stress_ratio");
+  ASSERT_EQ(history.rows(), 31U);
+  EXPECT_NEAR(history["F22"].back(), 0.97, 1e-9);
+  const auto& axial = history["sigma22"];
+  const auto peak = std::min_element(axial.begin(), axial.end());
+  EXPECT_LT(*peak, -170e3);  // a friction of 0.5 bears that; nothing bears ten times the pressure
+  EXPECT_GT(*peak, -1e6);
+  EXPECT_LT(peak - axial.begin(), 30);  // and not the last step
+  for (std::size_t k = 0; k < history.rows(); ++k) {
+    EXPECT_NEAR(history["sigma11"][k], -100e3, 0.02 * 100e3) << k;  // the membranes'
+    EXPECT_NEAR(forces["top_y_force"][k], -forces["bottom_y_force"][k], 0.02 * 1e4) << k;
+    // Every table has every step, and the points' mean is near the mean's.
+    double mean = 0;
+    for (std::size_t p = 1; p < ratios.columns.size(); ++p) mean += ratios.columns[p][k] / 32;
+    const double of_mean = (history["sigma11"][k] - axial[k]) / std::abs(history["sigma11"][k] + axial[k]);
+    EXPECT_NEAR(mean, std::abs(of_mean), 0.15) << k;
+  }
+  EXPECT_EQ(ratios.columns.size(), 1U + 32U);
+}
+
+TEST_F(biaxial_scene, before_the_peak_takes_at_most_five_iterations_a_step) {
+  run(5, "");
+  const CsvTable history = table("");
+  for (std::size_t k = 1; k < history.rows(); ++k) {
+    EXPECT_LE(history["newton_iterations"][k], 5) << k;
+    EXPECT_EQ(history["step_cuts"][k], 0) << k;
+    EXPECT_EQ(history["loose_parts"][k], 0) << k;
+  }
+}
+
+}  // namespace
+}  // namespace verification
