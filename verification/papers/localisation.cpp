@@ -165,10 +165,14 @@ void draw_hexagonal(HierarchicalStudy& study) {
     panel.curves.push_back({r.title, r.strain, r.stress,
                             name[8] == '2' ? colour::amber : colour::blue, Stroke::solid});
     const std::size_t k = r.peak();
+    const bool beyond = k + 1 < r.stress.size();  // else it ended there, or before the peak
     study.facts.add("13", r.title + ": peak, and the next step", "near 2.8 %, then a sudden drop",
-                    fmt::format("{:.0f} kPa at {:.1f} %, then {:.0f} kPa", r.stress[k], r.strain[k],
-                                k + 1 < r.stress.size() ? r.stress[k + 1] : std::nan("")),
-                    std::abs(r.strain[k] - 2.8) < 0.3 ? "agrees" : "differs");
+                    fmt::format("{:.0f} kPa at {:.1f} %, {}", r.stress[k], r.strain[k],
+                                beyond ? fmt::format("then {:.0f} kPa", r.stress[k + 1])
+                                       : "where the run ended"),
+                    !beyond                             ? "ended before"
+                    : std::abs(r.strain[k] - 2.8) < 0.3 ? "agrees"
+                                                        : "differs");
   }
   if (panel.curves.empty()) return;
   draw({"biaxial compression, hexagonal packing", "axial strain [%]", {panel}},

@@ -122,7 +122,7 @@ void draw_convergence(HierarchicalStudy& study, const std::vector<Element>& elem
         "7", fmt::format("iterations at an axial strain of {} %, force residual 1e-6", strain),
         strain < 1 ? "few; displacement error 0.01"
                    : "more than ten, elastic fewer than perturbed; displacement error 0.01",
-        counts, "not stated");
+        counts, strain < 1 ? "another criterion" : "differs");
   }
   if (!figure.panels.empty()) draw(figure, study.results / "figure_07");
 }
