@@ -14,8 +14,18 @@ double switch_tolerance(std::size_t nodes) {
   return 5e-4 * std::pow(std::min(1.0, 400.0 / static_cast<double>(nodes)), 1.66);
 }
 
-long relaxation_limit(std::size_t nodes) {
-  return static_cast<long>(1500 * std::sqrt(std::max(1.0, static_cast<double>(nodes) / 400)));
+// What is spent on one sub-increment before others are tried.
+struct Effort {
+  int rounds;                // of relaxation and Newton
+  int first_factorisations;  // where Newton works at once, it works soon
+  int most_factorisations;
+  double relaxation_steps;  // with up to 400 nodes
+};
+constexpr Effort full_effort{9, 12, 50, 1500};
+constexpr Effort bounded_effort{3, 12, 20, 1000};  // with a loose tolerance to end at
+
+long relaxation_limit(double steps, std::size_t nodes) {
+  return static_cast<long>(steps * std::sqrt(std::max(1.0, static_cast<double>(nodes) / 400)));
 }
 
 std::array<double, 4> between(const std::array<double, 9>& a, const std::array<double, 4>& b,
@@ -77,13 +87,13 @@ void start_iteration(const Request& request, double share, Increment& increment)
 // One sub-increment: relaxation, then Newton; when Newton does not get there, both again from where
 // they are, the relaxation longer and tighter, at last down to the target itself.
 bool solve_part(const Request& request, Workspace& w) {
-  constexpr int rounds = 9;
-  constexpr int first_factorisations = 12;  // where Newton works at once, it works soon
-  constexpr int most_factorisations = 50;
   constexpr double tighter = 0.3;
   constexpr double much_tighter = 0.1;
   constexpr double worth_newton = 0.5;  // a looser target is sooner reached by relaxation alone
   auto& increment = w.increment;
+  const double loose_tolerance = request.options->loose_tolerance;
+  const Effort& effort = loose_tolerance > 0 ? bounded_effort : full_effort;
+  const long steps = relaxation_limit(effort.relaxation_steps, increment.nodes());
   increment.refresh_masses();
   // Where rounding is all that is left, there is no equilibrium to speak of. Forces may fade on the
   // way to it.
@@ -94,14 +104,16 @@ bool solve_part(const Request& request, Workspace& w) {
   double target = reachable();
   double hand_over = switch_tolerance(increment.nodes());
   if (target > worth_newton * hand_over) hand_over = target;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < effort.rounds; ++round) {
     const double tolerance = std::max(hand_over, target);
-    const long limit = (round < 5 ? 1 : 2) * relaxation_limit(increment.nodes());
+    const long limit = (round < 5 ? 1 : 2) * steps;
     const bool relaxed = relax(increment, tolerance, limit, History::committed, w.relaxation);
     if (increment.touching == 0 || increment.collapsed()) return is_free(request, increment);
     if (relaxed && tolerance == target) return true;
-    const int factorisations = round == 0 ? first_factorisations : most_factorisations;
+    const int factorisations =
+        round == 0 ? effort.first_factorisations : effort.most_factorisations;
     if (flow_newton(increment, target, factorisations, w.newton)) return true;
+    if (round > 0 && increment.residual_norm() < loose_tolerance) return true;
     hand_over *= round < 2 ? tighter : much_tighter;
     target = reachable();
   }
@@ -177,7 +189,8 @@ bool solve_advancing(const Request& request, Method method, Workspace& w, Outcom
       return relax_published(increment, request.tolerance, request.options->published, {},
                              w.relaxation);
     }
-    return relax(increment, request.tolerance, 50 * relaxation_limit(increment.nodes()),
+    return relax(increment, request.tolerance,
+                 50 * relaxation_limit(full_effort.relaxation_steps, increment.nodes()),
                  History::advancing, w.relaxation);
   };
   const auto settled = [&] { return equilibrium() || is_free(request, increment); };
@@ -223,7 +236,7 @@ Outcome solve(const Request& request, Workspace& w) {
     return attempt(solve_advancing(request, Method::advancing, w, outcome));
   };
   if (!chain()) {
-    outcome.status = w.increment.collapsed()       ? GRAINLAW_COLLAPSED
+    outcome.status = w.increment.collapsed()     ? GRAINLAW_COLLAPSED
                      : w.increment.touching == 0 ? GRAINLAW_CONTACTS_LOST
                                                  : GRAINLAW_NOT_CONVERGED;
     outcome.step_ratio = 0.5;

@@ -21,6 +21,9 @@ struct PublishedOptions {
 
 struct SolverOptions {
   double tolerance = 1e-6;  // largest particle residual / mean contact normal force [-]
+  // Residual at which an increment may end that does not reach `tolerance` soon: its friction
+  // flutters, and more effort seldom ends that [-]; 0: none.
+  double loose_tolerance = 0;
   Start start = Start::committed;
   Method method = Method::chain;
   double increment_limit = 1;  // Pi above which an increment is split [-]

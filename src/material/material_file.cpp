@@ -40,6 +40,10 @@ SolverOptions read_solver(TomlTable table, const BoundaryOptions& boundary) {
   const bool servo = boundary.method == BoundaryMethod::servo;
   SolverOptions solver;
   table.optional("tolerance", number_between(1e-14, 1e-1), solver.tolerance);
+  table.optional("loose_tolerance", number_between(0, 1e-1), solver.loose_tolerance);
+  if (solver.loose_tolerance > 0 && solver.loose_tolerance < solver.tolerance)
+    table.fail("loose_tolerance", fmt::format("{:g}", solver.loose_tolerance),
+               fmt::format("0 or at least solver.tolerance, {:g}", solver.tolerance));
   table.optional("start", one_of<Start>({{"committed", Start::committed}, {"trial", Start::trial}}),
                  solver.start);
   if (servo) solver.method = Method::published;
@@ -52,12 +56,13 @@ SolverOptions read_solver(TomlTable table, const BoundaryOptions& boundary) {
     table.fail("method", "another method", "\"published\" because boundary.method is \"servo\"");
   table.optional("increment_limit", number_above(0), solver.increment_limit);
   table.optional("contacts_lost",
-                 one_of<ContactsLost>({{"error", ContactsLost::error},
-                                       {"stress_free", ContactsLost::stress_free}}),
+                 one_of<ContactsLost>(
+                     {{"error", ContactsLost::error}, {"stress_free", ContactsLost::stress_free}}),
                  solver.contacts_lost);
   if (solver.contacts_lost == ContactsLost::stress_free && prescribes_stress(boundary))
-    table.fail("contacts_lost", "\"stress_free\" with a boundary under a stress",
-               "\"error\": without contacts nothing carries what \"T\" or boundary.stress asks for");
+    table.fail(
+        "contacts_lost", "\"stress_free\" with a boundary under a stress",
+        "\"error\": without contacts nothing carries what \"T\" or boundary.stress asks for");
   solver.published = read_published(table.optional_table("published"));
   table.finish();
   return solver;

@@ -26,6 +26,8 @@ struct Result {
   Record record;
   Eigen::Vector2d corner = Eigen::Vector2d::Zero();  // where the upper right one went [m]
   int cuts = 0;
+  int iterations = 0;
+  int loose = 0;
 };
 
 Result compress(int divisions, const NewtonOptions& options,
@@ -38,6 +40,8 @@ Result compress(int divisions, const NewtonOptions& options,
   run_load_steps(*solver, 1, steps, steps, [&](const LoadStep& step, const Solver&) {
     result.record = step.record;
     result.cuts += step.record.effort.cuts;
+    result.iterations += step.record.effort.iterations;
+    result.loose += step.record.effort.loose;
   });
   result.corner = solver->displacement().segment<2>(2 * model.mesh.node_sets.at("top_right").front());
   return result;
@@ -78,15 +82,28 @@ TEST(localising, meshes_of_a_packing_that_shears_differ_by_what_membranes_do_not
   EXPECT_LT(apart, 1e-2);
 }
 
-TEST(localising, a_load_increment_beyond_the_largest_correction_is_cut) {
+TEST(localising, a_correction_beyond_the_largest_is_made_in_parts_to_the_same_equilibrium) {
   NewtonOptions options{.tolerance = 1e-6};
   const Result whole = compress(1, options);
-  EXPECT_EQ(whole.cuts, 0);
-  options.largest_correction = 7e-4;  // less than the 0.1 % of a step
-  const Result cut = compress(1, options);
-  EXPECT_GE(cut.cuts, 2);
-  // Smaller increments: the same up to the error of the increment.
-  EXPECT_LT((cut.record.cauchy - whole.record.cauchy).norm(), 2e-3 * whole.record.cauchy.norm());
+  options.largest_correction = 2e-4;  // a fifth of the 0.1 % of a step
+  const Result bounded = compress(1, options);
+  EXPECT_EQ(whole.cuts + bounded.cuts, 0);
+  EXPECT_GE(bounded.iterations, whole.iterations + 4);
+  EXPECT_LT((bounded.record.cauchy - whole.record.cauchy).norm(),
+            1e-5 * whole.record.cauchy.norm());
+}
+
+// The elastic tangent converges as slowly as the exact one does across jumps.
+TEST(localising, a_slow_iteration_ends_below_the_jump_tolerance) {
+  NewtonOptions options{
+      .tangent = GRAINLAW_WANT_TANGENT_ELASTIC, .tolerance = 1e-6, .jump_tolerance = 1e-2};
+  EXPECT_EQ(compress(1, options).loose, 0);
+  options.jump_iterations = 3;
+  const Result result = compress(1, options);
+  EXPECT_EQ(result.cuts, 0);
+  EXPECT_EQ(result.loose, 3);  // the pressure, and two steps
+  options.tangent = GRAINLAW_WANT_TANGENT_EXACT;
+  EXPECT_EQ(compress(1, options).loose, 0);
 }
 
 }  // namespace

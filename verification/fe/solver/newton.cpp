@@ -19,6 +19,7 @@ namespace {
 // residual: after the peak P(F) has jumps, and Newton then goes to and fro across one.
 constexpr int patience = 4;
 constexpr int jump_patience = 2;  // at a residual that may stay
+constexpr double fast = 0.2;      // a correction that leaves less than this of it
 
 // Residual and stiffness of all displacement components at one displacement and one load.
 struct System {
@@ -126,7 +127,7 @@ class NewtonSolver final : public Solver {
  private:
   // Increments of prescribed displacement enter through the right-hand side of the first solve,
   // which extrapolates the committed equilibrium by its tangent; boundary values never jump ahead
-  // alone.
+  // alone. What a bounded correction leaves of them is made in the next.
   Attempt equilibrate(double time, double tolerance, std::vector<double>& residuals) {
     Eigen::VectorXd displacement = displacement_;
     System system = system_;
@@ -142,14 +143,10 @@ class NewtonSolver final : public Solver {
         const auto measure = points_.cost().measure(Stage::linear_solve);
         correction = solve(system, dofs_, prescribed);
       }
-      prescribed.setZero();
       if (!correction.allFinite()) return {.reason = "the stiffness is singular"};
-      if (const double factor = bound(correction); factor < 1) {
-        if (iteration == 0)
-          return {.ratio = factor,
-                  .reason = "the load increment strains a point beyond newton.largest_correction"};
-        correction *= factor;
-      }
+      const double factor = bound(correction);
+      correction *= factor;
+      prescribed *= 1 - factor;
       const int halvings = iteration == 0 ? 0 : options_.line_search;
       const Attempt step =
           correct(displacement, system, correction, time, residuals.back(), halvings);
@@ -157,17 +154,23 @@ class NewtonSolver final : public Solver {
         residuals.push_back(std::numeric_limits<double>::quiet_NaN());
         return step;
       }
-      residuals.push_back(error(system, prescribed));
-      if (residuals.back() < 0.5 * best) {
-        best = residuals.back();
+      const double before = residuals.back();
+      const double residual = error(system, prescribed);
+      residuals.push_back(residual);
+      if (residual < 0.5 * best) {
+        best = residual;
         best_iteration = iteration;
       }
-      const bool near = residuals.back() <= options_.jump_tolerance;
+      const int made = iteration + 1;
+      const bool loaded = prescribed.isZero(0);
+      const bool near = loaded && residual <= options_.jump_tolerance;
+      const bool slow = options_.jump_iterations > 0 && made >= options_.jump_iterations &&
+                        residual > fast * before;
       const bool stalled = iteration >= best_iteration + (near ? jump_patience : patience) &&
                            options_.tangent == GRAINLAW_WANT_TANGENT_EXACT;
-      const bool at_jump = near && residuals.back() > tolerance &&
-                           (stalled || iteration + 1 == options_.max_iterations);
-      if (residuals.back() <= tolerance || at_jump) {
+      const bool at_jump =
+          near && residual > tolerance && (slow || stalled || made == options_.max_iterations);
+      if ((loaded && residual <= tolerance) || at_jump) {
         displacement_ = displacement;
         system_ = system;
         time_ = time;

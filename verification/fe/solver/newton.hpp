@@ -17,9 +17,12 @@ struct NewtonOptions {
   // Newton going to and fro across such a jump without getting closer than this is taken for
   // converged, and counted as a loose part too; 0: the step is cut instead [-].
   double jump_tolerance = 0;
+  // From so many iterations on, one that leaves more than a fifth of the residual is enough to tell
+  // such a jump; 0: it has to stall first.
+  int jump_iterations = 0;
   // Corrections are shortened so that no F changes by more than this (Frobenius norm): a correction
-  // far beyond the load increment costs far more to evaluate, and seldom leads anywhere. A load
-  // increment whose first correction is longer is cut; 0: no bound [-].
+  // far beyond the load increment costs far more to evaluate, and seldom leads anywhere; 0: no bound
+  // [-].
   double largest_correction = 0;
   // Corrections are halved at most so many times until the residual does not increase, or a point
   // does not refuse; then the step is cut. The first, which brings the load, is made whole; 0: all
