@@ -165,6 +165,9 @@ GRAINLAW_API grainlaw_report grainlaw_report_default(void);
  * components are prescribed (boundary "mixed") the components of F that belong to them are ignored
  * and found instead (measure DEFORMATION_GRADIENT), P returns the prescribed ones to the tolerance,
  * and A has zero rows and columns there.
+ * A rotation turns the answer, P(Q F) = Q P(F), unless the boundary is bound to the axes of space as
+ * a test rig is: sides with different rules in x and y, rigid rows, prescribed stresses. There the
+ * packing, the rules and the stresses have to turn too: then P(Q F Q^T) = Q P(F) Q^T.
  * F that is refused or leads nowhere also drops the trial, so that an ignored failure cannot commit
  * an older one. */
 GRAINLAW_API grainlaw_status grainlaw_evaluate(grainlaw_state*, const double* F, unsigned want,

@@ -111,6 +111,8 @@ class Increment {
   // Whether the boundary lost what it is to carry a uniform stress with: next to no force is left,
   // or a boundary particle has no contact.
   [[nodiscard]] bool collapsed();
+  // Of those under uniform stress, the first without a contact; -1: none.
+  [[nodiscard]] int particle_let_go();
 
   // Coordinates to the records that contacts read, and back.
   void load_records();

@@ -161,10 +161,8 @@ void Increment::hold_average(std::span<double> velocity, std::span<const double>
   }
 }
 
-bool Increment::collapsed() {
+int Increment::particle_let_go() {
   const auto& space = *problem->space;
-  if (!space.averages()) return false;
-  if (mean_force < problem->force_floor) return true;
   held_.assign(nodes(), 0);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (overlap(c) <= 0) continue;
@@ -173,10 +171,17 @@ bool Increment::collapsed() {
   }
   for (const auto& average : space.average) {
     for (const auto q : average.node) {
-      if (!held_[static_cast<std::size_t>(q)]) return true;
+      if (held_[static_cast<std::size_t>(q)]) continue;
+      return static_cast<int>(std::find(space.node.begin(), space.node.end(), q) -
+                              space.node.begin());
     }
   }
-  return false;
+  return -1;
+}
+
+bool Increment::collapsed() {
+  if (!problem->space->averages()) return false;
+  return mean_force < problem->force_floor || particle_let_go() >= 0;
 }
 
 }  // namespace grainlaw

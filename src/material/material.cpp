@@ -193,10 +193,13 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
                 "solver.contacts_lost = \"stress_free\"");
   }
   if (outcome.status == GRAINLAW_COLLAPSED) {
+    const int let_go = workspace.increment.particle_let_go();
     throw Error(outcome.status,
-                "the packing carries no uniform stress at F = I: a boundary particle has no "
-                "contact, or the forces vanish; expected every boundary particle under \"T\" to be "
-                "held by others");
+                fmt::format("the packing carries no uniform stress at F = I: {}; expected every "
+                            "boundary particle under \"T\" to be held by others",
+                            let_go < 0 ? "the forces vanish"
+                                       : fmt::format("boundary particle {} (from 0, as written) has "
+                                                     "no contact", let_go)));
   }
   if (outcome.status != GRAINLAW_OK) {
     throw Error(outcome.status,

@@ -17,7 +17,7 @@ namespace {
 
 class biaxial_scene : public testing::Test {
  protected:
-  // 2 x 4 elements between smooth platens, membranes under 100 kPa, in steps of 0.1 % axial strain.
+  // 1 x 2 elements between smooth platens, membranes under 100 kPa, in steps of 0.1 % axial strain.
   void run(int steps, const std::string& more) {
     const auto path = directory_.path() / "biaxial.toml";
     const double way = 1e-4 * steps;
@@ -32,18 +32,8 @@ max_cuts = 6
 
 [mesh]
 size = [0.05, 0.1]
-divisions = [2, 4]
-
-[[displacement]]
-on = "bottom"
-component = "y"
-value = 0.0
-
-[[displacement]]
-on = "bottom_left"
-component = "x"
-value = 0.0
-
+divisions = [1, 2]
+)" << held("bottom", "y") << held("bottom_left", "x") << R"(
 [[displacement]]
 on = "top"
 component = "y"
@@ -81,11 +71,11 @@ TEST_F(biaxial_scene, reaches_the_end_past_its_peak) {
     EXPECT_NEAR(forces["top_y_force"][k], -forces["bottom_y_force"][k], 0.02 * 1e4) << k;
     // Every table has every step, and the points' mean is near the mean's.
     double mean = 0;
-    for (std::size_t p = 1; p < ratios.columns.size(); ++p) mean += ratios.columns[p][k] / 32;
+    for (std::size_t p = 1; p < ratios.columns.size(); ++p) mean += ratios.columns[p][k] / 8;
     const double of_mean = (history["sigma11"][k] - axial[k]) / std::abs(history["sigma11"][k] + axial[k]);
     EXPECT_NEAR(mean, std::abs(of_mean), 0.15) << k;
   }
-  EXPECT_EQ(ratios.columns.size(), 1U + 32U);
+  EXPECT_EQ(ratios.columns.size(), 1U + 8U);
 }
 
 TEST_F(biaxial_scene, before_the_peak_takes_at_most_five_iterations_a_step) {

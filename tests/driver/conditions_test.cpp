@@ -5,6 +5,8 @@
 #include "fe/mesh/mesh_scene.hpp"
 #include "fe/mesh/quality.hpp"
 
+#include "scene_text.hpp"
+
 #include <gtest/gtest.h>
 
 #include <string>
@@ -41,20 +43,8 @@ void expect_refusal(const std::string& conditions, const std::vector<std::string
     EXPECT_NE(message.find(part), std::string::npos) << message << "\nlacks: " << part;
 }
 
-const std::string bottom = R"(
-[[displacement]]
-on = "bottom"
-component = "x"
-value = 0.0
-[[displacement]]
-on = "bottom"
-component = "y"
-value = 0.0
-)";
-const std::string periodic = "[[periodic]]\nsides = ['left', 'right']\n";
-
 TEST(conditions, cyclic_shear_with_periodic_sides_and_a_rough_platen_has_its_unknowns) {
-  const Model model = read_model(bottom + periodic + R"(
+  const Model model = read_model(held_bottom + periodic_sides + R"(
 [[platen]]
 on = "top"
 surface = "rough"
@@ -103,7 +93,7 @@ jump_x = { value = 3.0 }
 
 TEST(conditions, reduction_is_the_transpose_of_expansion) {
   const Model model =
-      read_model(bottom + periodic + "[[platen]]\non = 'top'\nsurface = 'rough'\n", "q8");
+      read_model(held_bottom + periodic_sides + "[[platen]]\non = 'top'\nsurface = 'rough'\n", "q8");
   const Dofs dofs = number_dofs(model);
   const Eigen::VectorXd unknowns = Eigen::VectorXd::LinSpaced(dofs.unknowns, 1, 2);
   const Eigen::VectorXd forces =
@@ -114,40 +104,40 @@ TEST(conditions, reduction_is_the_transpose_of_expansion) {
 TEST(conditions, an_unknown_set_is_refused_with_those_there_are) {
   expect_refusal("[[displacement]]\non = 'lid'\ncomponent = 'x'\nvalue = 0.0",
                  {"scene.toml:3", "displacement[1].on", "\"lid\"", "top_left"});
-  expect_refusal(bottom + "[[traction]]\non = 'bottom_left'\ncomponent = 'x'\nvalue = 0.0",
+  expect_refusal(held_bottom + "[[traction]]\non = 'bottom_left'\ncomponent = 'x'\nvalue = 0.0",
                  {"scene.toml:12", "bottom_left", "left, right, top"});
 }
 
 TEST(conditions, a_component_prescribed_twice_is_refused) {
-  expect_refusal(bottom + "[[displacement]]\non = 'bottom'\ncomponent = 'x'\nvalue = 0.0",
+  expect_refusal(held_bottom + held("bottom", "x"),
                  {"scene.toml:12", "bottom_x once more", "scene.toml:3"});
-  expect_refusal(bottom + "[[displacement]]\non = 'left'\ncomponent = 'x'\nvalue = 1.0",
+  expect_refusal(held_bottom + "[[displacement]]\non = 'left'\ncomponent = 'x'\nvalue = 1.0",
                  {"scene.toml:11: displacement[3]", "component x of node 1",
                   "prescribed otherwise by scene.toml:3: displacement[1]"});
   // The corner of two sides that say the same is no contradiction.
   EXPECT_NO_THROW(
-      read_model(bottom + "[[displacement]]\non = 'left'\ncomponent = 'x'\nvalue = 0.0"));
+      read_model(held_bottom + held("left", "x")));
 }
 
 TEST(conditions, a_tie_that_is_prescribed_or_tied_again_is_refused) {
-  expect_refusal(bottom + "[[tie]]\non = 'bottom'\ncomponent = 'y'",
+  expect_refusal(held_bottom + "[[tie]]\non = 'bottom'\ncomponent = 'y'",
                  {"scene.toml:11: tie[1]", "both bound and prescribed by scene.toml:7"});
-  expect_refusal(bottom + "[[tie]]\non = 'left'\ncomponent = 'y'",
+  expect_refusal(held_bottom + "[[tie]]\non = 'left'\ncomponent = 'y'",
                  {"node 1", "expected one of them"});
-  expect_refusal(bottom + "[[tie]]\non = 'top'\ncomponent = 'y'\n[[platen]]\non = 'top'",
+  expect_refusal(held_bottom + "[[tie]]\non = 'top'\ncomponent = 'y'\n[[platen]]\non = 'top'",
                  {"scene.toml:14: platen[1]", "bound by scene.toml:11: tie[1] already"});
-  expect_refusal(bottom +
+  expect_refusal(held_bottom +
                      "[[platen]]\non = 'top'\n[[displacement]]\non = 'top_left'\n"
                      "component = 'y'\nvalue = 0.1",
                  {"the whole platen prescribed"});
 }
 
 TEST(conditions, periodic_sides_prescribed_on_one_side_are_refused) {
-  expect_refusal(periodic + "[[displacement]]\non = 'left'\ncomponent = 'x'\nvalue = 0.0",
+  expect_refusal(periodic_sides + held("left", "x"),
                  {"scene.toml:2: periodic[1]", "prescribed on one side by scene.toml:4"});
-  expect_refusal(bottom + periodic + "jump_x = { value = 0.1 }",
+  expect_refusal(held_bottom + periodic_sides + "jump_x = { value = 0.1 }",
                  {"periodic[1]", "bound to differ otherwise", "a jump that agrees"});
-  expect_refusal(periodic + "[[tie]]\non = 'top'\ncomponent = 'x'\n" + "", {"holds"});
+  expect_refusal(periodic_sides + "[[tie]]\non = 'top'\ncomponent = 'x'\n" + "", {"holds"});
   expect_refusal("[[periodic]]\nsides = ['left', 'top']",
                  {"periodic[1].sides", "without a partner"});
   expect_refusal("[[periodic]]\nsides = ['left', 'lid']", {"\"lid\"", "bottom_left"});
@@ -156,13 +146,13 @@ TEST(conditions, periodic_sides_prescribed_on_one_side_are_refused) {
 
 TEST(conditions, a_resultant_needs_a_side_that_is_bound_and_free) {
   const std::string resultant = "[[resultant]]\non = 'top'\ncomponent = 'y'\nvalue = 1.0\n";
-  expect_refusal(bottom + resultant, {"scene.toml:12: resultant[1].on", "each for themselves"});
-  expect_refusal(bottom +
+  expect_refusal(held_bottom + resultant, {"scene.toml:12: resultant[1].on", "each for themselves"});
+  expect_refusal(held_bottom +
                      "[[platen]]\non = 'top'\n[[displacement]]\non = 'top'\ncomponent = 'y'\n"
                      "value = 1.0\n" +
                      resultant,
                  {"top_y, which is prescribed by"});
-  expect_refusal(bottom + "[[platen]]\non = 'top'\n" + resultant + resultant, {"once more"});
+  expect_refusal(held_bottom + "[[platen]]\non = 'top'\n" + resultant + resultant, {"once more"});
 }
 
 TEST(conditions, a_rigid_motion_that_is_left_is_named) {
@@ -173,8 +163,8 @@ TEST(conditions, a_rigid_motion_that_is_left_is_named) {
       "[[displacement]]\non = 'bottom_right'\ncomponent = 'y'\nvalue = 0.0\n"
       "[[displacement]]\non = 'bottom_right'\ncomponent = 'x'\nvalue = 0.0",
       {"rotation about (2, 0)"});
-  expect_refusal(periodic, {"2 independent rigid motions"});
-  EXPECT_NO_THROW(read_model(bottom));
+  expect_refusal(periodic_sides, {"2 independent rigid motions"});
+  EXPECT_NO_THROW(read_model(held_bottom));
 }
 
 TEST(conditions, a_platen_needs_a_straight_side) {

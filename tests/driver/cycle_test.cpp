@@ -4,6 +4,7 @@
 #include "fe/conditions/conditions_scene.hpp"
 #include "fe/conditions/monitors.hpp"
 #include "fe/solver/newton.hpp"
+#include "scene_text.hpp"
 #include "support.hpp"
 
 #include <gtest/gtest.h>
@@ -17,25 +18,10 @@ namespace {
 // Simple shear of one element under constant volume.
 class cycle : public testing::Test {
  protected:
-  static constexpr const char* sides = R"(
-[[displacement]]
-on = "bottom"
-component = "x"
-value = 0.0
-[[displacement]]
-on = "bottom"
-component = "y"
-value = 0.0
-[[displacement]]
-on = "top"
-component = "y"
-value = 0.0
-[[periodic]]
-sides = ["left", "right"]
-)";
+  static std::string sides() { return held_bottom + held("top", "y") + periodic_sides; }
   struct Test {
     explicit Test(const std::string& options) {
-      const toml::table content = toml::parse("[cycle]\non = 'top'\n" + options + sides);
+      const toml::table content = toml::parse("[cycle]\non = 'top'\n" + options + sides());
       SceneTable scene(content, "scene.toml", "");
       // Two rows, so that there is something to solve.
       model.mesh = rectangle_mesh({1, 1}, {1, 2}, ElementKind::q4);

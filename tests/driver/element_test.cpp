@@ -2,6 +2,8 @@
 #include "fe/mesh/element.hpp"
 #include "fe/mesh/mesh.hpp"
 
+#include "support.hpp"
+
 #include <gtest/gtest.h>
 
 #include <random>
@@ -30,15 +32,6 @@ class element : public testing::TestWithParam<ElementKind> {
     return mesh;
   }
 };
-
-double polygon_area(const Points& corners) {
-  double twice = 0;
-  for (std::size_t a = 0; a < corners.size(); ++a) {
-    const Eigen::Vector2d& next = corners[(a + 1) % corners.size()];
-    twice += corners[a].x() * next.y() - corners[a].y() * next.x();
-  }
-  return 0.5 * twice;
-}
 
 TEST_P(element, shape_functions_are_one_at_their_node_and_zero_at_the_others) {
   const ElementType& type = element_type(GetParam());
@@ -107,12 +100,7 @@ TEST_P(element, sides_run_with_their_element_on_the_left) {
   EXPECT_NEAR(perimeter, 10, 1e-13);
 }
 
-INSTANTIATE_TEST_SUITE_P(kinds, element,
-                         testing::Values(ElementKind::q4, ElementKind::q4r, ElementKind::q8,
-                                         ElementKind::t3),
-                         [](const auto& entry) {
-                           return std::string(element_type(entry.param).name);
-                         });
+INSTANTIATE_TEST_SUITE_P(kinds, element, element_kinds, kind_name);
 
 }  // namespace
 }  // namespace verification

@@ -38,15 +38,6 @@ Model compressed_model(ElementKind kind) {
   return model;
 }
 
-double polygon_area(const Polygon& corners) {
-  double twice = 0;
-  for (std::size_t a = 0; a < corners.size(); ++a) {
-    const Eigen::Vector2d& next = corners[(a + 1) % corners.size()];
-    twice += corners[a].x() * next.y() - corners[a].y() * next.x();
-  }
-  return 0.5 * twice;
-}
-
 // The bytes of the array of that name of a VTK file.
 template <class T>
 std::vector<T> vtk_array(const std::string& text, const std::string& name) {

@@ -74,12 +74,7 @@ TEST_P(patch, the_stiffness_is_the_derivative_of_the_forces) {
   EXPECT_LT((product - slope).norm(), 1e-6 * slope.norm());
 }
 
-INSTANTIATE_TEST_SUITE_P(kinds, patch,
-                         testing::Values(ElementKind::q4, ElementKind::q4r, ElementKind::q8,
-                                         ElementKind::t3),
-                         [](const auto& entry) {
-                           return std::string(element_type(entry.param).name);
-                         });
+INSTANTIATE_TEST_SUITE_P(kinds, patch, element_kinds, kind_name);
 
 }  // namespace
 }  // namespace verification

@@ -4,6 +4,7 @@
 #include "fe/conditions/rigid_motion.hpp"
 #include "fe/mesh/mesh_scene.hpp"
 #include "fe/solver/newton.hpp"
+#include "scene_text.hpp"
 #include "support.hpp"
 
 #include <gtest/gtest.h>
@@ -48,29 +49,7 @@ struct Solved {
 };
 
 // The packing is at 100 kPa: 1e5 N/m on a side of 1 m holds it.
-const std::string confined = R"(
-[[displacement]]
-on = "left"
-component = "x"
-value = 0.0
-[[displacement]]
-on = "bottom"
-component = "y"
-value = 0.0
-[[pressure]]
-on = "right"
-value = 1e5
-)";
-const std::string bottom = R"(
-[[displacement]]
-on = "bottom"
-component = "x"
-value = 0.0
-[[displacement]]
-on = "bottom"
-component = "y"
-value = 0.0
-)";
+const std::string confined = smooth_supports + "[[pressure]]\non = 'right'\nvalue = 1e5\n";
 
 class platen : public testing::TestWithParam<const char*> {};
 
@@ -91,7 +70,7 @@ TEST_P(platen, a_resultant_gives_the_displacement_that_gives_the_resultant) {
 
 TEST_P(platen, a_rough_platen_moves_as_one_and_is_in_balance) {
   const Solved solved(
-      bottom + "[[pressure]]\non = 'right'\nvalue = 1e5\n" +
+      held_bottom + "[[pressure]]\non = 'right'\nvalue = 1e5\n" +
           "[[pressure]]\non = 'left'\nvalue = 1e5\n" +
           "[[platen]]\non = 'top'\nsurface = 'rough'\n" +
           "[[resultant]]\non = 'top'\ncomponent = 'y'\nstart = -1e5\nvalue = -1.1e5\n" +
@@ -109,7 +88,7 @@ TEST_P(platen, a_rough_platen_moves_as_one_and_is_in_balance) {
 }
 
 TEST_P(platen, periodic_sides_move_alike_and_hand_on_the_force) {
-  const Solved solved(bottom + "[[periodic]]\nsides = ['left', 'right']\n" +
+  const Solved solved(held_bottom + periodic_sides +
                           "[[displacement]]\non = 'top'\ncomponent = 'y'\nvalue = 0.0\n" +
                           "[[displacement]]\non = 'top'\ncomponent = 'x'\nvalue = 1e-4\n",
                       GetParam());
@@ -127,8 +106,7 @@ TEST_P(platen, periodic_sides_move_alike_and_hand_on_the_force) {
 
 TEST_P(platen, a_jump_stretches_periodic_sides) {
   const Solved solved(
-      "[[displacement]]\non = 'bottom'\ncomponent = 'y'\nvalue = 0.0\n"
-      "[[displacement]]\non = 'bottom_left'\ncomponent = 'x'\nvalue = 0.0\n"
+      held("bottom", "y") + held("bottom_left", "x") +
       "[[displacement]]\non = 'bottom_right'\ncomponent = 'x'\nvalue = -1e-4\n"
       "[[periodic]]\nsides = ['left', 'right']\njump_x = { value = -1e-4 }\n"
       "[[pressure]]\non = 'top'\nvalue = 1e5\n",
@@ -141,8 +119,7 @@ TEST_P(platen, a_jump_stretches_periodic_sides) {
 
 TEST_P(platen, tractions_make_the_stress) {
   const Solved solved(
-      "[[displacement]]\non = 'left'\ncomponent = 'x'\nvalue = 0.0\n"
-      "[[displacement]]\non = 'bottom'\ncomponent = 'y'\nvalue = 0.0\n"
+      smooth_supports +
       "[[traction]]\non = 'right'\ncomponent = 'x'\nstart = -1e5\nvalue = -1.1e5\n"
       "[[traction]]\non = 'top'\ncomponent = 'y'\nstart = -1e5\nvalue = -1.2e5\n",
       GetParam());
@@ -153,7 +130,7 @@ TEST_P(platen, tractions_make_the_stress) {
 
 TEST_P(platen, newton_takes_few_iterations_under_every_kind_of_load) {
   const Solved solved(
-      bottom +
+      held_bottom +
           "[[platen]]\non = 'top'\nsurface = 'rough'\n"
           "[[resultant]]\non = 'top'\ncomponent = 'y'\nstart = -1e5\nvalue = -1.1e5\n"
           "[[resultant]]\non = 'top'\ncomponent = 'x'\nvalue = 5e3\n"
@@ -169,8 +146,7 @@ TEST_P(platen, newton_takes_few_iterations_under_every_kind_of_load) {
 // low, for the pressure on it, 1/500 of its modulus, bends it further by that times 12 (height / b)^2.
 TEST(platen_on_a_hinge, turns_by_the_angle_of_pure_bending) {
   const std::string block =
-      "[[displacement]]\non = 'bottom'\ncomponent = 'y'\nvalue = 0.0\n"
-      "[[displacement]]\non = 'bottom_left'\ncomponent = 'x'\nvalue = 0.0\n"
+      held("bottom", "y") + held("bottom_left", "x") +
       "[[traction]]\non = 'left'\ncomponent = 'x'\nstart = 1e5\nvalue = 1e5\n"
       "[[traction]]\non = 'right'\ncomponent = 'x'\nstart = -1e5\nvalue = -1e5\n"
       "[[platen]]\non = 'top'\nrotation = 'free'\n";
@@ -202,8 +178,7 @@ TEST(platen_on_a_hinge, turns_by_the_angle_of_pure_bending) {
 
 TEST(platen_on_a_hinge, pushed_down_turns_as_the_weaker_side_yields) {
   const std::string supports =
-      "[[displacement]]\non = 'bottom'\ncomponent = 'y'\nvalue = 0.0\n"
-      "[[displacement]]\non = 'bottom'\ncomponent = 'x'\nvalue = 0.0\n"
+      held_bottom +
       "[[pressure]]\non = 'left'\nvalue = 1e5\n[[pressure]]\non = 'right'\nvalue = 0.9e5\n";
   const Solved solved(supports +
                           "[[platen]]\non = 'top'\nsurface = 'rough'\nrotation = 'free'\n"

@@ -14,11 +14,8 @@ namespace verification {
 namespace {
 
 // With a table of a point, series for ParaView of the mesh and of a packing.
-const std::string specimen = std::string("steps = 4\nthreads = 1\nvtk_every = 2\npackings = [1]\n"
-                                         "points = [2]\n") +
-                             small_packing;
-const std::string compression = std::string("[newton]\ntolerance = 1e-6\n") + narrow_mesh +
-                                bottom_and_left + R"(
+const std::string specimen = "steps = 4\nthreads = 1\nvtk_every = 2\npackings = [1]\npoints = [2]\n" + small_packing;
+const std::string compression = "[newton]\ntolerance = 1e-6\n" + narrow_mesh + smooth_supports + R"(
 [[displacement]]
 on = "top"
 component = "y"
@@ -100,10 +97,7 @@ TEST_F(restart, of_dynamic_relaxation_ends_in_the_same_bytes) {
 }
 
 TEST_F(restart, with_platens_periodic_sides_and_resultants_ends_in_the_same_bytes) {
-  write_scene(specimen + narrow_mesh + held_bottom + R"(
-[[periodic]]
-sides = ["left", "right"]
-
+  write_scene(specimen + narrow_mesh + held_bottom + periodic_sides + R"(
 [[tie]]
 on = "top"
 component = "y"
@@ -157,15 +151,7 @@ on = "top"
 step = 5e-4
 limit_displacement = 1e-3
 cycles = 1
-
-[[displacement]]
-on = "top"
-component = "y"
-value = 0.0
-
-[[periodic]]
-sides = ["left", "right"]
-)");
+)" + held("top", "y") + periodic_sides);
   expect_same_files_in_pieces();
 }
 

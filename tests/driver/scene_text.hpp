@@ -1,10 +1,12 @@
 // Parts of the scene files that several tests write.
 #pragma once
 
+#include <string>
+
 namespace verification {
 
 // Thirty discs: tenths of a millisecond a point and step.
-inline constexpr const char* small_packing = R"(
+inline const std::string small_packing = R"(
 [material]
 dimension = 2
 thickness = 0.1
@@ -15,36 +17,20 @@ solver = { start = "trial", contacts_lost = "stress_free" }
 )";
 
 // One element wide and two high, 0.5 m x 1 m.
-inline constexpr const char* narrow_mesh = R"(
+inline const std::string narrow_mesh = R"(
 [mesh]
 size = [0.5, 1.0]
 divisions = [1, 2]
 )";
 
-// Smooth supports.
-inline constexpr const char* bottom_and_left = R"(
-[[displacement]]
-on = "left"
-component = "x"
-value = 0.0
+// A set of nodes that does not move in this component.
+inline std::string held(const std::string& set, const std::string& component) {
+  return "[[displacement]]\non = '" + set + "'\ncomponent = '" + component + "'\nvalue = 0.0\n";
+}
 
-[[displacement]]
-on = "bottom"
-component = "y"
-value = 0.0
-)";
-
-// A rough support.
-inline constexpr const char* held_bottom = R"(
-[[displacement]]
-on = "bottom"
-component = "x"
-value = 0.0
-
-[[displacement]]
-on = "bottom"
-component = "y"
-value = 0.0
-)";
+inline const std::string smooth_supports = held("left", "x") + held("bottom", "y");
+inline const std::string held_bottom =
+    std::string("\n").append(held("bottom", "x")).append(held("bottom", "y"));
+inline const std::string periodic_sides = "[[periodic]]\nsides = ['left', 'right']\n";
 
 }  // namespace verification

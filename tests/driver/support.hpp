@@ -4,7 +4,10 @@
 #include "app/material.hpp"
 #include "fe/mesh/mesh.hpp"
 
+#include <gtest/gtest.h>
+
 #include <string>
+#include <vector>
 
 namespace verification {
 
@@ -30,6 +33,22 @@ inline Material packing_material() {
   source.file = std::string(GRAINLAW_TEST_DATA) + "/rve400.toml";
   source.base = GRAINLAW_TEST_DATA;
   return make_material(source);
+}
+
+// Kinds of elements that a test is made for, one after the other, and its names.
+inline const auto element_kinds =
+    testing::Values(ElementKind::q4, ElementKind::q4r, ElementKind::q8, ElementKind::t3);
+inline std::string kind_name(const testing::TestParamInfo<ElementKind>& kind) {
+  return std::string(element_type(kind.param).name);
+}
+
+inline double polygon_area(const std::vector<Eigen::Vector2d>& corners) {
+  double twice = 0;
+  for (std::size_t a = 0; a < corners.size(); ++a) {
+    const Eigen::Vector2d& next = corners[(a + 1) % corners.size()];
+    twice += corners[a].x() * next.y() - corners[a].y() * next.x();
+  }
+  return 0.5 * twice;
 }
 
 }  // namespace verification

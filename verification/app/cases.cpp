@@ -2,6 +2,8 @@
 
 #include "app/material.hpp"
 
+#include <fmt/format.h>
+
 namespace verification {
 
 std::vector<toml::table> scene_cases(const SceneFile& file) {
@@ -14,7 +16,16 @@ std::vector<toml::table> scene_cases(const SceneFile& file) {
     content.erase("case");
     merge(content, one.content());
     content.insert_or_assign("name", name + "_" + case_name);
-    scenes.push_back(std::move(content));
+    const int seeds = one.integer_or("seeds", 0, 0);
+    content.erase("seeds");
+    if (seeds == 0) scenes.push_back(std::move(content));
+    for (int seed = 1; seed <= seeds; ++seed) {
+      toml::table seeded = content;
+      const toml::table packing{{"packing", toml::table{{"seed", seed}}}};
+      merge(seeded, toml::table{{"name", fmt::format("{}_{}_s{}", name, case_name, seed)},
+                                {"material", packing}});
+      scenes.push_back(std::move(seeded));
+    }
   }
   return scenes;
 }

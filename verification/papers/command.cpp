@@ -9,7 +9,10 @@ void add_papers_study(CLI::App& study, const std::shared_ptr<StudyOptions>& opti
   command->callback([options] {
     PaperStudy papers{std::filesystem::path(options->scenes) / "papers-002", options->output, {}};
     study_regular_packings(papers);
+    study_packings(papers);
     study_irregular_packings(papers);
+    study_sizes(papers);
+    study_order(papers);
     study_layer(papers);
     study_servo_cost(papers);
     papers.facts.print();

@@ -20,8 +20,10 @@ struct PaperStudy {
 // Each draws figure_NN.svg and .png, writes its tables and adds its facts. What was not run is left
 // out.
 void study_regular_packings(PaperStudy& study);  // figures 2, 4, 5
-void study_irregular_packings(
-    PaperStudy& study);                    // figures 7, 9, 10, order of D, P and T, reach of T
+void study_irregular_packings(PaperStudy& study);  // figures 7, 9, 10, reach of T
+void study_packings(PaperStudy& study);    // figure 6: coordination; T at rest
+void study_sizes(PaperStudy& study);       // figure 10 as an ensemble
+void study_order(PaperStudy& study);       // D >= P >= T in stress and in energy
 void study_layer(PaperStudy& study);       // figure 11
 void study_servo_cost(PaperStudy& study);  // servo against direct, all figures
 

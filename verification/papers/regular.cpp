@@ -123,28 +123,6 @@ void figure_5(PaperStudy& study, const PaperUnits& units) {
   if (!figure.panels.empty()) draw(figure, study.results / "figure_05");
 }
 
-void order(PaperStudy& study, const PaperUnits& units) {
-  Table table("Regular packings: D >= P >= T",
-              {"particles[-]", "steps_D_above_P[-]", "mean_D_over_P[-]", "P_and_D_until_F12[-]",
-               "steps_P_above_T[-]", "mean_P_over_T[-]", "P_and_T_until_F12[-]"});
-  for (const int size : sizes) {
-    const auto d = study.run(fmt::format("figure_05_D{}", size));
-    const auto p = study.run(fmt::format("figure_05_P{}", size));
-    const auto t = study.run(fmt::format("figure_05_T{}", size));
-    if (!d || !p || !t) continue;
-    const Order dp = compare(*d, *p, units), pt = compare(*p, *t, units);
-    table.row({static_cast<double>(size), dp.share, dp.mean_ratio, dp.until, pt.share,
-               pt.mean_ratio, pt.until});
-    study.facts.agree("4, 5", fmt::format("{} discs: D >= P >= T", size), "bounds",
-                      fmt::format("D >= P in {:.0f} % of the steps, P >= T in {:.0f} %; means "
-                                  "D/P {:.3f}, P/T {:.3f}",
-                                  100 * dp.share, 100 * pt.share, dp.mean_ratio, pt.mean_ratio),
-                      dp.share == 1 && pt.share == 1);
-  }
-  table.print();
-  table.write(study.results / "order_regular.csv");
-}
-
 // Mean -sigma11 R / kn over the first steps.
 double mean_stress(const PaperRun& run, const PaperUnits& units, std::size_t steps) {
   double sum = 0;
@@ -179,7 +157,6 @@ void study_regular_packings(PaperStudy& study) {
   figure_2(study, units);
   figure_4(study, units);
   figure_5(study, units);
-  order(study, units);
   sample_size(study, units);
 }
 

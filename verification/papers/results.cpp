@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 namespace verification {
 
@@ -42,6 +43,22 @@ std::optional<PaperRun> load_run(const std::filesystem::path& directory, const s
   return run;
 }
 
+CaseEnds::CaseEnds(const std::filesystem::path& path) {
+  if (!std::filesystem::is_regular_file(path)) return;
+  table = read_csv(path);
+  // The first column is text, which read_csv takes for a number.
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  while (std::getline(file, line)) name.push_back(line.substr(0, line.find(',')));
+}
+
+std::optional<std::size_t> CaseEnds::find(const std::string& wanted) const {
+  const auto found = std::find(name.begin(), name.end(), wanted);
+  if (found == name.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - name.begin());
+}
+
 std::vector<double> stress_norm(const PaperRun& run, const PaperUnits& units) {
   std::vector<double> norm(run.steps(), 0.0);
   for (const char* component : {"sigma11", "sigma12", "sigma21", "sigma22"}) {
@@ -52,32 +69,45 @@ std::vector<double> stress_norm(const PaperRun& run, const PaperUnits& units) {
   return norm;
 }
 
-double integrated_norm(const PaperRun& run, const PaperUnits& units) {
+double integrated_norm(const PaperRun& run, const PaperUnits& units, double until) {
   const std::vector<double>& shear = run.history["F12"];
   const std::vector<double> norm = stress_norm(run, units);
   double sum = 0;
-  for (std::size_t k = 1; k < norm.size(); ++k)
+  for (std::size_t k = 1; k < norm.size() && shear[k] < until + 1e-9; ++k)
     sum +=
         0.5 * (norm[k] * norm[k] + norm[k - 1] * norm[k - 1]) * std::abs(shear[k] - shear[k - 1]);
   return std::sqrt(sum);
 }
 
 Order compare(const PaperRun& stiff, const PaperRun& soft, const PaperUnits& units) {
+  constexpr double rounding = 1e-6;
   const std::vector<double> a = stress_norm(stiff, units);
   const std::vector<double> b = stress_norm(soft, units);
+  const auto stored = [](const PaperRun& run) -> const std::vector<double>& {
+    return run.history["elastic_energy"];
+  };
+  const auto dissipated = [](const PaperRun& run) -> const std::vector<double>& {
+    return run.history["dissipated_energy"];
+  };
   const std::size_t count = std::min(a.size(), b.size());
   Order order;
+  if (count == 0) return order;
   double sum_a = 0, sum_b = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    constexpr double rounding = 1e-6;
-    order.share += a[k] >= b[k] * (1 - rounding) ? 1 : 0;
+    const auto no_less = [](double x, double y) { return x >= y * (1 - rounding) ? 1.0 : 0.0; };
+    const double energy_a = stored(stiff)[k], energy_b = stored(soft)[k];
+    order.share += no_less(a[k], b[k]);
+    order.energy_share += no_less(energy_a, energy_b);
+    order.spent_share +=
+        no_less(energy_a + dissipated(stiff)[k], energy_b + dissipated(soft)[k]);
     sum_a += a[k];
     sum_b += b[k];
   }
-  if (count == 0) return order;
-  order.share /= static_cast<double>(count);
+  for (double* share : {&order.share, &order.energy_share, &order.spent_share})
+    *share /= static_cast<double>(count);
   order.mean_ratio = sum_a / sum_b;
   order.until = soft.history["F12"][count - 1];
+  order.steps = static_cast<int>(count);
   return order;
 }
 

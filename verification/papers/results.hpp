@@ -40,17 +40,30 @@ struct PaperRun {
 // From NAME.csv in the directory; nothing when it was not run.
 std::optional<PaperRun> load_run(const std::filesystem::path& directory, const std::string& name);
 
+// SCENE_cases.csv: how every case ended. Empty when it was not run.
+struct CaseEnds {
+  explicit CaseEnds(const std::filesystem::path& path);
+  [[nodiscard]] std::optional<std::size_t> find(const std::string& wanted) const;
+
+  CsvTable table;
+  std::vector<std::string> name;
+};
+
 // |sigma| R / kn, the Frobenius norm, at every step.
 std::vector<double> stress_norm(const PaperRun& run, const PaperUnits& units);
 
-// Eq. 42: (integral over F12 of |sigma R / kn|^2)^(1/2), trapezoid rule over the steps of the run.
-double integrated_norm(const PaperRun& run, const PaperUnits& units);
+// Eq. 42: (integral over F12 of |sigma R / kn|^2)^(1/2), trapezoid rule over the steps of the run to
+// F12 = until.
+double integrated_norm(const PaperRun& run, const PaperUnits& units, double until = 1);
 
-// How often and by how much `stiff` carries more than `soft`, over their common steps.
+// How often and by how much `stiff` carries and stores more than `soft`, over their common steps.
 struct Order {
-  double share = 0;       // of steps with |sigma_stiff| >= |sigma_soft| [-]
-  double mean_ratio = 0;  // of the integrals over F12 of |sigma| [-]
-  double until = 0;       // F12 of the last common step [-]
+  double share = 0;         // of steps with |sigma_stiff| >= |sigma_soft| [-]
+  double mean_ratio = 0;    // of the integrals over F12 of |sigma| [-]
+  double energy_share = 0;  // of steps with no less energy stored in the contacts [-]
+  double spent_share = 0;   // the same, stored and dissipated [-]
+  double until = 0;         // F12 of the last common step [-]
+  int steps = 0;            // common ones, F = I included
 };
 Order compare(const PaperRun& stiff, const PaperRun& soft, const PaperUnits& units);
 

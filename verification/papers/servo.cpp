@@ -49,6 +49,41 @@ double distance(const PaperRun& a, const PaperRun& b) {
   return largest;
 }
 
+// Of the runs of one kind.
+struct Kind {
+  double least_steps = INFINITY, most_steps = 0, least_cpu = INFINITY, most_cpu = 0;
+  double distance = 0, same_relaxation = 0;  // largest
+
+  void add(double steps, double cpu, double direct, double relaxed) {
+    least_steps = std::fmin(least_steps, steps), most_steps = std::fmax(most_steps, steps);
+    least_cpu = std::fmin(least_cpu, cpu), most_cpu = std::fmax(most_cpu, cpu);
+    distance = std::fmax(distance, direct);
+    same_relaxation = std::fmax(same_relaxation, relaxed);
+  }
+};
+
+struct Bars {
+  Kind lattices, irregular, layer;
+
+  void judge(Facts& facts) const {
+    constexpr double bar = 100, near = 1e-3;
+    for (const auto& [name, kind] : {std::pair{"lattices under P and T", &lattices},
+                                     {"irregular packings under P and T", &irregular},
+                                     {"layer", &layer}}) {
+      if (kind->most_steps == 0) continue;
+      facts.agree("servo", fmt::format("{}: servo over direct", name), "100 wanted",
+                  fmt::format("{:.0f} to {:.0f} in steps, {:.0f} to {:.0f} in time",
+                              kind->least_steps, kind->most_steps, kind->least_cpu, kind->most_cpu),
+                  kind->least_steps >= bar);
+      facts.agree("servo", fmt::format("{}: distance of P at increments of 0.1 %", name),
+                  "0.1 % wanted",
+                  fmt::format("same relaxation {:.2g} %, default {:.2g} %",
+                              100 * kind->same_relaxation, 100 * kind->distance),
+                  kind->same_relaxation <= near && kind->distance <= near);
+    }
+  }
+};
+
 }  // namespace
 
 // Cases come in threes, WHAT_servo, WHAT_relaxed and WHAT_direct: the published servo, the frame
@@ -66,6 +101,7 @@ void study_servo_cost(PaperStudy& study) {
     const char* servo;  // how the name of a servo's case ends
   };
   int rows = 0;
+  Bars bars;
   for (const Group& group : {Group{"figure_02", "2", "_predicted"},
                              {"servo_regular", "4 and 5", "_servo"},
                              {"servo_irregular", "7 to 10", "_servo"},
@@ -95,11 +131,20 @@ void study_servo_cost(PaperStudy& study) {
                  same_range ? servo.cpu / direct.cpu : none, distance(*direct_run, *servo_run),
                  relaxed_run ? distance(*relaxed_run, *servo_run) : none});
       ++rows;
+      if (!same_range) continue;
+      const bool layer = std::string(group.scene) == "servo_layer";
+      const bool irregular = std::string(group.scene) == "servo_irregular";
+      if (std::string(group.scene) == "figure_02") continue;  // whole, over several branches
+      (layer ? bars.layer : irregular ? bars.irregular : bars.lattices)
+          .add(servo.relaxation_steps / direct.relaxation_steps, servo.cpu / direct.cpu,
+               distance(*direct_run, *servo_run),
+               relaxed_run ? distance(*relaxed_run, *servo_run) : none);
     }
   }
   if (rows == 0) return;
   table.print();
   table.write(study.results / "servo_cost.csv");
+  bars.judge(study.facts);
 }
 
 }  // namespace verification

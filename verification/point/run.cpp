@@ -122,10 +122,11 @@ PointEnd run_point(const PointScene& scene, const std::filesystem::path& stem) {
   end.cpu += cpu_seconds() - start;
   end.steps = driver.record().step;
   end.deformation = driver.record().deformation;
-  history.draw_figure(scene.abscissa, scene.name);
+  if (scene.figure) history.draw_figure(scene.abscissa, scene.name);
   observer.draw();
-  fmt::print("{}: {}{}\nwrote {}.csv, .svg, .png\n", scene.name, history.summary(),
-             end.steps < end.steps_wanted ? "\n  ended: " + end.text : "", stem.string());
+  fmt::print("{}: {}{}\nwrote {}.csv{}\n", scene.name, history.summary(),
+             end.steps < end.steps_wanted ? "\n  ended: " + end.text : "", stem.string(),
+             scene.figure ? ", .svg, .png" : "");
   return end;
 }
 

@@ -34,6 +34,7 @@ PointScene read_scene(SceneTable table, const std::string& name) {
   scene.pictures = read_pictures(table);
   scene.picture_force = table.number_or("picture_force", 0, not_negative);
   scene.particle_measures = table.flag_or("particle_measures", false);
+  scene.figure = table.flag_or("figure", true);
   scene.may_end = table.flag_or("may_end", false);
   table.close();
   return scene;

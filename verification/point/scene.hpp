@@ -21,6 +21,7 @@ struct PointScene {
   std::vector<double> pictures;  // abscissae from which on the particles are drawn, increasing [-]
   double picture_force = 0;      // whose bar is a mean radius wide [N]; 0: see draw_snapshots
   bool particle_measures = false;  // also write NAME_particles.csv
+  bool figure = true;              // draw the history
   bool may_end = false;            // a path that ends early is a result, not a failure
 };
 

@@ -39,7 +39,7 @@ std::array<double, 2> colour_range(const MeshPanel& panel) {
       high = std::max(high, value);
     }
   if (!(low <= high)) return {0, 1};
-  const double room = 1e-6 * std::max({std::abs(low), std::abs(high), 1e-12});
+  const double room = 1e-4 * std::max({std::abs(low), std::abs(high), 1e-12});
   return high - low > room ? std::array{low, high} : std::array{low - room, high + room};
 }
 
@@ -125,7 +125,7 @@ bool draw_mesh(const std::vector<MeshPanel>& panels, const std::string& title,
     body += fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n",
                         millimetre * b.low.x(), millimetre * b.high.x(), millimetre * b.low.y(),
                         millimetre * b.high.y());
-    body += fmt::format("set cbrange [{:.6g}:{:.6g}]\nset cbtics scale 0.5 format '%g'\n", range[0],
+    body += fmt::format("set cbrange [{:.9g}:{:.9g}]\nset cbtics scale 0.5 format '%g'\n", range[0],
                         range[1]);
     body += fmt::format(
         "set colorbox user origin screen {:.5f},{:.5f} size screen {:.5f},{:.5f} "
