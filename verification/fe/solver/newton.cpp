@@ -47,8 +47,7 @@ Eigen::VectorXd solve(const System& system, const Dofs& dofs, const Eigen::Vecto
   const Eigen::VectorXd force = dofs.reduce(system.residual - system.stiffness * prescribed);
   Triplets triplets;
   for (int column = 0; column < system.stiffness.outerSize(); ++column)
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(system.stiffness, column); entry;
-         ++entry)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(system.stiffness, column); entry; ++entry)
       dofs.follow(static_cast<std::size_t>(entry.row()), [&](int i, double row_factor) {
         dofs.follow(static_cast<std::size_t>(entry.col()), [&](int k, double column_factor) {
           triplets.emplace_back(i, k, row_factor * entry.value() * column_factor);
@@ -137,6 +136,24 @@ class NewtonSolver final : public Solver {
     residuals.push_back(error(system, prescribed));
     double best = std::numeric_limits<double>::infinity();
     int best_iteration = 0;
+    Eigen::VectorXd nearest;  // of the displacements that bear the whole load
+    double nearest_residual = std::numeric_limits<double>::infinity();
+    const auto end_here = [&](bool at_jump) {
+      displacement_ = displacement;
+      system_ = system;
+      time_ = time;
+      return Attempt{.converged = true, .loose = at_jump};
+    };
+    // The points start from elsewhere now, and may find other packings.
+    const auto back_at_nearest = [&] {
+      if (nearest_residual > options_.jump_tolerance) return false;
+      nearest_residual = std::numeric_limits<double>::infinity();
+      if (points_.evaluate(nearest, options_.tangent, threads_) != GRAINLAW_OK) return false;
+      displacement = nearest;
+      system = assemble(model_, points_, displacement, time);
+      residuals.push_back(error(system, prescribed));
+      return residuals.back() <= options_.jump_tolerance;
+    };
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
       Eigen::VectorXd correction;
       {
@@ -152,6 +169,7 @@ class NewtonSolver final : public Solver {
           correct(displacement, system, correction, time, residuals.back(), halvings);
       if (!step.converged) {
         residuals.push_back(std::numeric_limits<double>::quiet_NaN());
+        if (prescribed.isZero(0) && back_at_nearest()) return end_here(true);
         return step;
       }
       const double before = residuals.back();
@@ -170,13 +188,13 @@ class NewtonSolver final : public Solver {
                            options_.tangent == GRAINLAW_WANT_TANGENT_EXACT;
       const bool at_jump =
           near && residual > tolerance && (slow || stalled || made == options_.max_iterations);
-      if ((loaded && residual <= tolerance) || at_jump) {
-        displacement_ = displacement;
-        system_ = system;
-        time_ = time;
-        return {.converged = true, .loose = at_jump};
-      }
+      if ((loaded && residual <= tolerance) || at_jump) return end_here(at_jump);
+      if ((slow || stalled) && back_at_nearest()) return end_here(true);
       if (stalled) break;
+      if (loaded && residual < nearest_residual) {
+        nearest = displacement;
+        nearest_residual = residual;
+      }
     }
     return {.reason =
                 fmt::format("Newton did not converge (best relative residual {:.1e} [-])", best)};
