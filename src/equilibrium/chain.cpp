@@ -20,9 +20,14 @@ struct Effort {
   int first_factorisations;  // where Newton works at once, it works soon
   int most_factorisations;
   double relaxation_steps;  // with up to 400 nodes
+  int finest;               // sub-increments, times those that the size of the increment asks for
 };
-constexpr Effort full_effort{9, 12, 50, 1500};
-constexpr Effort bounded_effort{3, 12, 20, 1000};  // with a loose tolerance to end at
+constexpr Effort full_effort{9, 12, 50, 1500, 8};
+constexpr Effort bounded_effort{3, 12, 20, 1000, 2};  // with a loose tolerance to end at
+
+const Effort& effort_of(const SolverOptions& options) {
+  return options.loose_tolerance > 0 ? bounded_effort : full_effort;
+}
 
 long relaxation_limit(double steps, std::size_t nodes) {
   return static_cast<long>(steps * std::sqrt(std::max(1.0, static_cast<double>(nodes) / 400)));
@@ -92,7 +97,7 @@ bool solve_part(const Request& request, Workspace& w) {
   constexpr double worth_newton = 0.5;  // a looser target is sooner reached by relaxation alone
   auto& increment = w.increment;
   const double loose_tolerance = request.options->loose_tolerance;
-  const Effort& effort = loose_tolerance > 0 ? bounded_effort : full_effort;
+  const Effort& effort = effort_of(*request.options);
   const long steps = relaxation_limit(effort.relaxation_steps, increment.nodes());
   increment.refresh_masses();
   // Where rounding is all that is left, there is no equilibrium to speak of. Forces may fade on the
@@ -189,7 +194,10 @@ bool solve_advancing(const Request& request, Method method, Workspace& w, Outcom
       return relax_published(increment, request.tolerance, request.options->published, {},
                              w.relaxation);
     }
-    return relax(increment, request.tolerance,
+    const double loosest = request.options->method == Method::chain
+                               ? std::max(request.tolerance, request.options->loose_tolerance)
+                               : request.tolerance;
+    return relax(increment, loosest,
                  50 * relaxation_limit(full_effort.relaxation_steps, increment.nodes()),
                  History::advancing, w.relaxation);
   };
@@ -228,7 +236,8 @@ Outcome solve(const Request& request, Workspace& w) {
     if (request.options->method != Method::chain) {
       return attempt(solve_advancing(request, request.options->method, w, outcome));
     }
-    for (const int refinement : {1, 2, 4, 8}) {
+    const int finest = effort_of(*request.options).finest;
+    for (int refinement = 1; refinement <= finest; refinement *= 2) {
       if (parts * refinement > most_subincrements) break;
       if (attempt(solve_parts(request, parts * refinement, w, outcome))) return true;
       if (w.increment.touching == 0 || w.increment.collapsed()) return false;
