@@ -18,7 +18,7 @@ namespace {
 
 constexpr double increment = 1e-3;  // of the axial strain [-]
 
-// Processor time of all threads.
+// Processor time of all threads [ms].
 double cpu_of_all() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
