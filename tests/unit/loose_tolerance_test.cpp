@@ -7,34 +7,56 @@ namespace {
 constexpr double tolerance = 1e-8;
 constexpr double loose = 1e-2;
 
-// Through the peak of simple compression at constant area; both start every increment where the one
+struct Count {
+  int increments = 0, same = 0, ended_loosely = 0, near = 0;
+};
+
+// Through the peak of compression at constant area in increments of 0.4 %, hard on purpose; both states start every increment where the one
 // with full effort ended the last.
-TEST(loose_tolerance, ends_where_a_packing_does_not_settle_and_changes_nothing_elsewhere) {
-  auto description = describe(small_packing(100, 3), rough_law(), BoundaryType::periodic_cell);
+Count compare(std::uint64_t seed) {
+  ContactLaw law = rough_law();
+  law.friction = 1.5;  // flutters more than the usual friction
+  auto description = describe(small_packing(100, seed), law, BoundaryType::periodic_cell);
   description.solver.tolerance = tolerance;
+  description.solver.increment_limit = 10;
   const auto material = make_material(description);
   description.solver.loose_tolerance = loose;
   const auto bounded = make_material(description);
   State full(material);
   State state(bounded);
-  int same = 0;
-  int ended_loosely = 0;
-  for (int k = 1; k <= 25; ++k) {
-    const Tensor F{1 + 1e-3 * k, 0, 0, 1 - 1e-3 * k};
+  Count count;
+  for (int k = 1; k <= 20; ++k) {
+    const Tensor F{1 + 4e-3 * k, 0, 0, 1 - 4e-3 * k};
     const Evaluation expected = evaluate(full, F, TangentKind::exact);
+    if (expected.status != GRAINLAW_OK) break;
     const Evaluation at = evaluate(state, F, TangentKind::exact);
-    ASSERT_EQ(at.status, GRAINLAW_OK) << k;
+    EXPECT_EQ(at.status, GRAINLAW_OK) << k;
     EXPECT_LE(at.report.residual, loose);
-    if (at.stress == expected.stress && at.tangent == expected.tangent) ++same;
+    ++count.increments;
+    if (at.stress == expected.stress && at.tangent == expected.tangent) ++count.same;
     if (at.report.residual > tolerance) {
-      ++ended_loosely;
-      EXPECT_LT(relative_difference(at.stress, expected.stress), 1e-3) << k;
+      ++count.ended_loosely;
+      if (relative_difference(at.stress, expected.stress) < 1e-2) ++count.near;
     }
     full.commit();
     state.restore(full.committed());
   }
-  EXPECT_GE(same, 22);
-  EXPECT_GE(ended_loosely, 1);
+  return count;
+}
+
+TEST(loose_tolerance, ends_where_a_packing_does_not_settle_and_changes_nothing_elsewhere) {
+  Count all;
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const Count count = compare(seed);
+    all.increments += count.increments;
+    all.same += count.same;
+    all.ended_loosely += count.ended_loosely;
+    all.near += count.near;
+  }
+  EXPECT_EQ(all.increments, 80);
+  EXPECT_GE(2 * all.same, all.increments);
+  EXPECT_GE(all.ended_loosely, 1);
+  EXPECT_GE(2 * all.near, all.ended_loosely);  // the others find another packing
 }
 
 }  // namespace
