@@ -11,8 +11,8 @@ struct Count {
   int increments = 0, same = 0, ended_loosely = 0, near = 0;
 };
 
-// Through the peak of compression at constant area in increments of 0.4 %, hard on purpose; both states start every increment where the one
-// with full effort ended the last.
+// Through the peak of compression at constant area in increments of 0.4 %, hard on purpose; both
+// states start every increment where the one with full effort ended the last.
 Count compare(std::uint64_t seed) {
   ContactLaw law = rough_law();
   law.friction = 1.5;  // flutters more than the usual friction
