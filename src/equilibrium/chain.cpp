@@ -25,8 +25,8 @@ struct Effort {
 constexpr Effort full_effort{9, 12, 50, 1500, 8};
 constexpr Effort bounded_effort{3, 12, 20, 1000, 2};  // with a loose tolerance to end at
 
-const Effort& effort_of(const SolverOptions& options) {
-  return options.loose_tolerance > 0 ? bounded_effort : full_effort;
+const Effort& effort_of(const Request& request) {
+  return request.loose_tolerance > 0 ? bounded_effort : full_effort;
 }
 
 long relaxation_limit(double steps, std::size_t nodes) {
@@ -96,8 +96,7 @@ bool solve_part(const Request& request, Workspace& w) {
   constexpr double much_tighter = 0.1;
   constexpr double worth_newton = 0.5;  // a looser target is sooner reached by relaxation alone
   auto& increment = w.increment;
-  const double loose_tolerance = request.options->loose_tolerance;
-  const Effort& effort = effort_of(*request.options);
+  const Effort& effort = effort_of(request);
   const long steps = relaxation_limit(effort.relaxation_steps, increment.nodes());
   increment.refresh_masses();
   // Where rounding is all that is left, there is no equilibrium to speak of. Forces may fade on the
@@ -118,7 +117,7 @@ bool solve_part(const Request& request, Workspace& w) {
     const int factorisations =
         round == 0 ? effort.first_factorisations : effort.most_factorisations;
     if (flow_newton(increment, target, factorisations, w.newton)) return true;
-    if (round > 0 && increment.residual_norm() < loose_tolerance) return true;
+    if (round > 0 && increment.residual_norm() < request.loose_tolerance) return true;
     hand_over *= round < 2 ? tighter : much_tighter;
     target = reachable();
   }
@@ -195,7 +194,7 @@ bool solve_advancing(const Request& request, Method method, Workspace& w, Outcom
                              w.relaxation);
     }
     const double loosest = request.options->method == Method::chain
-                               ? std::max(request.tolerance, request.options->loose_tolerance)
+                               ? std::max(request.tolerance, request.loose_tolerance)
                                : request.tolerance;
     return relax(increment, loosest,
                  50 * relaxation_limit(full_effort.relaxation_steps, increment.nodes()),
@@ -236,7 +235,7 @@ Outcome solve(const Request& request, Workspace& w) {
     if (request.options->method != Method::chain) {
       return attempt(solve_advancing(request, request.options->method, w, outcome));
     }
-    const int finest = effort_of(*request.options).finest;
+    const int finest = effort_of(request).finest;
     for (int refinement = 1; refinement <= finest; refinement *= 2) {
       if (parts * refinement > most_subincrements) break;
       if (attempt(solve_parts(request, parts * refinement, w, outcome))) return true;

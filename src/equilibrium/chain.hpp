@@ -30,6 +30,7 @@ struct Request {
   const Configuration* from = nullptr;
   std::array<double, 4> deformation{};  // F to reach, without rotation against `from`
   double tolerance = 1e-6;
+  double loose_tolerance = 0;  // as in SolverOptions, of this request
   bool sensitivities = false;
   // Coordinates (rotations counted from `from`) to start the iteration from, at guess_deformation;
   // null: the affine image.

@@ -101,6 +101,7 @@ grainlaw_status perturb(Request request, Workspace& w, std::array<double, 16>& t
                         grainlaw_report& report) {
   const auto centre = request.deformation;
   request.tolerance = std::min(request.tolerance, perturbed_tolerance);
+  request.loose_tolerance = 0;  // differences need it all
   request.sensitivities = false;
   request.guess = nullptr;
   const auto stress_at = [&](std::size_t component, double step, std::array<double, 4>& p) {
@@ -192,6 +193,7 @@ grainlaw_status State::evaluate(const double* given, TangentKind kind, double* P
   const Problem problem = material.problem();
   Request request{&problem, &material.solver, &committed_, split.target};
   request.tolerance = material.solver.tolerance;
+  request.loose_tolerance = material.solver.loose_tolerance;
   request.sensitivities = kind == TangentKind::exact;
   if (had_trial && material.solver.start == Start::trial) {
     guess_from_trial(committed_, trial_, particles, w, request);

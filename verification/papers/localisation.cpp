@@ -140,7 +140,7 @@ void draw_meshes(HierarchicalStudy& study) {
                       "6 x 10 with Q8",
                       fmt::format("{:.3f} to {:.3f} over the points", least, most),
                       r.strain.back() < 9.9 ? "ended before"
-                      : most > 3 * least    ? "agrees"
+                      : most > 3 * least    ? "localises; a band or not: see the pictures"
                                             : "differs");
     }
   }
