@@ -91,7 +91,7 @@ void start_iteration(const Request& request, double share, Increment& increment)
 
 // One sub-increment: relaxation, then Newton; when Newton does not get there, both again from where
 // they are, the relaxation longer and tighter, at last down to the target itself.
-bool solve_part(const Request& request, Workspace& w) {
+bool solve_part(const Request& request, Workspace& w, Outcome& outcome) {
   constexpr double tighter = 0.3;
   constexpr double much_tighter = 0.1;
   constexpr double worth_newton = 0.5;  // a looser target is sooner reached by relaxation alone
@@ -117,7 +117,9 @@ bool solve_part(const Request& request, Workspace& w) {
     const int factorisations =
         round == 0 ? effort.first_factorisations : effort.most_factorisations;
     if (flow_newton(increment, target, factorisations, w.newton)) return true;
-    if (round > 0 && increment.residual_norm() < request.loose_tolerance) return true;
+    if (round > 0 && increment.residual_norm() < request.loose_tolerance) {
+      return outcome.loose = true;
+    }
     hand_over *= round < 2 ? tighter : much_tighter;
     target = reachable();
   }
@@ -140,6 +142,7 @@ bool solve_parts(const Request& request, int parts, Workspace& w, Outcome& outco
   auto& increment = w.increment;
   w.sensitivity.reset();
   outcome.subincrements = parts;
+  outcome.loose = false;
   outcome.sensitivities = request.sensitivities;
   for (int k = 1; k <= parts; ++k) {
     const double share = static_cast<double>(k) / parts;
@@ -148,11 +151,12 @@ bool solve_parts(const Request& request, int parts, Workspace& w, Outcome& outco
     } else {
       increment.deform(between(request.from->deformation, request.deformation, share));
     }
-    if (!solve_part(request, w)) return false;
+    if (!solve_part(request, w, outcome)) return false;
     double start = static_cast<double>(k - 1) / parts;
     const auto find_sensitivities = [&] {
       if (!outcome.sensitivities || (may_be_free(request) && !increment.bears())) return;
-      outcome.sensitivities = w.sensitivity.solve(increment, share, start, w.newton.stiffness);
+      outcome.sensitivities = !outcome.loose && w.sensitivity.solve(increment, share, start,
+                                                                    w.newton.stiffness);
     };
     const auto carry = [&] {
       if (!outcome.sensitivities) return;
@@ -165,7 +169,7 @@ bool solve_parts(const Request& request, int parts, Workspace& w, Outcome& outco
     find_sensitivities();
     const bool settled = settle_bonds(increment, carry, [&] {
       start = share;
-      if (!solve_part(request, w)) return false;
+      if (!solve_part(request, w, outcome)) return false;
       find_sensitivities();
       return true;
     });
@@ -203,7 +207,8 @@ bool solve_advancing(const Request& request, Method method, Workspace& w, Outcom
   const auto settled = [&] { return equilibrium() || is_free(request, increment); };
   const bool done = settled() && settle_bonds(
                                      increment, [] {}, settled);
-  outcome.sensitivities = done && request.sensitivities && increment.bears() &&
+  outcome.loose = request.loose_tolerance > 0 && increment.residual_norm() > request.tolerance;
+  outcome.sensitivities = done && request.sensitivities && !outcome.loose && increment.bears() &&
                           w.sensitivity.solve(increment, 1, 0, w.newton.stiffness);
   return done;
 }

@@ -42,6 +42,7 @@ struct Outcome {
   grainlaw_status status = GRAINLAW_NOT_CONVERGED;
   int subincrements = 1;
   bool history_advanced = false;  // approximate: friction history advanced during the relaxation
+  bool loose = false;             // ended at the loose tolerance: close to an equilibrium, none
   bool sensitivities = false;     // they exist, and belong to this solution
   double step_ratio = 1;
 };

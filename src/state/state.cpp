@@ -135,7 +135,9 @@ std::array<double, 16> tangent_of(const Workspace& w, const Outcome& outcome, Ta
   }
   if (kind != TangentKind::exact && kind != TangentKind::elastic) return {};
   if (kind == TangentKind::exact) {
-    describe(report, "the stiffness is singular; the elastic tangent was returned");
+    describe(report, outcome.loose
+                         ? "ended at solver.loose_tolerance; the elastic tangent was returned"
+                         : "the stiffness is singular; the elastic tangent was returned");
   }
   return elastic_tangent(w.increment);
 }

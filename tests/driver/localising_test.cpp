@@ -31,8 +31,7 @@ struct Result {
 };
 
 Result compress(int divisions, const NewtonOptions& options,
-                const Material& material = packing_material()) {
-  constexpr double strain = 2e-3;
+                const Material& material = packing_material(), double strain = 2e-3) {
   constexpr int steps = 2;
   const Model model = specimen(divisions, strain);
   const auto solver = make_newton_solver(model, material, options, 1);
@@ -93,17 +92,23 @@ TEST(localising, a_correction_beyond_the_largest_is_made_in_parts_to_the_same_eq
             1e-5 * whole.record.cauchy.norm());
 }
 
-// The elastic tangent converges as slowly as the exact one does across jumps.
+// Where many contacts slide the elastic tangent converges as slowly as the exact one does across
+// jumps.
 TEST(localising, a_slow_iteration_ends_below_the_jump_tolerance) {
-  NewtonOptions options{
-      .tangent = GRAINLAW_WANT_TANGENT_ELASTIC, .tolerance = 1e-6, .jump_tolerance = 1e-2};
-  EXPECT_EQ(compress(1, options).loose, 0);
+  const auto loose_parts = [](const NewtonOptions& options) {
+    const Result result = compress(1, options, packing_material(), 8e-3);
+    EXPECT_EQ(result.cuts, 0);
+    return result.loose;
+  };
+  NewtonOptions options{.tangent = GRAINLAW_WANT_TANGENT_ELASTIC,
+                        .tolerance = 1e-6,
+                        .max_iterations = 60,
+                        .jump_tolerance = 1e-2};
+  EXPECT_EQ(loose_parts(options), 0);
   options.jump_iterations = 3;
-  const Result result = compress(1, options);
-  EXPECT_EQ(result.cuts, 0);
-  EXPECT_EQ(result.loose, 3);  // the pressure, and two steps
+  EXPECT_EQ(loose_parts(options), 2);  // not under the pressure alone
   options.tangent = GRAINLAW_WANT_TANGENT_EXACT;
-  EXPECT_EQ(compress(1, options).loose, 0);
+  EXPECT_EQ(loose_parts(options), 0);
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ namespace {
 // An attempt with an exact tangent ends when this many iterations in a row have not halved the
 // residual: after the peak P(F) has jumps, and Newton then goes to and fro across one.
 constexpr int patience = 4;
-constexpr int jump_patience = 2;  // at a residual that may stay
-constexpr double fast = 0.2;      // a correction that leaves less than this of it
+constexpr int jump_patience = 2;    // at a residual that may stay
+constexpr double slow_ratio = 0.5;  // a correction that leaves more than this of it
 
 // Residual and stiffness of all displacement components at one displacement and one load.
 struct System {
@@ -136,24 +136,6 @@ class NewtonSolver final : public Solver {
     residuals.push_back(error(system, prescribed));
     double best = std::numeric_limits<double>::infinity();
     int best_iteration = 0;
-    Eigen::VectorXd nearest;  // of the displacements that bear the whole load
-    double nearest_residual = std::numeric_limits<double>::infinity();
-    const auto end_here = [&](bool at_jump) {
-      displacement_ = displacement;
-      system_ = system;
-      time_ = time;
-      return Attempt{.converged = true, .loose = at_jump};
-    };
-    // The points start from elsewhere now, and may find other packings.
-    const auto back_at_nearest = [&] {
-      if (nearest_residual > options_.jump_tolerance) return false;
-      nearest_residual = std::numeric_limits<double>::infinity();
-      if (points_.evaluate(nearest, options_.tangent, threads_) != GRAINLAW_OK) return false;
-      displacement = nearest;
-      system = assemble(model_, points_, displacement, time);
-      residuals.push_back(error(system, prescribed));
-      return residuals.back() <= options_.jump_tolerance;
-    };
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
       Eigen::VectorXd correction;
       {
@@ -169,7 +151,6 @@ class NewtonSolver final : public Solver {
           correct(displacement, system, correction, time, residuals.back(), halvings);
       if (!step.converged) {
         residuals.push_back(std::numeric_limits<double>::quiet_NaN());
-        if (prescribed.isZero(0) && back_at_nearest()) return end_here(true);
         return step;
       }
       const double before = residuals.back();
@@ -183,18 +164,17 @@ class NewtonSolver final : public Solver {
       const bool loaded = prescribed.isZero(0);
       const bool near = loaded && residual <= options_.jump_tolerance;
       const bool slow = options_.jump_iterations > 0 && made >= options_.jump_iterations &&
-                        residual > fast * before;
+                        residual > slow_ratio * before;
       const bool stalled = iteration >= best_iteration + (near ? jump_patience : patience) &&
                            options_.tangent == GRAINLAW_WANT_TANGENT_EXACT;
-      const bool at_jump =
-          near && residual > tolerance && (slow || stalled || made == options_.max_iterations);
-      if ((loaded && residual <= tolerance) || at_jump) return end_here(at_jump);
-      if ((slow || stalled) && back_at_nearest()) return end_here(true);
-      if (stalled) break;
-      if (loaded && residual < nearest_residual) {
-        nearest = displacement;
-        nearest_residual = residual;
+      const bool converged = loaded && residual <= tolerance;
+      if (converged || (near && (slow || stalled || made == options_.max_iterations))) {
+        displacement_ = displacement;
+        system_ = system;
+        time_ = time;
+        return {.converged = true, .loose = !converged};
       }
+      if (stalled) break;
     }
     return {.reason =
                 fmt::format("Newton did not converge (best relative residual {:.1e} [-])", best)};

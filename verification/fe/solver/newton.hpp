@@ -15,10 +15,9 @@ struct NewtonOptions {
   // loose part; 0: never [-].
   double loose_tolerance = 0;
   // Newton going to and fro across such a jump without getting closer than this is taken for
-  // converged, where it is or where it was nearest, and counted as a loose part too; 0: the step is
-  // cut instead [-].
+  // converged, and counted as a loose part too; 0: the step is cut instead [-].
   double jump_tolerance = 0;
-  // From so many iterations on, one that leaves more than a fifth of the residual is enough to tell
+  // From so many iterations on, one that leaves more than half of the residual is enough to tell
   // such a jump; 0: it has to stall first.
   int jump_iterations = 0;
   // Corrections are shortened so that no F changes by more than this (Frobenius norm): a correction
