@@ -24,9 +24,11 @@ struct Effort {
 };
 constexpr Effort full_effort{9, 12, 50, 1500, 8};
 constexpr Effort bounded_effort{3, 12, 20, 1000, 2};  // with a loose tolerance to end at
+constexpr Effort repeated_effort{2, 12, 20, 1000, 1};  // what fluttered before seldom settles now
 
 const Effort& effort_of(const Request& request) {
-  return request.loose_tolerance > 0 ? bounded_effort : full_effort;
+  if (request.loose_tolerance == 0) return full_effort;
+  return request.guess_loose ? repeated_effort : bounded_effort;
 }
 
 long relaxation_limit(double steps, std::size_t nodes) {
@@ -117,7 +119,8 @@ bool solve_part(const Request& request, Workspace& w, Outcome& outcome) {
     const int factorisations =
         round == 0 ? effort.first_factorisations : effort.most_factorisations;
     if (flow_newton(increment, target, factorisations, w.newton)) return true;
-    if (round > 0 && increment.residual_norm() < request.loose_tolerance) {
+    const bool settled_before = !request.guess_loose;
+    if ((round > 0 || !settled_before) && increment.residual_norm() < request.loose_tolerance) {
       return outcome.loose = true;
     }
     hand_over *= round < 2 ? tighter : much_tighter;

@@ -36,6 +36,7 @@ struct Request {
   // null: the affine image.
   const std::vector<double>* guess = nullptr;
   std::array<double, 4> guess_deformation{};
+  bool guess_loose = false;  // it ended at the loose tolerance
 };
 
 struct Outcome {

@@ -199,6 +199,7 @@ grainlaw_status State::evaluate(const double* given, TangentKind kind, double* P
   request.sensitivities = kind == TangentKind::exact;
   if (had_trial && material.solver.start == Start::trial) {
     guess_from_trial(committed_, trial_, particles, w, request);
+    request.guess_loose = trial_loose_;
   }
   const auto outcome = solve(request, w);
   add_cost(w.increment, report);
@@ -251,6 +252,7 @@ grainlaw_status State::evaluate(const double* given, TangentKind kind, double* P
     const auto a = bound_to_axes ? tangent : rotate_tangent(split, committed, stress, tangent);
     std::copy_n(a.begin(), 16, A);
   }
+  trial_loose_ = outcome.loose;
   has_trial_ = true;
   return GRAINLAW_OK;
 }

@@ -40,6 +40,7 @@ class State {
   Configuration committed_;
   Configuration trial_;
   bool has_trial_ = false;
+  bool trial_loose_ = false;  // ended at the loose tolerance
 };
 
 }  // namespace grainlaw
