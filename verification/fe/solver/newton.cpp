@@ -16,8 +16,9 @@ namespace verification {
 namespace {
 
 // An attempt with an exact tangent ends when this many iterations in a row have not halved the
-// residual: after the peak P(F) has jumps, and Newton then goes to and fro across one.
-constexpr int patience = 4;
+// residual: after the peak P(F) has jumps, and Newton may go to and fro across one. Points that
+// ended loosely bring elastic tangents, with which it gets there slowly but does.
+constexpr int patience = 8;
 constexpr int jump_patience = 2;    // at a residual that may stay
 constexpr double slow_ratio = 0.5;  // a correction that leaves more than this of it
 
