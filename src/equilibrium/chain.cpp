@@ -23,7 +23,7 @@ struct Effort {
   int finest;               // sub-increments, times those that the size of the increment asks for
 };
 constexpr Effort full_effort{9, 12, 50, 1500, 8};
-constexpr Effort bounded_effort{3, 12, 20, 1000, 2};  // with a loose tolerance to end at
+constexpr Effort bounded_effort{3, 12, 20, 1000, 2};   // with a loose tolerance to end at
 constexpr Effort repeated_effort{2, 12, 20, 1000, 1};  // what fluttered before seldom settles now
 
 const Effort& effort_of(const Request& request) {
@@ -119,8 +119,8 @@ bool solve_part(const Request& request, Workspace& w, Outcome& outcome) {
     const int factorisations =
         round == 0 ? effort.first_factorisations : effort.most_factorisations;
     if (flow_newton(increment, target, factorisations, w.newton)) return true;
-    const bool settled_before = !request.guess_loose;
-    if ((round > 0 || !settled_before) && increment.residual_norm() < request.loose_tolerance) {
+    const bool too_soon = round == 0 && !request.guess_loose;
+    if (!too_soon && increment.residual_norm() < request.loose_tolerance) {
       return outcome.loose = true;
     }
     hand_over *= round < 2 ? tighter : much_tighter;
@@ -158,8 +158,8 @@ bool solve_parts(const Request& request, int parts, Workspace& w, Outcome& outco
     double start = static_cast<double>(k - 1) / parts;
     const auto find_sensitivities = [&] {
       if (!outcome.sensitivities || (may_be_free(request) && !increment.bears())) return;
-      outcome.sensitivities = !outcome.loose && w.sensitivity.solve(increment, share, start,
-                                                                    w.newton.stiffness);
+      outcome.sensitivities =
+          !outcome.loose && w.sensitivity.solve(increment, share, start, w.newton.stiffness);
     };
     const auto carry = [&] {
       if (!outcome.sensitivities) return;
@@ -210,6 +210,7 @@ bool solve_advancing(const Request& request, Method method, Workspace& w, Outcom
   const auto settled = [&] { return equilibrium() || is_free(request, increment); };
   const bool done = settled() && settle_bonds(
                                      increment, [] {}, settled);
+  // Counts as such too: an F at which the contacts were lost this way.
   outcome.loose = request.loose_tolerance > 0 && increment.residual_norm() > request.tolerance;
   outcome.sensitivities = done && request.sensitivities && !outcome.loose && increment.bears() &&
                           w.sensitivity.solve(increment, 1, 0, w.newton.stiffness);

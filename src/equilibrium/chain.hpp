@@ -36,7 +36,7 @@ struct Request {
   // null: the affine image.
   const std::vector<double>* guess = nullptr;
   std::array<double, 4> guess_deformation{};
-  bool guess_loose = false;  // it ended at the loose tolerance
+  bool guess_loose = false;  // as Outcome::loose of the trial it comes from
 };
 
 struct Outcome {

@@ -42,7 +42,8 @@ Result compress(int divisions, const NewtonOptions& options,
     result.iterations += step.record.effort.iterations;
     result.loose += step.record.effort.loose;
   });
-  result.corner = solver->displacement().segment<2>(2 * model.mesh.node_sets.at("top_right").front());
+  result.corner =
+      solver->displacement().segment<2>(2 * model.mesh.node_sets.at("top_right").front());
   return result;
 }
 

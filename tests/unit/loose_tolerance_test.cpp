@@ -23,9 +23,7 @@ MaterialDescription fluttering(std::uint64_t seed) {
 }
 
 // Through the peak of compression at constant area in increments of 0.4 %, hard on purpose.
-Tensor compressed(int increments) {
-  return {1 + 4e-3 * increments, 0, 0, 1 - 4e-3 * increments};
-}
+Tensor compressed(int increments) { return {1 + 4e-3 * increments, 0, 0, 1 - 4e-3 * increments}; }
 
 // Both states start every increment where the one with full effort ended the last.
 Count compare(std::uint64_t seed) {
@@ -48,7 +46,8 @@ Count compare(std::uint64_t seed) {
     if (at.report.residual > tolerance) {
       ++count.ended_loosely;
       EXPECT_EQ(at.report.tangent_exact, 0);
-      EXPECT_NE(std::string_view(at.report.message).find("loose_tolerance"), std::string_view::npos);
+      EXPECT_NE(std::string_view(at.report.message).find("loose_tolerance"),
+                std::string_view::npos);
       EXPECT_EQ(at.tangent, evaluate(state, F, TangentKind::elastic).tangent);
       if (relative_difference(at.stress, expected.stress) < 1e-2) ++count.near;
     }
