@@ -15,11 +15,7 @@
 namespace verification {
 namespace {
 
-// An attempt with an exact tangent ends when this many iterations in a row have not halved the
-// residual: after the peak P(F) has jumps, and Newton may go to and fro across one. Points that
-// ended loosely bring elastic tangents, with which it gets there slowly but does.
-constexpr int patience = 8;
-constexpr int jump_patience = 2;    // at a residual that may stay
+constexpr int jump_patience = 2;    // as NewtonOptions::patience, at a residual that may stay
 constexpr double slow_ratio = 0.5;  // a correction that leaves more than this of it
 
 // Residual and stiffness of all displacement components at one displacement and one load.
@@ -166,7 +162,7 @@ class NewtonSolver final : public Solver {
       const bool near = loaded && residual <= options_.jump_tolerance;
       const bool slow = options_.jump_iterations > 0 && made >= options_.jump_iterations &&
                         residual > slow_ratio * before;
-      const bool stalled = iteration >= best_iteration + (near ? jump_patience : patience) &&
+      const bool stalled = iteration >= best_iteration + (near ? jump_patience : options_.patience) &&
                            options_.tangent == GRAINLAW_WANT_TANGENT_EXACT;
       const bool converged = loaded && residual <= tolerance;
       if (converged || (near && (slow || stalled || made == options_.max_iterations))) {

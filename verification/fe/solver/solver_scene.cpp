@@ -12,6 +12,7 @@ NewtonOptions read_newton(SceneTable table) {
   options.loose_tolerance = table.number_or("loose_tolerance", 0, not_negative);
   options.jump_tolerance = table.number_or("jump_tolerance", 0, not_negative);
   options.jump_iterations = table.integer_or("jump_iterations", 0, 0);
+  options.patience = table.integer_or("patience", options.patience, 1);
   options.largest_correction = table.number_or("largest_correction", 0, not_negative);
   options.max_iterations = table.integer_or("max_iterations", options.max_iterations, 1);
   options.line_search = table.integer_or("line_search", 0, 0);
