@@ -111,6 +111,12 @@ GRAINLAW_INLINE Vector magnitude(const Vector& a) {
   using Bits = typename simd::Vector<sizeof a / sizeof(double)>::bits;
   return (Vector)((Bits)a & 0x7fffffffffffffffLL);
 }
+// Of the components where `sign` is -0, the other sign.
+template <class Vector>
+GRAINLAW_INLINE Vector flip(const Vector& a, const Vector& sign) {
+  using Bits = typename simd::Vector<sizeof a / sizeof(double)>::bits;
+  return (Vector)((Bits)a ^ (Bits)sign);
+}
 template <class Vector>
 GRAINLAW_INLINE double sum(const Vector& a) {
   double total = 0;

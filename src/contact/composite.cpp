@@ -8,9 +8,6 @@ namespace {
 
 using namespace contact_loops;
 
-// The force on i against that on j; so is the moment of rolling and bending.
-constexpr ForceRecord opposite = {-1, -1, 1, -1};
-
 // The loops of one law.
 struct Loops {
   LoopResult (*near)(const Loop&);

@@ -17,12 +17,26 @@ static_assert(sizeof(ParticleRecord) == sizeof(Record) && sizeof(ForceRecord) ==
 
 constexpr double tiny = std::numeric_limits<double>::min();
 constexpr double hertz_share = 2.0 / 3;  // fn / (kn overlap)
-// Up to this tangent the series of an angle is exact to round-off: 11 degrees, more than touching
+// Up to this sine the series of an angle is exact to round-off: 11 degrees, more than touching
 // contacts usually turn by in an increment of a host's size.
 constexpr double short_series = 0.2;
 
-// The arc tangent of t by its series, without a trigonometric call; to round-off for |t| <= 0.2.
-// Summed in pairs: one long chain of multiplications would set the pace of the whole loop.
+// The arc sine of s by its series, without a trigonometric call; to round-off for |s| <= 0.2. Even
+// and odd powers apart: one long chain of multiplications would set the pace of the whole loop.
+template <class Vector>
+GRAINLAW_INLINE Vector arc_sine(const Vector& s) {
+  const Vector u = s * s;
+  const Vector u2 = u * u;
+  const Vector u4 = u2 * u2;
+  const Vector even = (1.0 + u2 * (3.0 / 40)) +
+                      u4 * ((35.0 / 1152 + u2 * (231.0 / 13312)) +
+                            u4 * (6435.0 / 557056 + u2 * (46189.0 / 5505024)));
+  const Vector odd = (1.0 / 6 + u2 * (5.0 / 112)) +
+                     u4 * ((63.0 / 2816 + u2 * (143.0 / 10240)) + u4 * (12155.0 / 1245184));
+  return s * (even + u * odd);
+}
+
+// The arc tangent of t by its series, to round-off for |t| <= 0.2.
 template <class Vector>
 GRAINLAW_INLINE Vector arc_tangent(const Vector& t) {
   const Vector u = t * t;
@@ -61,7 +75,7 @@ struct alignas(64) Block {
   double x[block], y[block];  // branch [m]
   double reach[block];        // R_i + R_j [m]
   double roll[block];         // R_i theta_i + R_j theta_j [m]
-  double distance[block], inverse[block], tangent[block], normal_force[block];
+  double distance[block], inverse[block], sine[block], normal_force[block];
   double root[block];  // of the overlap, Hertz-Mindlin alone [m^0.5]
 };
 
@@ -70,17 +84,17 @@ template <std::size_t width>
 GRAINLAW_INLINE void find_branches(const double* particles, const ContactList& list,
                                    std::size_t first, std::size_t size, Block& at) {
   using V = Lanes<width>;
-  V sign;  // p_j - sign p_i = (l_x, l_y, rolls, radii)
-  for (std::size_t k = 0; k < width; ++k) sign[k] = k % 4 < 2 ? 1 : -1;
+  V sign;  // p_j + sign p_i = (l_x, l_y, rolls, radii); signs are flipped, not multiplied by
+  for (std::size_t k = 0; k < width; ++k) sign[k] = k % 4 < 2 ? -0.0 : 0.0;
   const std::int32_t* i = list.i.data() + first;
   const std::int32_t* j = list.j.data() + first;
   const double* offset_x = list.offset_x.data() + first;
   const double* offset_y = list.offset_y.data() + first;
   for (std::size_t c = 0; c < size; c += width) {
-    V a = record<width>(particles, j + c, 0) - sign * record<width>(particles, i + c, 0);
-    V b = record<width>(particles, j + c, 1) - sign * record<width>(particles, i + c, 1);
-    V e = record<width>(particles, j + c, 2) - sign * record<width>(particles, i + c, 2);
-    V d = record<width>(particles, j + c, 3) - sign * record<width>(particles, i + c, 3);
+    V a = record<width>(particles, j + c, 0) + flip(record<width>(particles, i + c, 0), sign);
+    V b = record<width>(particles, j + c, 1) + flip(record<width>(particles, i + c, 1), sign);
+    V e = record<width>(particles, j + c, 2) + flip(record<width>(particles, i + c, 2), sign);
+    V d = record<width>(particles, j + c, 3) + flip(record<width>(particles, i + c, 3), sign);
     transpose(a, b, e, d);
     store(at.x + c, a + load<width>(offset_x + c));
     store(at.y + c, b + load<width>(offset_y + c));
@@ -181,13 +195,14 @@ GRAINLAW_INLINE Lanes<width> spin_of(const ParticleRecord* particles, const Cont
          roll_i * load<width>(&list.inverse_radius_i[c]);
 }
 
-// Normal forces, and the tangent of the turning since the start of the increment. Returns by how
+// Normal forces, and the sine of the turning since the start of the increment. Returns by how
 // much a touching branch has turned beyond the short series.
 template <std::size_t width, Features law>
 GRAINLAW_INLINE Lanes<width> find_normals(const ContactList& list, std::size_t first,
                                           std::size_t size, Block& at) {
   using V = Lanes<width>;
   const V zero{};
+  const V one = zero + 1.0;
   V beyond{};
   const double* kn = list.normal_stiffness.data() + first;
   const double* start_x = list.start_x.data() + first;
@@ -201,16 +216,14 @@ GRAINLAW_INLINE Lanes<width> find_normals(const ContactList& list, std::size_t f
     const V distance = square_root(square);
     const V overlap = overlap_of<width, law>(list, first + c, load<width>(at.reach + c), distance);
     const V least = least_overlap<width, law>(list, first + c);
+    const V inverse = 1 / distance;
     const V dot = nx * x + ny * y;
-    const V cross = nx * y - ny * x;
-    // One division for 1/d and 1/dot, beside the square root, not after it.
-    const V ahead = dot > zero ? dot : square;
-    const V quotient = 1 / (square * ahead);
-    const V excess = magnitude(cross) - short_series * dot;
+    const V sine = (nx * y - ny * x) * inverse;
+    const V excess = dot > zero ? magnitude(sine) - short_series : one;
     beyond = largest(beyond, overlap > least ? excess : zero);
     store(at.distance + c, distance);
-    store(at.inverse + c, distance * (ahead * quotient));
-    store(at.tangent + c, cross * (square * quotient));
+    store(at.inverse + c, inverse);
+    store(at.sine + c, sine);
     const V depth = largest(overlap, least);
     if constexpr (law.hertz) {
       const V root = square_root(depth);
@@ -263,7 +276,7 @@ GRAINLAW_INLINE void find_forces(const Loop& loop, std::size_t first, std::size_
       const V quarter = half / (1 + square_root(1 + half * half));
       turn = 8 * arc_tangent(quarter / (1 + square_root(1 + quarter * quarter)));
     } else {
-      turn = arc_tangent(load<width>(at.tangent + c));
+      turn = arc_sine(load<width>(at.sine + c));
     }
     V slip = distance * turn;
     const V stretch = distance * load<width>(inverse_reach + c);

@@ -11,25 +11,9 @@ namespace {
 
 using namespace simd;
 
-struct Gather {
-  const double* values;
-  const std::uint32_t* contact;
-  const std::uint32_t* node;
-  double* sums;
-  ForceRecord sign;
-};
-
-GRAINLAW_CLONES void gather(Gather& g, std::size_t nodes, std::size_t as_i, std::size_t as_j) {
-  const Record sign = load<4>(&g.sign.x);
-  const std::uint32_t* contact = g.contact;
-  for (std::size_t q = 0; q < nodes; ++q) {
-    Record on_i{};
-    Record on_j{};
-    for (std::size_t k = 0; k < as_i; ++k) on_i += load<4>(g.values + 4 * std::size_t{*contact++});
-    for (std::size_t k = 0; k < as_j; ++k) on_j += load<4>(g.values + 4 * std::size_t{*contact++});
-    store(g.sums + 4 * std::size_t{*g.node++}, on_j + sign * on_i);
-  }
-  g.contact = contact;
+GRAINLAW_CLONES void store_sums(const ContactSums& of, std::span<const ForceRecord> values,
+                                const ForceRecord& sign, double* sums) {
+  of.for_each(values, sign, [=](std::size_t q, const Record& sum) { store(sums + 4 * q, sum); });
 }
 
 }  // namespace
@@ -84,9 +68,7 @@ void ContactSums::arrange(std::span<const std::int32_t> i, std::span<const std::
 
 void ContactSums::add_up(std::span<const ForceRecord> values, const ForceRecord& sign,
                          std::span<ForceRecord> sums) const {
-  Gather g{values.empty() ? nullptr : &values.data()->x, contact_.data(), node_.data(),
-           &sums.data()->x, sign};
-  for (const Run& run : runs_) gather(g, run.nodes, run.as_i, run.as_j);
+  store_sums(*this, values, sign, &sums.data()->x);
 }
 
 }  // namespace grainlaw

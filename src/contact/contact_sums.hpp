@@ -3,6 +3,7 @@
 #pragma once
 
 #include "contact/records.hpp"
+#include "simd.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -21,6 +22,29 @@ class ContactSums {
   // contacts whose i is.
   void add_up(std::span<const ForceRecord> values, const ForceRecord& sign,
               std::span<ForceRecord> sums) const;
+
+  // take(q, sum) with the same sum of every node, each node once, instead of storing it.
+  template <class Take>
+  GRAINLAW_INLINE void for_each(std::span<const ForceRecord> values, const ForceRecord& sign,
+                                Take&& take) const {
+    const double* const records = values.empty() ? nullptr : &values.data()->x;
+    const simd::Record sign_of_i = simd::load<4>(&sign.x);
+    const std::uint32_t* contact = contact_.data();
+    const std::uint32_t* node = node_.data();
+    for (const Run& run : runs_) {
+      for (std::size_t q = 0; q < run.nodes; ++q) {
+        simd::Record on_i{};
+        simd::Record on_j{};
+        for (std::size_t k = 0; k < run.as_i; ++k) {
+          on_i += simd::load<4>(records + 4 * std::size_t{*contact++});
+        }
+        for (std::size_t k = 0; k < run.as_j; ++k) {
+          on_j += simd::load<4>(records + 4 * std::size_t{*contact++});
+        }
+        take(std::size_t{*node++}, on_j + sign_of_i * on_i);
+      }
+    }
+  }
 
  private:
   // Nodes with equal numbers of contacts follow each other, so that the loops over them are

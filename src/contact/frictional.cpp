@@ -9,9 +9,6 @@ namespace {
 
 using namespace contact_loops;
 
-// The force on i against that on j.
-constexpr ForceRecord opposite = {-1, -1, 1, 1};
-
 constexpr Features frictionless_law{Kinematics::frictionless};
 constexpr Features locked_law{Kinematics::locked};
 constexpr Features rotating_law{Kinematics::rotating};
@@ -27,9 +24,8 @@ GRAINLAW_LOOP(ContactTotals, stiffnesses, stiffness_loop, rotating_law)
 
 }  // namespace
 
-void evaluate_contacts(std::span<const ParticleRecord> particles, const ContactLaw& law,
-                       ContactList& list, std::span<ForceRecord> forces) {
-  if (!law.plain()) return evaluate_composite(particles, law, list, forces);
+void find_contact_forces(std::span<const ParticleRecord> particles, const ContactLaw& law,
+                         ContactList& list) {
   const Loop loop{particles.data(), law.friction, &list};
   if (!law.tangential()) {
     frictionless(loop);
@@ -39,6 +35,12 @@ void evaluate_contacts(std::span<const ParticleRecord> particles, const ContactL
     }
     if (list.turns_far) law.rotating() ? rotating_far(loop) : locked_far(loop);
   }
+}
+
+void evaluate_contacts(std::span<const ParticleRecord> particles, const ContactLaw& law,
+                       ContactList& list, std::span<ForceRecord> forces) {
+  if (!law.plain()) return evaluate_composite(particles, law, list, forces);
+  find_contact_forces(particles, law, list);
   list.sums.add_up(list.forces, opposite, forces);
 }
 

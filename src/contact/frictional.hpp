@@ -26,6 +26,10 @@ namespace grainlaw {
 void evaluate_contacts(std::span<const ParticleRecord> particles, const ContactLaw& law,
                        ContactList& list, std::span<ForceRecord> nodes);
 
+// The forces of all contacts alone, left in list.forces.
+void find_contact_forces(std::span<const ParticleRecord> particles, const ContactLaw& law,
+                         ContactList& list);
+
 // The same, and the history starts anew from here. Returns the energy dissipated since the old
 // start: sliding force times slip, and what springs give up as contacts unload or open [J].
 double advance_contacts(std::span<const ParticleRecord> particles, const ContactLaw& law,

@@ -16,4 +16,7 @@ struct alignas(32) ForceRecord {
   double unused = 0;
 };
 
+// What acts on i against what acts on j; the last of the moment of rolling and bending.
+inline constexpr ForceRecord opposite{-1, -1, 1, -1};
+
 }  // namespace grainlaw

@@ -67,7 +67,7 @@ bool relax_published(Increment& increment, double tolerance, const PublishedOpti
     if (frozen.empty()) return false;
     return k >= increment.node_unknowns() || (frozen[k % nodes] >> (k / nodes) & 1U) != 0;
   };
-  auto& mass = memory.previous;
+  auto& mass = memory.mass;
   physical_masses(increment, mass);
   memory.velocity.assign(size, 0.0);
   double* v = memory.velocity.data();

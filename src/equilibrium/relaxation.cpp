@@ -21,37 +21,60 @@ constexpr long mass_interval = 10;
 // every component a force, and its mass is I / R^2.
 struct Nodes {
   double* velocity;
-  double* previous;  // residual of the last step
-  const double* residual;
   const double* mass;
-  double* gain;  // 1 / mass, and 0 where nothing moves
-  std::size_t doubles;
+  const double* gain;  // 1 / mass, and 0 where nothing moves
+  double* z;           // moves along; null: moved by others
 };
 
 struct Measured {
-  double largest;    // component of the residual [N]
-  double stiffness;  // sum v (r_previous - r)
-  double inertia;    // sum v m v
+  double largest;     // component of the residual r [N]
+  double power;       // sum v r
+  double next_power;  // the same of the velocity after the step
+  double inertia;     // sum v m v
 };
 
-// v <- keep v + gain r / m, and z <- z + v for the record of every node; what is measured is of the
-// state before.
-GRAINLAW_CLONES Measured step_nodes(const Nodes& nodes, double keep, double gain, double* z) {
-  Record largest_force{};
-  Record stiffness{};
-  Record inertia{};
-  for (std::size_t k = 0; k < nodes.doubles; k += width) {
-    const Record r = load<4>(nodes.residual + k);
-    const Record v = load<4>(nodes.velocity + k);
-    largest_force = largest(largest_force, magnitude(r));
-    stiffness += v * (load<4>(nodes.previous + k) - r);
-    inertia += v * load<4>(nodes.mass + k) * v;
-    const Record next = keep * v + gain * r * load<4>(nodes.gain + k);
-    store(nodes.velocity + k, next);
-    store(nodes.previous + k, r);
-    if (z != nullptr) store(z + k, load<4>(z + k) + next);
+// v <- keep v + gain r / m, and z <- z + v, node by node; what is measured is of the state before.
+class NodeStep {
+ public:
+  GRAINLAW_INLINE NodeStep(const Nodes& nodes, double keep, double gain)
+      : nodes_(nodes), keep_(keep), gain_(gain) {}
+
+  GRAINLAW_INLINE void operator()(std::size_t q, const Record& r) {
+    const std::size_t k = width * q;
+    const Record v = load<4>(nodes_.velocity + k);
+    largest_ = largest(largest_, magnitude(r));
+    power_ += v * r;
+    inertia_ += v * load<4>(nodes_.mass + k) * v;
+    const Record next = keep_ * v + gain_ * r * load<4>(nodes_.gain + k);
+    next_power_ += next * r;
+    store(nodes_.velocity + k, next);
+    if (nodes_.z != nullptr) store(nodes_.z + k, load<4>(nodes_.z + k) + next);
   }
-  return {most(largest_force), sum(stiffness), sum(inertia)};
+
+  GRAINLAW_INLINE Measured measured() const {
+    return {most(largest_), sum(power_), sum(next_power_), sum(inertia_)};
+  }
+
+ private:
+  Nodes nodes_;
+  double keep_, gain_;
+  Record largest_{}, power_{}, next_power_{}, inertia_{};
+};
+
+GRAINLAW_CLONES Measured step_nodes(const Nodes& nodes, std::span<const ForceRecord> residual,
+                                    double keep, double gain) {
+  NodeStep step(nodes, keep, gain);
+  for (std::size_t q = 0; q < residual.size(); ++q) step(q, load<4>(&residual[q].x));
+  return step.measured();
+}
+
+// The same with the sums of the contacts' forces, which nothing else is asked of.
+GRAINLAW_CLONES Measured gather_and_step(const Nodes& nodes, const ContactList& contacts,
+                                         double keep, double gain) {
+  NodeStep step(nodes, keep, gain);
+  contacts.sums.for_each(contacts.forces, opposite,
+                         [&](std::size_t q, const Record& r) { step(q, r); });
+  return step.measured();
 }
 
 GRAINLAW_CLONES void find_gains(const double* mass, double* gain, std::size_t doubles) {
@@ -62,7 +85,7 @@ GRAINLAW_CLONES void find_gains(const double* mass, double* gain, std::size_t do
 
 Relaxation::Relaxation(Increment& increment, History history, RelaxationMemory& memory)
     : increment_(increment), history_(history), memory_(memory) {
-  for (auto* column : {&memory.velocity, &memory.previous, &memory.gain}) {
+  for (auto* column : {&memory.velocity, &memory.gain}) {
     column->assign(width * increment.forces.size(), 0.0);
   }
 }
@@ -87,9 +110,16 @@ void Relaxation::refresh() {
   }
 }
 
+// Nothing comes between the sums of forces and the step.
+bool Relaxation::at_once() const {
+  return history_ == History::committed && increment_.problem->space->identity &&
+         increment_.problem->law->plain();
+}
+
 void Relaxation::update() {
   const auto& law = *increment_.problem->law;
   auto& forces = increment_.forces;
+  if (at_once()) return find_contact_forces(increment_.records, law, increment_.contacts);
   if (history_ == History::advancing) {
     increment_.dissipated +=
         advance_contacts(increment_.records, law, increment_.contacts, forces);
@@ -115,19 +145,22 @@ void Relaxation::review_floor() {
 void Relaxation::step() {
   constexpr double largest_damping = 1.9;
   const double damping = std::clamp(2 * frequency_, floor_, largest_damping);
-  const Nodes nodes{memory_.velocity.data(),        memory_.previous.data(),
-                    &increment_.forces[0].x,        &increment_.mass_records[0].x,
-                    memory_.gain.data(),            memory_.velocity.size()};
+  const double keep = (2 - damping) / (2 + damping);
+  const double gain = 2 / (2 + damping);
   const auto& space = *increment_.problem->space;
   double* z = &increment_.records[0].x;
-  const auto before = step_nodes(nodes, (2 - damping) / (2 + damping), 2 / (2 + damping),
-                                 space.identity ? z : nullptr);
+  const Nodes nodes{memory_.velocity.data(), &increment_.mass_records[0].x, memory_.gain.data(),
+                    space.identity ? z : nullptr};
+  const auto before = at_once() ? gather_and_step(nodes, increment_.contacts, keep, gain)
+                                : step_nodes(nodes, increment_.forces, keep, gain);
+  const double stiffness = power_ - before.power;  // sum v (r_previous - r)
+  power_ = before.next_power;
   residual_ = std::numeric_limits<double>::infinity();
-  if (increment_.touching > 0 && std::isfinite(before.stiffness + before.largest)) {
+  if (increment_.touching > 0 && std::isfinite(stiffness + before.largest)) {
     residual_ = before.largest / increment_.relative_scale();
   }
   const double inertia = std::max(before.inertia, std::numeric_limits<double>::min());
-  frequency_ = std::sqrt(std::max(before.stiffness / inertia, 0.0));
+  frequency_ = std::sqrt(std::max(stiffness / inertia, 0.0));
   ++steps_;
   ++increment_.relaxation_steps;
   if (space.identity) return;
@@ -155,13 +188,12 @@ bool Relaxation::run(double tolerance, long steps) {
   if (increment_.residual_norm() < tolerance) return true;
   for (const long last = steps_ + steps;;) {
     step();
-    update();
     const bool over = residual_ < tolerance || steps_ == last || !std::isfinite(residual_);
     if (over || steps_ % mass_interval == 0) {
       increment_.store_records();
       refresh();
-      if (increment_.problem->space->averages()) increment_.take_averages(increment_.forces);
     }
+    update();
     if (over) {
       increment_.update_forces();
       if (increment_.residual_norm() < tolerance) return true;

@@ -15,7 +15,7 @@ enum class History { committed, advancing };
 
 // Memory of the relaxations, reused from call to call.
 struct RelaxationMemory {
-  std::vector<double> velocity, previous, gain, correction;
+  std::vector<double> velocity, gain, mass, correction;
   // Of the servo: what the relaxations do not move, forces before reduction, areas and particles of
   // nodes under uniform stress.
   std::vector<unsigned char> frozen;
@@ -36,6 +36,7 @@ class Relaxation {
   bool run(double tolerance, long steps);
 
  private:
+  [[nodiscard]] bool at_once() const;
   void refresh();
   void update();
   void review_floor();
@@ -46,6 +47,7 @@ class Relaxation {
   History history_;
   RelaxationMemory& memory_;
   double residual_ = 0;   // before the last step [-]; infinite: no contact, or not a finite number
+  double power_ = 0;      // sum of the last step's velocity times the residual before it
   double frequency_ = 0;  // sqrt of the Rayleigh quotient of the velocity [1 / step]
   double floor_ = 0.1;    // of the damping
   long steps_ = 0;
