@@ -1,6 +1,7 @@
 // Vectors that are sized once: what is reused from call to call soon allocates no more.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 namespace grainlaw {
@@ -10,6 +11,12 @@ template <class Vector>
 void resize_with_room(Vector& vector, std::size_t size) {
   if (vector.capacity() < size) vector.reserve(size + size / 2);
   vector.resize(size);
+}
+
+template <class Vector>
+void copy_with_room(const Vector& from, Vector& to) {
+  resize_with_room(to, from.size());
+  std::copy(from.begin(), from.end(), to.begin());
 }
 
 // The same for a vector that was filled one by one.

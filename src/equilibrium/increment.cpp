@@ -39,11 +39,6 @@ void move_with(const double* reference, const std::array<double, 4>& change, std
   }
 }
 
-void copy_with_room(const std::vector<double>& from, std::vector<double>& to) {
-  resize_with_room(to, from.size());
-  std::copy(from.begin(), from.end(), to.begin());
-}
-
 std::array<double, 4> cell_at(const Problem& problem, const std::array<double, 4>& f) {
   if (problem.packing->frame) return {};
   return product(f, problem.packing->cell.data());
@@ -61,8 +56,7 @@ void Increment::begin(const Problem& p, const Configuration& from,
   std::fill(start.begin() + static_cast<std::ptrdiff_t>(2 * n), start.end(), 0.0);
   start_deformation = {from.deformation[0], from.deformation[1], from.deformation[2],
                        from.deformation[3]};
-  resize_with_room(history, from.contacts.size());
-  std::copy(from.contacts.begin(), from.contacts.end(), history.begin());
+  copy_with_room(from.contacts, history);
   copy_with_room(from.moments, history_moments);
   copy_with_room(from.bond_gaps, history_gaps);
   coordinates = start;
@@ -275,39 +269,6 @@ double Increment::overlap(std::size_t c) const {
   return contacts.rest_of(c) - std::sqrt(lx * lx + ly * ly);
 }
 
-double Increment::chance_force() const {
-  constexpr double loosest = 1e-4;  // a coarse solution still has real contacts that carry little
-  return std::max(std::min(problem->tolerance, loosest) * relative_scale(), rounding_force_);
-}
-
-bool Increment::carries(std::size_t c) const {
-  return contacts.bonded(c) ||
-         normal_force(contacts, c, overlap(c), *problem->law) > 10 * chance_force();
-}
-
-bool Increment::bears() const {
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    if (carries(c)) return true;
-  }
-  return false;
-}
-
-bool Increment::follows_deformation() const {
-  constexpr double rounding = 1e-12;  // of 2 R
-  const auto n = particles();
-  const auto g = product(deformation, inverse(start_deformation).data());
-  const auto moved = [&](std::size_t p) {
-    const double x = g[0] * start[p] + g[1] * start[n + p];
-    const double y = g[2] * start[p] + g[3] * start[n + p];
-    return std::hypot(coordinates[p] - x, coordinates[n + p] - y) > rounding * mean_branch_;
-  };
-  for (std::size_t p = 0; p < n; ++p) {
-    if (moved(p)) return false;
-  }
-  return std::all_of(coordinates.begin() + static_cast<std::ptrdiff_t>(2 * n), coordinates.end(),
-                     [](double turned) { return turned == 0; });
-}
-
 void Increment::refresh_masses() {
   load_records();
   sum_masses();
@@ -406,99 +367,6 @@ void Increment::move(std::span<const double> step, double factor) {
     deformation[k] += change[k];
   }
   move_with(space.reference.data(), change, n, coordinates.data());
-}
-
-void Increment::advance_history() {
-  load_records();
-  const auto& law = *problem->law;
-  dissipated += advance_contacts(records, law, contacts, forces);
-  if (after_break_) {  // at the same F: nothing but the springs gives energy
-    dissipated =
-        break_dissipated_ + break_energy_ - stored_energy(contacts, coordinates, particles(), law);
-  }
-  const bool gaps = !history_gaps.empty();
-  history.clear();
-  history_moments.clear();
-  history_gaps.clear();
-  if (history.capacity() < pairs.size()) history.reserve(pairs.capacity());
-  if (law.moments()) history_moments.reserve(history.capacity());
-  if (gaps) history_gaps.reserve(history.capacity());
-  const bool tangential = law.tangential();
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    if (!carries(c)) continue;
-    const double depth = overlap(c);
-    const double scale = start_scale(depth, law);
-    const double force = tangential ? contacts.start_force[c] * scale : 0.0;
-    const double bound = law.friction * normal_force(contacts, c, depth, law);
-    const bool bonded = contacts.bonded(c);
-    const double weight = contacts.weight_of(c);
-    history.push_back({contacts.i[c], contacts.j[c], pairs[c].shift,
-                       tangential && !bonded && std::abs(force) >= bound - chance_force(), bonded,
-                       force / weight});
-    if (law.moments()) history_moments.push_back(contacts.start_moment[c] * scale / weight);
-    if (gaps) history_gaps.push_back(contacts.rest[c] - contacts.reach[c]);
-  }
-  start = coordinates;
-  start_deformation = deformation;
-  build_list();
-}
-
-// Eq. 8 of Liu, Bosco & Suiker (2017), 1 at failure; without a bond 0.
-double Increment::bond_load(std::size_t c) const {
-  if (!contacts.bonded(c)) return 0;
-  const auto& law = *problem->law;
-  const auto point = contact_point(contacts, c, coordinates, particles(), law);
-  double load = -point.normal_force / law.bond.normal_strength +
-                std::abs(point.tangential_force) / law.bond.tangential_strength;
-  if (law.bond.bending_strength > 0 && law.moments()) {
-    load += std::abs(contact_moment(contacts, c, point, coordinates, particles(), law).moment) /
-            law.bond.bending_strength;
-  }
-  return load / contacts.weight_of(c);
-}
-
-double Increment::worst_bond() const {
-  double worst = 0;
-  if (!problem->law->bonds()) return worst;
-  for (std::size_t c = 0; c < contacts.size(); ++c) worst = std::max(worst, bond_load(c));
-  return worst;
-}
-
-bool Increment::break_bonds() {
-  if (!overloads_bonds()) return false;
-  const double energy = stored_energy(contacts, coordinates, particles(), *problem->law);
-  advance_history();
-  after_break_ = true;
-  break_energy_ = energy;
-  break_dissipated_ = dissipated;
-  const double worst = worst_bond();
-  const double limit = std::min(worst, 0.5 * (1 + worst));
-  std::size_t h = 0;
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    if (!contacts.bonded(c)) continue;
-    const auto key = std::tie(contacts.i[c], contacts.j[c], pairs[c].shift);
-    while (std::tie(history[h].i, history[h].j, history[h].shift) != key) ++h;
-    if (bond_load(c) < limit) continue;
-    history[h].bonded = false;
-    broken_bonds += contacts.weight_of(c);
-  }
-  build_list();
-  return true;
-}
-
-void Increment::export_to(const Configuration& from, Configuration& to) const {
-  const auto n = particles();
-  to.deformation = {deformation[0], deformation[1], deformation[2], deformation[3]};
-  to.coordinates = coordinates;
-  for (std::size_t k = 2 * n; k < coordinates.size(); ++k) {
-    to.coordinates[k] += from.coordinates[k];
-  }
-  resize_with_room(to.contacts, history.size());
-  std::copy(history.begin(), history.end(), to.contacts.begin());
-  copy_with_room(history_moments, to.moments);
-  copy_with_room(history_gaps, to.bond_gaps);
-  to.dissipated = from.dissipated + dissipated;
-  to.broken_bonds = from.broken_bonds + broken_bonds;
 }
 
 }  // namespace grainlaw
