@@ -23,7 +23,7 @@ struct Effort {
   int finest;               // sub-increments, times those that the size of the increment asks for
 };
 constexpr Effort full_effort{9, 12, 50, 1500, 8};
-constexpr Effort bounded_effort{3, 12, 20, 1000, 2};   // with a loose tolerance to end at
+constexpr Effort bounded_effort{3, 12, 20, 1000, 1};   // with a loose tolerance to end at
 constexpr Effort repeated_effort{2, 12, 20, 1000, 1};  // what fluttered before seldom settles now
 
 const Effort& effort_of(const Request& request) {
@@ -116,13 +116,13 @@ bool solve_part(const Request& request, Workspace& w, Outcome& outcome) {
     const bool relaxed = relax(increment, tolerance, limit, History::committed, w.relaxation);
     if (increment.touching == 0 || increment.collapsed()) return is_free(request, increment);
     if (relaxed && tolerance == target) return true;
+    const auto is_loose = [&] { return increment.residual_norm() < request.loose_tolerance; };
+    if (request.guess_loose && !relaxed && is_loose()) return outcome.loose = true;
     const int factorisations =
         round == 0 ? effort.first_factorisations : effort.most_factorisations;
     if (flow_newton(increment, target, factorisations, w.newton)) return true;
     const bool too_soon = round == 0 && !request.guess_loose;
-    if (!too_soon && increment.residual_norm() < request.loose_tolerance) {
-      return outcome.loose = true;
-    }
+    if (!too_soon && is_loose()) return outcome.loose = true;
     hand_over *= round < 2 ? tighter : much_tighter;
     target = reachable();
   }
@@ -145,6 +145,7 @@ bool solve_parts(const Request& request, int parts, Workspace& w, Outcome& outco
   auto& increment = w.increment;
   w.sensitivity.reset();
   outcome.subincrements = parts;
+  outcome.history_advanced = false;
   outcome.loose = false;
   outcome.sensitivities = request.sensitivities;
   for (int k = 1; k <= parts; ++k) {
@@ -243,6 +244,11 @@ Outcome solve(const Request& request, Workspace& w) {
   const auto chain = [&] {
     if (request.options->method != Method::chain) {
       return attempt(solve_advancing(request, request.options->method, w, outcome));
+    }
+    // What ended so before in this step would seldom end otherwise now.
+    const bool advance_first = request.guess_advanced && request.guess_loose;
+    if (advance_first && attempt(solve_advancing(request, Method::advancing, w, outcome))) {
+      return true;
     }
     const int finest = effort_of(request).finest;
     for (int refinement = 1; refinement <= finest; refinement *= 2) {

@@ -36,7 +36,9 @@ struct Request {
   // null: the affine image.
   const std::vector<double>* guess = nullptr;
   std::array<double, 4> guess_deformation{};
-  bool guess_loose = false;  // as Outcome::loose of the trial it comes from
+  // As Outcome::loose and history_advanced of the trial it comes from.
+  bool guess_loose = false;
+  bool guess_advanced = false;
 };
 
 struct Outcome {

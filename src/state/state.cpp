@@ -200,6 +200,7 @@ grainlaw_status State::evaluate(const double* given, TangentKind kind, double* P
   if (had_trial && material.solver.start == Start::trial) {
     guess_from_trial(committed_, trial_, particles, w, request);
     request.guess_loose = trial_loose_;
+    request.guess_advanced = trial_advanced_;
   }
   const auto outcome = solve(request, w);
   add_cost(w.increment, report);
@@ -253,6 +254,7 @@ grainlaw_status State::evaluate(const double* given, TangentKind kind, double* P
     std::copy_n(a.begin(), 16, A);
   }
   trial_loose_ = outcome.loose;
+  trial_advanced_ = outcome.history_advanced;
   has_trial_ = true;
   return GRAINLAW_OK;
 }

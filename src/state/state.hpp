@@ -40,7 +40,8 @@ class State {
   Configuration committed_;
   Configuration trial_;
   bool has_trial_ = false;
-  bool trial_loose_ = false;  // ended at the loose tolerance
+  bool trial_loose_ = false;     // ended at the loose tolerance
+  bool trial_advanced_ = false;  // by advancing history
 };
 
 }  // namespace grainlaw

@@ -74,7 +74,7 @@ TEST(loose_tolerance, ends_where_a_packing_does_not_settle_and_changes_nothing_e
 
 TEST(loose_tolerance, what_ended_loosely_is_sought_for_less_from_there) {
   long first_steps = 0, steps = 0;
-  int ended_loosely = 0;
+  int ended_loosely = 0, advanced = 0;
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     auto description = fluttering(seed);
     description.solver.loose_tolerance = loose;
@@ -90,11 +90,17 @@ TEST(loose_tolerance, what_ended_loosely_is_sought_for_less_from_there) {
         first_steps += first.report.relaxation_steps;
         steps += again.report.relaxation_steps;
         ++ended_loosely;
+        if (first.report.history_advanced != 0) {
+          EXPECT_EQ(again.report.history_advanced, 1);
+          EXPECT_EQ(again.report.factorisations, 0);
+          ++advanced;
+        }
       }
       state.commit();
     }
   }
   EXPECT_GE(ended_loosely, 1);
+  EXPECT_GE(advanced, 1);
   EXPECT_LT(steps, first_steps);
 }
 
