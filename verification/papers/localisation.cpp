@@ -96,7 +96,7 @@ void newton_facts(HierarchicalStudy& study, const MeshRun& run, const Response& 
 
 void draw_meshes(HierarchicalStudy& study) {
   const auto rve = study.results / "rve.csv";
-  Panel panel{"axial stress [kPa]", {}, 1, "bottom center"};
+  Panel panel{"axial stress [kPa]", {}, 1.4, "bottom center"};
   std::optional<Response> reference;
   if (std::filesystem::is_regular_file(rve)) {
     reference = response(*load_run(study.results, "rve"), "RVE alone");
