@@ -26,7 +26,7 @@ namespace grainlaw {
 void evaluate_contacts(std::span<const ParticleRecord> particles, const ContactLaw& law,
                        ContactList& list, std::span<ForceRecord> nodes);
 
-// The forces of all contacts alone, left in list.forces.
+// The forces of all contacts of a plain law, left in list.forces without summing them.
 void find_contact_forces(std::span<const ParticleRecord> particles, const ContactLaw& law,
                          ContactList& list);
 
