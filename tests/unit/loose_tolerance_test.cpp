@@ -74,7 +74,7 @@ TEST(loose_tolerance, ends_where_a_packing_does_not_settle_and_changes_nothing_e
 
 TEST(loose_tolerance, what_ended_loosely_is_sought_for_less_from_there) {
   long first_steps = 0, steps = 0;
-  int ended_loosely = 0, advanced = 0;
+  int ended_loosely = 0;
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     auto description = fluttering(seed);
     description.solver.loose_tolerance = loose;
@@ -90,18 +90,35 @@ TEST(loose_tolerance, what_ended_loosely_is_sought_for_less_from_there) {
         first_steps += first.report.relaxation_steps;
         steps += again.report.relaxation_steps;
         ++ended_loosely;
-        if (first.report.history_advanced != 0) {
-          EXPECT_EQ(again.report.history_advanced, 1);
-          EXPECT_EQ(again.report.factorisations, 0);
-          ++advanced;
-        }
       }
       state.commit();
     }
   }
   EXPECT_GE(ended_loosely, 1);
-  EXPECT_GE(advanced, 1);
   EXPECT_LT(steps, first_steps);
+}
+
+// A tolerance that flutter seldom meets by itself.
+TEST(loose_tolerance, what_ended_by_advancing_history_is_advanced_first_from_there) {
+  int advanced = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    auto description = fluttering(seed);
+    description.solver.loose_tolerance = 1e-4;
+    description.solver.start = Start::trial;
+    State state(make_material(description));
+    for (int k = 1; k <= 20; ++k) {
+      const Evaluation first = evaluate(state, compressed(k), TangentKind::none);
+      ASSERT_EQ(first.status, GRAINLAW_OK) << k;
+      if (first.report.history_advanced != 0 && first.report.residual > tolerance) {
+        const Evaluation again = evaluate(state, compressed(k), TangentKind::none);
+        EXPECT_EQ(again.report.history_advanced, 1);
+        EXPECT_EQ(again.report.factorisations, 0);
+        ++advanced;
+      }
+      state.commit();
+    }
+  }
+  EXPECT_GE(advanced, 1);
 }
 
 }  // namespace
