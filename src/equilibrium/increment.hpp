@@ -89,9 +89,6 @@ class Increment {
   // the prescribed stresses leave to move the rows of F.
   void reduce(std::span<ForceRecord> residual) const;
 
-  // Of that the average constraint alone: again for other masses.
-  void take_averages(std::span<ForceRecord> residual) const;
-
   // Change F by the record behind the nodes for every row, times scale(), and the records of
   // particles with it.
   void change_deformation(const double* rows, std::vector<ParticleRecord>& moved);
@@ -165,6 +162,7 @@ class Increment {
   void build_list();
   void project();
   void place_fixed();
+  void take_averages(std::span<ForceRecord> residual) const;
   void find_average_masses();
   void find_deformation_masses();
 
