@@ -10,18 +10,29 @@
 // Everything that passes vectors by value is inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
+// The widest registers to dispatch to [bit]; what sums differ by between widths is rounding.
+#ifndef GRAINLAW_WIDEST_VECTORS
+#define GRAINLAW_WIDEST_VECTORS 512
+#endif
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define GRAINLAW_DISPATCH 1
+#define GRAINLAW_DISPATCH GRAINLAW_WIDEST_VECTORS
+#else
+#define GRAINLAW_DISPATCH 128
+#endif
+
+#if GRAINLAW_DISPATCH >= 512
 #define GRAINLAW_CLONES \
   __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#define GRAINLAW_CLONES_OF_FOUR __attribute__((target_clones("arch=x86-64-v3", "default")))
 #define GRAINLAW_OF_EIGHT __attribute__((target("arch=x86-64-v4")))
 #else
-#define GRAINLAW_DISPATCH 0
-#define GRAINLAW_CLONES
-#define GRAINLAW_CLONES_OF_FOUR
+#define GRAINLAW_CLONES GRAINLAW_CLONES_OF_FOUR
 #define GRAINLAW_OF_EIGHT
+#endif
+#if GRAINLAW_DISPATCH >= 256
+#define GRAINLAW_CLONES_OF_FOUR __attribute__((target_clones("arch=x86-64-v3", "default")))
+#else
+#define GRAINLAW_CLONES_OF_FOUR
 #endif
 #define GRAINLAW_INLINE inline __attribute__((always_inline))
 
@@ -29,7 +40,7 @@ namespace grainlaw::simd {
 
 // Whether registers hold eight doubles.
 inline bool eight_lanes() {
-#if GRAINLAW_DISPATCH
+#if GRAINLAW_DISPATCH >= 512
   return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
          __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
          __builtin_cpu_supports("avx512cd");
