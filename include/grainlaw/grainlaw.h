@@ -132,7 +132,8 @@ enum {
 /* What an evaluation did. Starts with its own size; grows only at its end. */
 typedef struct grainlaw_report {
   size_t size;           /* bytes of this struct as the caller knows it */
-  double residual;       /* max(|fx|, |fy|, |M|/R) over particles / mean contact normal force [-] */
+  double residual;       /* max(|fx|, |fy|, |M|/R) over particles / mean contact normal force, or
+                            solver.force_floor where that is larger [-] */
   double step_ratio;     /* suggested factor on the step, 0..1; 1 after success [-] */
   long relaxation_steps; /* pseudo-time steps [-] */
   long servo_corrections; /* outer corrections of the servo method, 0 for direct [-] */

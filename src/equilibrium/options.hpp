@@ -26,6 +26,8 @@ struct SolverOptions {
   double loose_tolerance = 0;
   Start start = Start::committed;
   Method method = Method::chain;
+  // Residuals are relative to no less than this [N]; 0: relative_floor of the mean force at F = I.
+  double force_floor = 0;
   double increment_limit = 1;  // Pi above which an increment is split [-]
   ContactsLost contacts_lost = ContactsLost::error;
   PublishedOptions published;

@@ -7,8 +7,8 @@
 
 namespace grainlaw {
 
-// Residuals are never relative to less than this part of the mean force at F = I, so that a packing
-// without stress does not pass as converged.
+// Unless a material says otherwise, residuals are never relative to less than this part of the mean
+// force at F = I, so that a packing without stress does not pass as converged.
 inline constexpr double relative_floor = 1e-3;
 
 struct Problem {

@@ -26,7 +26,9 @@ struct Material {
 
   // What the solvers see of it.
   [[nodiscard]] Problem problem() const {
-    return {&packing, &law, &space, relative_floor * initial_mean_force, solver.tolerance};
+    const double floor =
+        solver.force_floor > 0 ? solver.force_floor : relative_floor * initial_mean_force;
+    return {&packing, &law, &space, floor, solver.tolerance};
   }
 };
 

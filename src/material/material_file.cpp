@@ -54,6 +54,7 @@ SolverOptions read_solver(TomlTable table, const BoundaryOptions& boundary) {
                  solver.method);
   if (servo && solver.method != Method::published)
     table.fail("method", "another method", "\"published\" because boundary.method is \"servo\"");
+  table.optional("force_floor", number_at_least(0), solver.force_floor);
   table.optional("increment_limit", number_above(0), solver.increment_limit);
   table.optional("contacts_lost",
                  one_of<ContactsLost>(

@@ -230,5 +230,58 @@ TEST(stress_free, tangent_from_a_free_state_is_the_derivative) {
   }
 }
 
+// Discs at next to no pressure are pulled apart, sheared and pressed together again: where they touch
+// anew, contact forces fade to nothing before they grow far beyond those at F = I.
+struct Return {
+  long steps = 0;
+  double pressure = 0;
+};
+Return touch_again(std::uint64_t seed, double force_floor) {
+  GeneratorOptions options;
+  options.count = 60;
+  options.seed = seed;
+  options.pressure = 10;
+  const ContactLaw law = compressive_law();
+  MaterialDescription description = stress_free(describe(consolidate(options, law), law));
+  description.solver.tolerance = 1e-4;
+  description.solver.force_floor = force_floor;
+  State state(make_material(description));
+  Return result;
+  const auto go = [&](const Tensor& F) {
+    const Evaluation at = advance(state, F);
+    result.steps += at.report.relaxation_steps;
+    result.pressure = pressure(at);
+  };
+  for (int k = 1; k <= 5; ++k) go({1 + 4e-3 * k, 8e-3 * k, 0, 1});
+  EXPECT_EQ(result.pressure, 0);
+  for (int k = 1; k <= 40; ++k) go({1.02 - 1e-3 * k, 0.04, 0, 1});
+  return result;
+}
+
+TEST(stress_free, force_floor_spares_the_search_for_forces_that_fade) {
+  long with = 0, without = 0;
+  for (const std::uint64_t seed : {1, 2}) {
+    const Return found = touch_again(seed, 0);
+    const Return soon = touch_again(seed, 1e-2);
+    EXPECT_NEAR(soon.pressure, found.pressure, 0.1 * found.pressure);
+    EXPECT_GT(found.pressure, 1e4);
+    without += found.steps;
+    with += soon.steps;
+  }
+  EXPECT_LT(10 * with, without);
+}
+
+TEST(stress_free, force_floor_below_the_forces_changes_nothing) {
+  MaterialDescription description = describe(small_packing(), rough_law());
+  const auto material = make_material(description);
+  description.solver.force_floor = 0.1 * material->initial_mean_force;
+  State with(make_material(description));
+  State without(material);
+  for (int k = 1; k <= 5; ++k) {
+    const Tensor F{1 + 2e-4 * k, 1e-4 * k, 0, 1 - 4e-4 * k};
+    EXPECT_EQ(advance(with, F).stress, advance(without, F).stress);
+  }
+}
+
 }  // namespace
 }  // namespace grainlaw::test

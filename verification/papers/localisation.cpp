@@ -47,6 +47,10 @@ struct Mesh {
   const char* title;
   const char* colour;
 };
+// To the peak in steps of 0.025 % instead of 0.1 %.
+constexpr std::array<Mesh, 2> fine_meshes{
+    {{"biaxial_2x4_fine", "2 x 4, steps of 0.025 %", colour::amber},
+     {"biaxial_6x10_fine", "6 x 10, steps of 0.025 %", colour::blue}}};
 constexpr std::array<Mesh, 6> meshes{{{"biaxial_2x4", "2 x 4", colour::amber},
                                       {"biaxial_3x5", "3 x 5", colour::grey},
                                       {"biaxial_6x10", "6 x 10", colour::blue},
@@ -143,6 +147,10 @@ void draw_meshes(HierarchicalStudy& study) {
                       : most > 3 * least    ? "localises; a band or not: see the pictures"
                                             : "differs");
     }
+  }
+  for (const Mesh& mesh : fine_meshes) {
+    const auto run = load_mesh_run(study.results, mesh.name);
+    if (run && run->steps() > 2) newton_facts(study, *run, response(*run, mesh.title));
   }
   if (panel.curves.empty()) return;
   draw({"biaxial compression, 50 x 100 mm", "axial strain [%]", {panel}},
