@@ -1,5 +1,5 @@
-// Four doubles at a time by the compiler's vector types, and functions compiled once per instruction
-// set, the best chosen when the program starts.
+// Two, four or eight doubles at a time by the compiler's vector types, and functions compiled once per
+// instruction set, the best chosen when the program starts.
 #pragma once
 
 #include <cstddef>
@@ -25,14 +25,15 @@
 #define GRAINLAW_CLONES \
   __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #define GRAINLAW_OF_EIGHT __attribute__((target("arch=x86-64-v4")))
-#else
-#define GRAINLAW_CLONES GRAINLAW_CLONES_OF_FOUR
+#define GRAINLAW_OF_FOUR __attribute__((target("arch=x86-64-v3")))
+#elif GRAINLAW_DISPATCH >= 256
+#define GRAINLAW_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
 #define GRAINLAW_OF_EIGHT
-#endif
-#if GRAINLAW_DISPATCH >= 256
-#define GRAINLAW_CLONES_OF_FOUR __attribute__((target_clones("arch=x86-64-v3", "default")))
+#define GRAINLAW_OF_FOUR __attribute__((target("arch=x86-64-v3")))
 #else
-#define GRAINLAW_CLONES_OF_FOUR
+#define GRAINLAW_CLONES
+#define GRAINLAW_OF_EIGHT
+#define GRAINLAW_OF_FOUR
 #endif
 #define GRAINLAW_INLINE inline __attribute__((always_inline))
 
@@ -41,9 +42,18 @@ namespace grainlaw::simd {
 // Whether registers hold eight doubles.
 inline bool eight_lanes() {
 #if GRAINLAW_DISPATCH >= 512
-  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
-         __builtin_cpu_supports("avx512cd");
+  return __builtin_cpu_supports("x86-64-v4") != 0;
+#else
+  return false;
+#endif
+}
+
+// Whether they hold four.
+inline bool four_lanes() {
+#if GRAINLAW_DISPATCH >= 256
+  return __builtin_cpu_supports("x86-64-v3") != 0;
+#elif defined(__AVX2__)
+  return true;
 #else
   return false;
 #endif
@@ -80,7 +90,12 @@ GRAINLAW_INLINE Record second(const Lanes<8>& a) {
   return __builtin_shufflevector(a, a, 4, 5, 6, 7);
 }
 
-// Records, one a row (two with eight lanes), become columns, and back.
+// Records, one a row (half a one with two lanes, two with eight), become columns, and back.
+GRAINLAW_INLINE void transpose(Lanes<2>& a, Lanes<2>& b) {
+  const Lanes<2> odd = __builtin_shufflevector(a, b, 1, 3);
+  a = __builtin_shufflevector(a, b, 0, 2);
+  b = odd;
+}
 GRAINLAW_INLINE void transpose(Lanes<4>& a, Lanes<4>& b, Lanes<4>& c, Lanes<4>& d) {
   const Lanes<4> ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6);
   const Lanes<4> ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);

@@ -1,4 +1,4 @@
-// The loops over all contacts: one template over what a law has, for four and for eight lanes.
+// The loops over all contacts: one template over what a law has, for two, four and eight lanes.
 #pragma once
 
 #include "contact/contact_list.hpp"
@@ -54,17 +54,53 @@ struct Loop {
   ContactList* list;
 };
 
-// The records of four (or twice four) particles, one a row.
+// Records of as many contacts or pairs of particles as there are lanes.
+template <std::size_t width>
+struct Columns {
+  Lanes<width> x, y, roll, last;
+};
+
+// The record of the particle at a lane and, with eight lanes, of that four further on.
 template <std::size_t width>
 GRAINLAW_INLINE Lanes<width> record(const double* records, const std::int32_t* index,
-                                    std::size_t k) {
-  const auto at = [&](std::size_t lane) {
-    return load<4>(records + 4 * static_cast<std::size_t>(index[lane]));
+                                    std::size_t lane) {
+  const auto at = [&](std::size_t k) {
+    return load<4>(records + 4 * static_cast<std::size_t>(index[k]));
   };
   if constexpr (width == 4) {
-    return at(k);
+    return at(lane);
   } else {
-    return beside(at(k), at(k + 4));
+    return beside(at(lane), at(lane + 4));
+  }
+}
+
+// Half of a record: x and y, or the rest.
+GRAINLAW_INLINE Lanes<2> half_record(const double* records, std::int32_t index, std::size_t from) {
+  return load<2>(records + 4 * static_cast<std::size_t>(index) + from);
+}
+
+// p_j + sign p_i = (l_x, l_y, rolls, radii) of the pairs i, j of particles.
+template <std::size_t width>
+GRAINLAW_INLINE Columns<width> pair_columns(const double* particles, const std::int32_t* i,
+                                            const std::int32_t* j) {
+  if constexpr (width == 2) {
+    Lanes<2> x = half_record(particles, j[0], 0) - half_record(particles, i[0], 0);
+    Lanes<2> y = half_record(particles, j[1], 0) - half_record(particles, i[1], 0);
+    Lanes<2> roll = half_record(particles, j[0], 2) + half_record(particles, i[0], 2);
+    Lanes<2> radii = half_record(particles, j[1], 2) + half_record(particles, i[1], 2);
+    transpose(x, y);
+    transpose(roll, radii);
+    return {x, y, roll, radii};
+  } else {
+    using V = Lanes<width>;
+    V sign;  // flipped, not multiplied by
+    for (std::size_t k = 0; k < width; ++k) sign[k] = k % 4 < 2 ? -0.0 : 0.0;
+    V a = record<width>(particles, j, 0) + flip(record<width>(particles, i, 0), sign);
+    V b = record<width>(particles, j, 1) + flip(record<width>(particles, i, 1), sign);
+    V c = record<width>(particles, j, 2) + flip(record<width>(particles, i, 2), sign);
+    V d = record<width>(particles, j, 3) + flip(record<width>(particles, i, 3), sign);
+    transpose(a, b, c, d);
+    return {a, b, c, d};
   }
 }
 
@@ -83,50 +119,42 @@ struct alignas(64) Block {
 template <std::size_t width>
 GRAINLAW_INLINE void find_branches(const double* particles, const ContactList& list,
                                    std::size_t first, std::size_t size, Block& at) {
-  using V = Lanes<width>;
-  V sign;  // p_j + sign p_i = (l_x, l_y, rolls, radii); signs are flipped, not multiplied by
-  for (std::size_t k = 0; k < width; ++k) sign[k] = k % 4 < 2 ? -0.0 : 0.0;
-  const std::int32_t* i = list.i.data() + first;
-  const std::int32_t* j = list.j.data() + first;
   const double* offset_x = list.offset_x.data() + first;
   const double* offset_y = list.offset_y.data() + first;
   for (std::size_t c = 0; c < size; c += width) {
-    V a = record<width>(particles, j + c, 0) + flip(record<width>(particles, i + c, 0), sign);
-    V b = record<width>(particles, j + c, 1) + flip(record<width>(particles, i + c, 1), sign);
-    V e = record<width>(particles, j + c, 2) + flip(record<width>(particles, i + c, 2), sign);
-    V d = record<width>(particles, j + c, 3) + flip(record<width>(particles, i + c, 3), sign);
-    transpose(a, b, e, d);
-    store(at.x + c, a + load<width>(offset_x + c));
-    store(at.y + c, b + load<width>(offset_y + c));
-    store(at.roll + c, e);
-    store(at.reach + c, d);
+    const Columns<width> pair =
+        pair_columns<width>(particles, &list.i[first + c], &list.j[first + c]);
+    store(at.x + c, pair.x + load<width>(offset_x + c));
+    store(at.y + c, pair.y + load<width>(offset_y + c));
+    store(at.roll + c, pair.roll);
+    store(at.reach + c, pair.last);
   }
 }
 
-// The columns (x, y, roll, unused) of some contacts as records.
+// Columns as records.
 template <std::size_t width>
-GRAINLAW_INLINE void put_records(const Lanes<width>& columns_x, const Lanes<width>& columns_y,
-                                 const Lanes<width>& columns_roll,
-                                 const Lanes<width>& columns_unused, double* to) {
-  Lanes<width> x = columns_x;
-  Lanes<width> y = columns_y;
-  Lanes<width> roll = columns_roll;
-  Lanes<width> unused = columns_unused;
-  transpose(x, y, roll, unused);
-  if constexpr (width == 4) {
-    store(to, x);
-    store(to + 4, y);
-    store(to + 8, roll);
-    store(to + 12, unused);
+GRAINLAW_INLINE void put_records(Columns<width> from, double* to) {
+  if constexpr (width == 2) {
+    transpose(from.x, from.y);
+    transpose(from.roll, from.last);
+    store(to, from.x);
+    store(to + 2, from.roll);
+    store(to + 4, from.y);
+    store(to + 6, from.last);
   } else {
-    store(to, first(x));
-    store(to + 4, first(y));
-    store(to + 8, first(roll));
-    store(to + 12, first(unused));
-    store(to + 16, second(x));
-    store(to + 20, second(y));
-    store(to + 24, second(roll));
-    store(to + 28, second(unused));
+    transpose(from.x, from.y, from.roll, from.last);
+    const auto put = [&](std::size_t k, const Lanes<width>& row) {
+      if constexpr (width == 4) {
+        store(to + 4 * k, row);
+      } else {
+        store(to + 4 * k, first(row));
+        store(to + 4 * k + 16, second(row));
+      }
+    };
+    put(0, from.x);
+    put(1, from.y);
+    put(2, from.roll);
+    put(3, from.last);
   }
 }
 
@@ -323,8 +351,9 @@ GRAINLAW_INLINE void find_forces(const Loop& loop, std::size_t first, std::size_
         store(&list.start_spin[first + c], spin);
       }
     }
-    put_records<width>((fn * x - ft * y) * inverse, (fn * y + ft * x) * inverse,
-                       rotating ? -stretch * ft : zero, moment, forces + 4 * c);
+    put_records<width>({(fn * x - ft * y) * inverse, (fn * y + ft * x) * inverse,
+                        rotating ? -stretch * ft : zero, moment},
+                       forces + 4 * c);
     if constexpr (advance) {
       const V lost = lost_by<width>(start, trial, ft, bound, kt);
       store(start_x + c, x * inverse);
@@ -363,7 +392,7 @@ GRAINLAW_INLINE LoopResult contact_loop(const Loop& loop) {
         V fn = load<width>(&list.normal_stiffness[first + c]) * largest(overlap, V{});
         if constexpr (law.hertz) fn *= hertz_share * square_root(largest(overlap, V{}));
         const V f = fn / distance;
-        put_records<width>(f * x, f * y, V{}, V{}, &list.forces[first + c].x);
+        put_records<width>({f * x, f * y, V{}, V{}}, &list.forces[first + c].x);
       }
     } else {
       beyond = largest(beyond, find_normals<width, law>(list, first, size, at));
@@ -413,7 +442,7 @@ GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
       }
       touching.add(c, touches);
       if (weighted) weight.add(c, here ? load<width>(&list.weight[first + c]) : zero);
-      put_records<width>(kn, kn, kt * square * load<width>(&list.inverse_reach[first + c]), last,
+      put_records<width>({kn, kn, kt * square * load<width>(&list.inverse_reach[first + c]), last},
                          &list.forces[first + c].x);
     }
   }
@@ -421,15 +450,19 @@ GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
           static_cast<int>(touching.total())};
 }
 
-#define GRAINLAW_LOOP(Result, name, loop_of, ...)                        \
-  GRAINLAW_CLONES_OF_FOUR Result name##_of_four(const Loop& loop) {      \
-    return loop_of<4 __VA_OPT__(, ) __VA_ARGS__>(loop);                  \
-  }                                                                      \
-  GRAINLAW_OF_EIGHT Result name##_of_eight(const Loop& loop) {           \
-    return loop_of<8 __VA_OPT__(, ) __VA_ARGS__>(loop);                  \
-  }                                                                      \
-  Result name(const Loop& loop) {                                        \
-    return eight_lanes() ? name##_of_eight(loop) : name##_of_four(loop); \
+#define GRAINLAW_LOOP(Result, name, loop_of, ...)                      \
+  Result name##_of_two(const Loop& loop) {                             \
+    return loop_of<2 __VA_OPT__(, ) __VA_ARGS__>(loop);                \
+  }                                                                    \
+  GRAINLAW_OF_FOUR Result name##_of_four(const Loop& loop) {           \
+    return loop_of<4 __VA_OPT__(, ) __VA_ARGS__>(loop);                \
+  }                                                                    \
+  GRAINLAW_OF_EIGHT Result name##_of_eight(const Loop& loop) {         \
+    return loop_of<8 __VA_OPT__(, ) __VA_ARGS__>(loop);                \
+  }                                                                    \
+  Result name(const Loop& loop) {                                      \
+    if (eight_lanes()) return name##_of_eight(loop);                   \
+    return four_lanes() ? name##_of_four(loop) : name##_of_two(loop);  \
   }
 
 }  // namespace grainlaw::contact_loops
