@@ -1,6 +1,7 @@
 // The loops over all contacts: one template over what a law has, for two, four and eight lanes.
 #pragma once
 
+#include "contact/contact_columns.hpp"
 #include "contact/contact_list.hpp"
 #include "contact/frictional.hpp"
 #include "simd.hpp"
@@ -12,8 +13,6 @@
 namespace grainlaw::contact_loops {
 
 using namespace simd;
-
-static_assert(sizeof(ParticleRecord) == sizeof(Record) && sizeof(ForceRecord) == sizeof(Record));
 
 constexpr double tiny = std::numeric_limits<double>::min();
 constexpr double hertz_share = 2.0 / 3;  // fn / (kn overlap)
@@ -28,9 +27,9 @@ GRAINLAW_INLINE Vector arc_sine(const Vector& s) {
   const Vector u = s * s;
   const Vector u2 = u * u;
   const Vector u4 = u2 * u2;
-  const Vector even = (1.0 + u2 * (3.0 / 40)) +
-                      u4 * ((35.0 / 1152 + u2 * (231.0 / 13312)) +
-                            u4 * (6435.0 / 557056 + u2 * (46189.0 / 5505024)));
+  const Vector even =
+      (1.0 + u2 * (3.0 / 40)) + u4 * ((35.0 / 1152 + u2 * (231.0 / 13312)) +
+                                      u4 * (6435.0 / 557056 + u2 * (46189.0 / 5505024)));
   const Vector odd = (1.0 / 6 + u2 * (5.0 / 112)) +
                      u4 * ((63.0 / 2816 + u2 * (143.0 / 10240)) + u4 * (12155.0 / 1245184));
   return s * (even + u * odd);
@@ -53,56 +52,6 @@ struct Loop {
   double friction;
   ContactList* list;
 };
-
-// Records of as many contacts or pairs of particles as there are lanes.
-template <std::size_t width>
-struct Columns {
-  Lanes<width> x, y, roll, last;
-};
-
-// The record of the particle at a lane and, with eight lanes, of that four further on.
-template <std::size_t width>
-GRAINLAW_INLINE Lanes<width> record(const double* records, const std::int32_t* index,
-                                    std::size_t lane) {
-  const auto at = [&](std::size_t k) {
-    return load<4>(records + 4 * static_cast<std::size_t>(index[k]));
-  };
-  if constexpr (width == 4) {
-    return at(lane);
-  } else {
-    return beside(at(lane), at(lane + 4));
-  }
-}
-
-// Half of a record: x and y, or the rest.
-GRAINLAW_INLINE Lanes<2> half_record(const double* records, std::int32_t index, std::size_t from) {
-  return load<2>(records + 4 * static_cast<std::size_t>(index) + from);
-}
-
-// p_j + sign p_i = (l_x, l_y, rolls, radii) of the pairs i, j of particles.
-template <std::size_t width>
-GRAINLAW_INLINE Columns<width> pair_columns(const double* particles, const std::int32_t* i,
-                                            const std::int32_t* j) {
-  if constexpr (width == 2) {
-    Lanes<2> x = half_record(particles, j[0], 0) - half_record(particles, i[0], 0);
-    Lanes<2> y = half_record(particles, j[1], 0) - half_record(particles, i[1], 0);
-    Lanes<2> roll = half_record(particles, j[0], 2) + half_record(particles, i[0], 2);
-    Lanes<2> radii = half_record(particles, j[1], 2) + half_record(particles, i[1], 2);
-    transpose(x, y);
-    transpose(roll, radii);
-    return {x, y, roll, radii};
-  } else {
-    using V = Lanes<width>;
-    V sign;  // flipped, not multiplied by
-    for (std::size_t k = 0; k < width; ++k) sign[k] = k % 4 < 2 ? -0.0 : 0.0;
-    V a = record<width>(particles, j, 0) + flip(record<width>(particles, i, 0), sign);
-    V b = record<width>(particles, j, 1) + flip(record<width>(particles, i, 1), sign);
-    V c = record<width>(particles, j, 2) + flip(record<width>(particles, i, 2), sign);
-    V d = record<width>(particles, j, 3) + flip(record<width>(particles, i, 3), sign);
-    transpose(a, b, c, d);
-    return {a, b, c, d};
-  }
-}
 
 // What is known of a block of contacts. The loops go over a block in steps, each with short chains of
 // operations that depend on each other, so that the processor finds others to do meanwhile.
@@ -130,51 +79,6 @@ GRAINLAW_INLINE void find_branches(const double* particles, const ContactList& l
     store(at.reach + c, pair.last);
   }
 }
-
-// Columns as records.
-template <std::size_t width>
-GRAINLAW_INLINE void put_records(Columns<width> from, double* to) {
-  if constexpr (width == 2) {
-    transpose(from.x, from.y);
-    transpose(from.roll, from.last);
-    store(to, from.x);
-    store(to + 2, from.roll);
-    store(to + 4, from.y);
-    store(to + 6, from.last);
-  } else {
-    transpose(from.x, from.y, from.roll, from.last);
-    const auto put = [&](std::size_t k, const Lanes<width>& row) {
-      if constexpr (width == 4) {
-        store(to + 4 * k, row);
-      } else {
-        store(to + 4 * k, first(row));
-        store(to + 4 * k + 16, second(row));
-      }
-    };
-    put(0, from.x);
-    put(1, from.y);
-    put(2, from.roll);
-    put(3, from.last);
-  }
-}
-
-// A sum over contacts by their places in a group, so that it has the same bits for any width.
-template <std::size_t width>
-struct GroupSum {
-  static constexpr std::size_t parts = ContactList::group / width;
-  Lanes<width> part[parts] = {};
-
-  GRAINLAW_INLINE void add(std::size_t c, const Lanes<width>& value) {
-    part[c / width % parts] += value;
-  }
-  GRAINLAW_INLINE double total() const {
-    double sum = 0;
-    for (const auto& lanes : part) {
-      for (std::size_t k = 0; k < width; ++k) sum += lanes[k];
-    }
-    return sum;
-  }
-};
 
 enum class Kinematics { frictionless, locked, rotating };
 
@@ -450,19 +354,17 @@ GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
           static_cast<int>(touching.total())};
 }
 
-#define GRAINLAW_LOOP(Result, name, loop_of, ...)                      \
-  Result name##_of_two(const Loop& loop) {                             \
-    return loop_of<2 __VA_OPT__(, ) __VA_ARGS__>(loop);                \
-  }                                                                    \
-  GRAINLAW_OF_FOUR Result name##_of_four(const Loop& loop) {           \
-    return loop_of<4 __VA_OPT__(, ) __VA_ARGS__>(loop);                \
-  }                                                                    \
-  GRAINLAW_OF_EIGHT Result name##_of_eight(const Loop& loop) {         \
-    return loop_of<8 __VA_OPT__(, ) __VA_ARGS__>(loop);                \
-  }                                                                    \
-  Result name(const Loop& loop) {                                      \
-    if (eight_lanes()) return name##_of_eight(loop);                   \
-    return four_lanes() ? name##_of_four(loop) : name##_of_two(loop);  \
+#define GRAINLAW_LOOP(Result, name, loop_of, ...)                                                \
+  Result name##_of_two(const Loop& loop) { return loop_of<2 __VA_OPT__(, ) __VA_ARGS__>(loop); } \
+  GRAINLAW_OF_FOUR Result name##_of_four(const Loop& loop) {                                     \
+    return loop_of<4 __VA_OPT__(, ) __VA_ARGS__>(loop);                                          \
+  }                                                                                              \
+  GRAINLAW_OF_EIGHT Result name##_of_eight(const Loop& loop) {                                   \
+    return loop_of<8 __VA_OPT__(, ) __VA_ARGS__>(loop);                                          \
+  }                                                                                              \
+  Result name(const Loop& loop) {                                                                \
+    if (eight_lanes()) return name##_of_eight(loop);                                             \
+    return four_lanes() ? name##_of_four(loop) : name##_of_two(loop);                            \
   }
 
 }  // namespace grainlaw::contact_loops

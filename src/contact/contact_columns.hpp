@@ -1,0 +1,112 @@
+// Records of particles and contacts as columns of as many lanes, and back; sums that do not depend on
+// how many lanes there are.
+#pragma once
+
+#include "contact/contact_list.hpp"
+#include "simd.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace grainlaw::contact_loops {
+
+using namespace simd;
+
+static_assert(sizeof(ParticleRecord) == sizeof(Record) && sizeof(ForceRecord) == sizeof(Record));
+
+// Records of as many contacts or pairs of particles as there are lanes.
+template <std::size_t width>
+struct Columns {
+  Lanes<width> x, y, roll, last;
+};
+
+// The record of the particle at a lane and, with eight lanes, of that four further on.
+template <std::size_t width>
+GRAINLAW_INLINE Lanes<width> record(const double* records, const std::int32_t* index,
+                                    std::size_t lane) {
+  const auto at = [&](std::size_t k) {
+    return load<4>(records + 4 * static_cast<std::size_t>(index[k]));
+  };
+  if constexpr (width == 4) {
+    return at(lane);
+  } else {
+    return beside(at(lane), at(lane + 4));
+  }
+}
+
+// Half of a record: x and y, or the rest.
+GRAINLAW_INLINE Lanes<2> half_record(const double* records, std::int32_t index, std::size_t from) {
+  return load<2>(records + 4 * static_cast<std::size_t>(index) + from);
+}
+
+// p_j + sign p_i = (l_x, l_y, rolls, radii) of the pairs i, j of particles.
+template <std::size_t width>
+GRAINLAW_INLINE Columns<width> pair_columns(const double* particles, const std::int32_t* i,
+                                            const std::int32_t* j) {
+  if constexpr (width == 2) {
+    Lanes<2> x = half_record(particles, j[0], 0) - half_record(particles, i[0], 0);
+    Lanes<2> y = half_record(particles, j[1], 0) - half_record(particles, i[1], 0);
+    Lanes<2> roll = half_record(particles, j[0], 2) + half_record(particles, i[0], 2);
+    Lanes<2> radii = half_record(particles, j[1], 2) + half_record(particles, i[1], 2);
+    transpose(x, y);
+    transpose(roll, radii);
+    return {x, y, roll, radii};
+  } else {
+    using V = Lanes<width>;
+    V sign;  // flipped, not multiplied by
+    for (std::size_t k = 0; k < width; ++k) sign[k] = k % 4 < 2 ? -0.0 : 0.0;
+    V a = record<width>(particles, j, 0) + flip(record<width>(particles, i, 0), sign);
+    V b = record<width>(particles, j, 1) + flip(record<width>(particles, i, 1), sign);
+    V c = record<width>(particles, j, 2) + flip(record<width>(particles, i, 2), sign);
+    V d = record<width>(particles, j, 3) + flip(record<width>(particles, i, 3), sign);
+    transpose(a, b, c, d);
+    return {a, b, c, d};
+  }
+}
+
+// Columns as records.
+template <std::size_t width>
+GRAINLAW_INLINE void put_records(Columns<width> from, double* to) {
+  if constexpr (width == 2) {
+    transpose(from.x, from.y);
+    transpose(from.roll, from.last);
+    store(to, from.x);
+    store(to + 2, from.roll);
+    store(to + 4, from.y);
+    store(to + 6, from.last);
+  } else {
+    transpose(from.x, from.y, from.roll, from.last);
+    const auto put = [&](std::size_t k, const Lanes<width>& row) {
+      if constexpr (width == 4) {
+        store(to + 4 * k, row);
+      } else {
+        store(to + 4 * k, first(row));
+        store(to + 4 * k + 16, second(row));
+      }
+    };
+    put(0, from.x);
+    put(1, from.y);
+    put(2, from.roll);
+    put(3, from.last);
+  }
+}
+
+// A sum over contacts by their places in a group, so that it has the same bits for any width.
+template <std::size_t width>
+struct GroupSum {
+  static constexpr std::size_t parts = ContactList::group / width;
+  Lanes<width> part[parts] = {};
+
+  GRAINLAW_INLINE void add(std::size_t c, const Lanes<width>& value) {
+    part[c / width % parts] += value;
+  }
+  GRAINLAW_INLINE double total() const {
+    double sum = 0;
+    for (const auto& lanes : part) {
+      for (std::size_t k = 0; k < width; ++k) sum += lanes[k];
+    }
+    return sum;
+  }
+};
+
+}  // namespace grainlaw::contact_loops
