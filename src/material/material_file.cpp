@@ -55,6 +55,10 @@ SolverOptions read_solver(TomlTable table, const BoundaryOptions& boundary) {
   if (servo && solver.method != Method::published)
     table.fail("method", "another method", "\"published\" because boundary.method is \"servo\"");
   table.optional("force_floor", number_at_least(0), solver.force_floor);
+  if (solver.force_floor > 0 && prescribes_stress(boundary))
+    table.fail("force_floor",
+               fmt::format("{:g} with a boundary under a stress", solver.force_floor),
+               "0: below a floor nothing carries what \"T\" or boundary.stress asks for");
   table.optional("increment_limit", number_above(0), solver.increment_limit);
   table.optional("contacts_lost",
                  one_of<ContactsLost>(

@@ -154,6 +154,17 @@ TEST(bad_boundary, stress_on_a_packing_that_may_be_free_of_it_is_told) {
   told(sides(p, p, d, d) + "stress = {P22 = -1e3}\n", 18);
 }
 
+TEST(bad_boundary, force_floor_under_a_stress_is_told) {
+  const std::string floor = "[solver]\nforce_floor = 1e-3\n";
+  for (const auto& text : {header + "type = \"frame-t\"\n", sides(d, d, t, d),
+                           sides(d, d, d, d) + "stress = {P22 = -1e5}\n"}) {
+    for (const char* told : {"solver.force_floor: found 0.001 with a boundary under a stress",
+                             "expected 0: below a floor nothing carries"}) {
+      expect_told(text + floor, frame, GRAINLAW_BAD_MATERIAL, told);
+    }
+  }
+}
+
 TEST(bad_boundary, failed_increment_keeps_the_state) {
   const TemporaryDirectory directory;
   write_text(directory / "particles.csv", frame);
