@@ -3,9 +3,6 @@
 #include "equilibrium/quad.hpp"
 #include "room.hpp"
 
-#include <Eigen/SparseCore>
-#include <Eigen/SparseLU>
-
 #include <algorithm>
 
 namespace grainlaw {
@@ -59,11 +56,11 @@ GRAINLAW_INLINE void subtract_of_four(const BlockMatrix& a, const double* x, dou
   });
 }
 
-GRAINLAW_CLONES void subtract_product(const BlockMatrix& a, const double* x, double* r) {
+GRAINLAW_CLONES void subtract_blocks(const BlockMatrix& a, const double* x, double* r) {
   a.components == 3 ? subtract<3>(a, x, r) : subtract<2>(a, x, r);
 }
 
-GRAINLAW_CLONES void subtract_product_of_four(const BlockMatrix& a, const double* x, double* r) {
+GRAINLAW_CLONES void subtract_blocks_of_four(const BlockMatrix& a, const double* x, double* r) {
   a.components == 3 ? subtract_of_four<3>(a, x, r) : subtract_of_four<2>(a, x, r);
 }
 
@@ -80,45 +77,20 @@ void BlockMatrix::reset(std::size_t node_count, int component_count, std::span<c
 
 void BlockMatrix::set_zero() { std::fill(blocks.begin(), blocks.end(), Quad{}); }
 
+void BlockMatrix::subtract_product(std::span<const Quad> x, std::span<Quad> r) const {
+  subtract_blocks(*this, x.data()->lane, r.data()->lane);
+}
+
 void BlockMatrix::residual(std::span<const Quad> b, std::span<const Quad> x,
                            std::span<Quad> r) const {
   std::copy(b.begin(), b.end(), r.begin());
-  subtract_product(*this, x.data()->lane, r.data()->lane);
+  subtract_product(x, r);
 }
 
 void BlockMatrix::residual_of_four(std::span<const Quad> b, std::span<const Quad> x,
                                    std::span<Quad> r) const {
   std::copy(b.begin(), b.end(), r.begin());
-  subtract_product_of_four(*this, x.data()->lane, r.data()->lane);
-}
-
-bool solve_with_pivoting(const BlockMatrix& matrix, std::span<const double> b,
-                         std::span<double> x) {
-  const auto n = static_cast<Eigen::Index>(b.size());
-  const auto nodes = static_cast<Eigen::Index>(matrix.nodes);
-  std::vector<Eigen::Triplet<double>> triplets;
-  const auto add = [&](std::size_t index, Eigen::Index row, Eigen::Index column) {
-    for (int c = 0; c < matrix.components; ++c) {
-      for (int r = 0; r < matrix.components; ++r) {
-        triplets.emplace_back(r * nodes + row, c * nodes + column, matrix.block(index)[c].lane[r]);
-      }
-    }
-  };
-  for (std::size_t q = 0; q < matrix.nodes; ++q) {
-    add(q, static_cast<Eigen::Index>(q), static_cast<Eigen::Index>(q));
-  }
-  for (std::size_t e = 0; e < matrix.edges.size(); ++e) {
-    const auto [p, q] = matrix.edges[e];
-    add(matrix.upper(e), p, q);
-    add(matrix.lower(e), q, p);
-  }
-  Eigen::SparseMatrix<double> sparse(n, n);
-  sparse.setFromTriplets(triplets.begin(), triplets.end());
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(sparse);
-  if (lu.info() != Eigen::Success) return false;
-  Eigen::Map<Eigen::VectorXd>(x.data(), n) =
-      lu.solve(Eigen::Map<const Eigen::VectorXd>(b.data(), n));
-  return lu.info() == Eigen::Success;
+  subtract_blocks_of_four(*this, x.data()->lane, r.data()->lane);
 }
 
 }  // namespace grainlaw

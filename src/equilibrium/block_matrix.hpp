@@ -39,6 +39,7 @@ struct BlockMatrix {
   // Set the graph and zero all values.
   void reset(std::size_t node_count, int component_count, std::span<const Edge> graph);
   void set_zero();
+  void subtract_product(std::span<const Quad> x, std::span<Quad> r) const;  // r -= A x
   // r = b - A x, of one vector, and of four together.
   void residual(std::span<const Quad> b, std::span<const Quad> x, std::span<Quad> r) const;
   void residual_of_four(std::span<const Quad> b, std::span<const Quad> x, std::span<Quad> r) const;
@@ -89,9 +90,5 @@ class BlockLU {
   void find_columns();
   void find_sources();
 };
-
-// x = A^-1 b, component-major over nodes, by a pivoting sparse LU (Eigen), for the rare matrix that
-// BlockLU cannot solve. Slow and allocating. False when singular.
-bool solve_with_pivoting(const BlockMatrix& matrix, std::span<const double> b, std::span<double> x);
 
 }  // namespace grainlaw

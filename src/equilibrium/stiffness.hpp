@@ -3,6 +3,7 @@
 
 #include "contact/frictional.hpp"
 #include "equilibrium/block_matrix.hpp"
+#include "equilibrium/gmres.hpp"
 #include "equilibrium/increment.hpp"
 
 #include <algorithm>
@@ -53,8 +54,8 @@ class Stiffness {
   void factorise(Increment& increment);
 
   // x = K^-1 b, refined until the residual is below the tolerance (largest entry, relative to b) or
-  // while that helps; by pivoting LU when it does not. False when the matrix is singular to working
-  // precision.
+  // while that helps; by GMRES where that ends far from it. False when b is not in the range of K to
+  // working precision, or the factors are of no use.
   bool solve(const Increment& increment, std::span<const double> b, std::span<double> x,
              double tolerance = 1e-12);
 
@@ -78,13 +79,13 @@ class Stiffness {
   void add_masses(const Increment& increment, double factor);
   bool solve_four_by_factors(const Increment& increment, std::span<const Quad> b,
                              std::span<Quad> x);
-  bool solve_one_by_pivoting(const Increment& increment, std::span<const double> b,
-                             std::span<double> x);
+  bool solve_by_gmres(const Increment& increment);
 
   enum class Factors { none, of_earlier_matrix, of_matrix };
 
   BlockMatrix matrix_;
   BlockLU lu_;
+  Gmres gmres_;
   Factors factors_ = Factors::none;
   std::vector<TouchingContact> touching_;
   std::vector<ContactMoment> moments_;
@@ -95,7 +96,6 @@ class Stiffness {
   std::vector<std::pair<Edge, std::int32_t>> pairs_;
   std::vector<Quad> ground_;
   std::vector<Quad> right_, solution_, check_;
-  std::vector<double> right_column_, column_;
 };
 
 }  // namespace grainlaw

@@ -1,4 +1,4 @@
-// Linear solves with the stiffness: factors, their refinement, and pivoting where they do not do.
+// Linear solves with the stiffness: factors, their refinement, and GMRES where that does not do.
 #include "equilibrium/quad.hpp"
 #include "equilibrium/stiffness.hpp"
 #include "room.hpp"
@@ -56,6 +56,7 @@ GRAINLAW_CLONES void add_to(std::span<Quad> to, std::span<const Quad> values) {
 void Stiffness::factorise(Increment& increment) {
   ++increment.factorisations;
   lu_.analyse(matrix_);
+  gmres_.reserve(matrix_.nodes);
   const auto b = static_cast<std::size_t>(matrix_.components);
   resize_with_room(ground_, matrix_.nodes);
   for (std::size_t q = 0; q < matrix_.nodes; ++q) {
@@ -68,6 +69,7 @@ void Stiffness::factorise(Increment& increment) {
 
 bool Stiffness::solve(const Increment& increment, std::span<const double> b, std::span<double> x,
                       double tolerance) {
+  if (factors_ != Factors::of_matrix) return false;
   const auto nodes = matrix_.nodes;
   const auto components = static_cast<std::size_t>(matrix_.components);
   resize_with_room(right_, nodes);
@@ -84,46 +86,28 @@ bool Stiffness::solve(const Increment& increment, std::span<const double> b, std
     matrix_.residual(right_, solution_, check_);
     return largest_of(check_) / scale;
   };
-  if (factors_ == Factors::of_matrix) {
-    std::copy(right_.begin(), right_.end(), solution_.begin());
-    lu_.solve(solution_);
-    double error = defect();
-    for (double last = 4 * error; error > tolerance && error < slow * last;) {
-      lu_.solve(check_);
-      add_to(solution_, check_);
-      last = error;
-      error = defect();
-    }
-    if (error <= enough) {
-      for (std::size_t q = 0; q < nodes; ++q) {
-        for (std::size_t k = 0; k < components; ++k) x[k * nodes + q] = solution_[q].lane[k];
-      }
-      return true;
-    }
+  std::copy(right_.begin(), right_.end(), solution_.begin());
+  lu_.solve(solution_);
+  double error = defect();
+  for (double last = 4 * error; error > tolerance && error < slow * last;) {
+    lu_.solve(check_);
+    add_to(solution_, check_);
+    last = error;
+    error = defect();
   }
-  return solve_one_by_pivoting(increment, b, x);
+  if (!(error <= enough) && !solve_by_gmres(increment)) return false;
+  for (std::size_t q = 0; q < nodes; ++q) {
+    for (std::size_t k = 0; k < components; ++k) x[k * nodes + q] = solution_[q].lane[k];
+  }
+  return true;
 }
 
-bool Stiffness::solve_one_by_pivoting(const Increment& increment, std::span<const double> b,
-                                      std::span<double> x) {
-  const auto nodes = matrix_.nodes;
-  const auto components = static_cast<std::size_t>(matrix_.components);
-  add_masses(increment, grounding);
-  const bool solved = solve_with_pivoting(matrix_, b, x);
-  add_masses(increment, -grounding);
-  if (!solved) return false;
-  resize_with_room(right_, nodes);
-  resize_with_room(solution_, nodes);
-  resize_with_room(check_, nodes);
-  for (std::size_t q = 0; q < nodes; ++q) {
-    right_[q] = solution_[q] = {};
-    for (std::size_t k = 0; k < components; ++k) {
-      right_[q].lane[k] = b[k * nodes + q];
-      solution_[q].lane[k] = x[k * nodes + q];
-    }
-  }
-  matrix_.residual(right_, solution_, check_);
-  return largest_of(check_) <=
+// From right_ to solution_.
+bool Stiffness::solve_by_gmres(const Increment& increment) {
+  gmres_.solve(matrix_, lu_, good, right_, solution_);
+  const auto check = std::span(check_).first(matrix_.nodes);
+  matrix_.residual(right_, solution_, check);
+  return largest_of(check) <=
          std::max(usable * largest_of(right_), increment.rounding_force());
 }
 
@@ -161,22 +145,20 @@ bool Stiffness::solve_four(Increment& increment, std::span<const Quad> b, std::s
   resize_with_room(check_, b.size());
   if (factors_ == Factors::of_earlier_matrix && solve_four_by_factors(increment, b, x)) return true;
   if (factors_ != Factors::of_matrix) factorise(increment);
-  if (factors_ == Factors::of_matrix && solve_four_by_factors(increment, b, x)) return true;
+  if (factors_ != Factors::of_matrix) return false;
+  if (solve_four_by_factors(increment, b, x)) return true;
   const auto nodes = matrix_.nodes;
   const auto components = static_cast<std::size_t>(matrix_.components);
-  right_column_.resize(components * nodes);
-  column_.resize(components * nodes);
+  resize_with_room(right_, nodes);
+  resize_with_room(solution_, nodes);
   for (std::size_t l = 0; l < width; ++l) {
     for (std::size_t q = 0; q < nodes; ++q) {
-      for (std::size_t k = 0; k < components; ++k) {
-        right_column_[k * nodes + q] = b[q * components + k].lane[l];
-      }
+      right_[q] = {};
+      for (std::size_t k = 0; k < components; ++k) right_[q].lane[k] = b[q * components + k].lane[l];
     }
-    if (!solve_one_by_pivoting(increment, right_column_, column_)) return false;
+    if (!solve_by_gmres(increment)) return false;
     for (std::size_t q = 0; q < nodes; ++q) {
-      for (std::size_t k = 0; k < components; ++k) {
-        x[q * components + k].lane[l] = column_[k * nodes + q];
-      }
+      for (std::size_t k = 0; k < components; ++k) x[q * components + k].lane[l] = solution_[q].lane[k];
     }
   }
   return true;

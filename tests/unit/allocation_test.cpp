@@ -98,9 +98,7 @@ std::vector<MaterialDescription> descriptions() {
       all.push_back(describe(reference_packing(), law, boundary, 1e-8));
     }
   }
-  // Not rolling Hertz-Mindlin contacts: a disc that slides and rolls on all of them leaves the
-  // stiffness singular now and then, and the pivoting LU that then helps allocates.
-  for (const auto& law : {rolling_law(), hertz_law(), bonded_law(1)}) {
+  for (const auto& law : {rolling_law(), hertz_law(), rolling_hertz_law(), bonded_law(1)}) {
     all.push_back(describe_law(reference_packing(), law, BoundaryType::periodic_cell, 1e-8));
   }
   all.push_back(describe_law(reference_packing(), compressive_law(), BoundaryType::periodic_cell, 1e-8));

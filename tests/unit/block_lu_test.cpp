@@ -1,5 +1,7 @@
-// The block factorisation against a dense one, on random matrices over random planar graphs.
+// The block factorisation and GMRES against a dense factorisation, on random matrices over random
+// planar graphs.
 #include "equilibrium/block_matrix.hpp"
+#include "equilibrium/gmres.hpp"
 
 #include <gtest/gtest.h>
 #include <Eigen/Dense>
@@ -295,29 +297,91 @@ TEST(block_lu, singular_pivot_block_is_reported) {
     BlockLU lu;
     lu.analyse(matrix);
     EXPECT_FALSE(lu.factorise(matrix));
-    const auto right = random_vector(unknowns(matrix), random);
-    std::vector<double> x(right.size());
-    EXPECT_FALSE(solve_with_pivoting(matrix, right, x));
   }
 }
 
-TEST(block_lu, pivoting_solves_what_has_no_pivots_on_the_diagonal) {
-  // Two nodes that hold only each other: the diagonal blocks are zero, the matrix is regular.
+// Largest entry of b - A x over that of b.
+double defect(const BlockMatrix& matrix, const std::vector<double>& b,
+              const std::vector<double>& x) {
+  return (as_eigen(b) - dense(matrix) * as_eigen(x)).lpNorm<Eigen::Infinity>() /
+         as_eigen(b).lpNorm<Eigen::Infinity>();
+}
+
+std::vector<double> solve_by_gmres(BlockLU& lu, const BlockMatrix& matrix,
+                                   const std::vector<double>& b) {
+  std::vector<Quad> x(matrix.nodes);
+  Gmres().solve(matrix, lu, 1e-13, by_node(matrix, b), x);
+  return by_component(matrix, x);
+}
+
+TEST(gmres, solves_where_refinement_with_the_same_factors_diverges) {
   std::mt19937 random(17);
   for (const int components : {2, 3}) {
-    BlockMatrix matrix;
-    const std::vector<Edge> edges{{0, 1}};
-    matrix.reset(2, components, edges);
-    fill(matrix, random);
-    std::fill_n(matrix.block(0), 2 * components, Quad{});
+    const BlockMatrix factorised = random_matrix(200, components, random);
     BlockLU lu;
-    lu.analyse(matrix);
-    EXPECT_FALSE(lu.factorise(matrix));
+    lu.analyse(factorised);
+    ASSERT_TRUE(lu.factorise(factorised));
+    BlockMatrix matrix = factorised;  // three nodes three times as stiff
+    for (const std::size_t q : {3U, 77U, 150U}) {
+      for (int k = 0; k < components; ++k) {
+        for (double& value : matrix.block(q)[k].lane) value *= 3;
+      }
+    }
     const auto b = random_vector(unknowns(matrix), random);
-    std::vector<double> x(b.size());
-    ASSERT_TRUE(solve_with_pivoting(matrix, b, x));
-    expect_solution(matrix, b, x);
+    auto refined = solve(lu, matrix, b);
+    const double first = defect(matrix, b, refined);
+    for (int k = 0; k < 10; ++k) {
+      const Eigen::VectorXd rest = as_eigen(b) - dense(matrix) * as_eigen(refined);
+      const auto more = solve(lu, matrix, {rest.begin(), rest.end()});
+      for (std::size_t l = 0; l < more.size(); ++l) refined[l] += more[l];
+    }
+    ASSERT_GT(defect(matrix, b, refined), first);
+    expect_solution(matrix, b, solve_by_gmres(lu, matrix, b));
   }
+}
+
+// A node that nothing holds but what the factors add.
+BlockMatrix with_loose_node(int components, std::mt19937& random, BlockLU& lu) {
+  BlockMatrix matrix = random_matrix(60, components, random);
+  const auto b = static_cast<std::size_t>(components);
+  std::fill_n(matrix.block(7), b, Quad{});
+  for (std::size_t e = 0; e < matrix.edges.size(); ++e) {
+    if (matrix.edges[e].first != 7 && matrix.edges[e].second != 7) continue;
+    std::fill_n(matrix.block(matrix.upper(e)), b, Quad{});
+    std::fill_n(matrix.block(matrix.lower(e)), b, Quad{});
+  }
+  std::vector<Quad> ground(matrix.nodes);
+  for (Quad& quad : ground) {
+    for (std::size_t k = 0; k < b; ++k) quad.lane[k] = 0.5;
+  }
+  lu.analyse(matrix);
+  EXPECT_TRUE(lu.factorise(matrix, ground));
+  return matrix;
+}
+
+TEST(gmres, solves_a_singular_matrix_for_what_is_in_its_range) {
+  std::mt19937 random(18);
+  for (const int components : {2, 3}) {
+    BlockLU lu;
+    const BlockMatrix matrix = with_loose_node(components, random, lu);
+    auto b = random_vector(unknowns(matrix), random);
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      if (k % matrix.nodes == 7) b[k] = 0;
+    }
+    EXPECT_LE(defect(matrix, b, solve_by_gmres(lu, matrix, b)), 1e-12);
+  }
+}
+
+TEST(gmres, leaves_of_the_rest_what_is_not_in_the_range) {
+  std::mt19937 random(19);
+  BlockLU lu;
+  const BlockMatrix matrix = with_loose_node(3, random, lu);
+  auto b = random_vector(unknowns(matrix), random);
+  b[7] = 0.25;
+  b[7 + matrix.nodes] = b[7 + 2 * matrix.nodes] = 0;
+  const Eigen::VectorXd rest =
+      as_eigen(b) - dense(matrix) * as_eigen(solve_by_gmres(lu, matrix, b));
+  EXPECT_NEAR(rest.norm(), 0.25, 1e-6);
 }
 
 }  // namespace
