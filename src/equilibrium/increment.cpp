@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 namespace grainlaw {
 
@@ -39,12 +38,12 @@ void move_with(const double* reference, const std::array<double, 4>& change, std
   }
 }
 
-std::array<double, 4> cell_at(const Problem& problem, const std::array<double, 4>& f) {
-  if (problem.packing->frame) return {};
-  return product(f, problem.packing->cell.data());
-}
-
 }  // namespace
+
+std::array<double, 4> Increment::cell_at(const std::array<double, 4>& f) const {
+  if (problem->packing->frame) return {};
+  return product(f, problem->packing->cell.data());
+}
 
 void Increment::begin(const Problem& p, const Configuration& from,
                       const std::array<double, 4>& target) {
@@ -61,28 +60,19 @@ void Increment::begin(const Problem& p, const Configuration& from,
   copy_with_room(from.bond_gaps, history_gaps);
   coordinates = start;
   deformation = start_deformation;
-  cell = cell_at(p, deformation);
+  cell = cell_at(deformation);
   records.resize(n);
   for (std::size_t q = 0; q < n; ++q) records[q] = {0, 0, 0, p.packing->radius[q]};
   const std::size_t rows = p.space->finds_deformation ? 2 : 0;
   forces.resize(nodes() + rows);
   mass_records.resize(nodes() + rows);
-  least_masses_.resize(nodes());
   node_residual.resize(unknowns());
   mass.resize(unknowns());
   node_radius.resize(nodes());
   for (std::size_t q = 0; q < n; ++q) {
     node_radius[static_cast<std::size_t>(p.space->node[q])] = p.packing->radius[q];
   }
-  for (std::size_t q = 0; q < nodes(); ++q) {
-    const double kn = p.law->stiffness(node_radius[q], node_radius[q]);
-    double kt = p.law->rotating() ? 2 * p.law->ratio * kn : 1;
-    if (p.law->moments()) {
-      const double r = node_radius[q];
-      kt += p.law->ratio * kn * p.law->rolling_ratio(r, r) / (r * r);
-    }
-    least_masses_[q] = {kn, kn, kt, 1 / node_radius[q]};
-  }
+  find_least_masses();
   double mean_radius = 0;
   for (const double r : p.packing->radius) mean_radius += r / static_cast<double>(n);
   gap_ = gap_in_radii * mean_radius;
@@ -128,7 +118,7 @@ void Increment::deform(const std::array<double, 4>& target) {
   }
   deformation = target;
   after_break_ = false;
-  cell = cell_at(*problem, deformation);
+  cell = cell_at(deformation);
   if (!space.identity) place_fixed();
   list_neighbours();
 }
@@ -150,56 +140,6 @@ void Increment::place_fixed() {
     if ((fixed & fixed_x) != 0) coordinates[p] = at(p, 0);
     if ((fixed & fixed_y) != 0) coordinates[n + p] = at(p, 1);
   }
-}
-
-void Increment::list_neighbours() {
-  const auto& packing = *problem->packing;
-  listed_.assign(coordinates.begin(),
-                 coordinates.begin() + static_cast<std::ptrdiff_t>(2 * particles()));
-  search_.find(particles(), coordinates.data(), packing.radius.data(),
-               packing.frame ? nullptr : cell.data(), gap_, pairs);
-  if (problem->law->bonds()) list_bonded_pairs();
-  keep_room(pairs);
-  problem->space->drop(pairs);
-  pair_weights.clear();
-  if (packing.frame) problem->space->weigh(packing, pairs, pair_weights);
-  build_list();
-}
-
-// Bonds hold however far they are stretched.
-void Increment::list_bonded_pairs() {
-  const auto key = [](const auto& pair) { return std::tie(pair.i, pair.j, pair.shift); };
-  merged_pairs_.clear();
-  if (merged_pairs_.capacity() < pairs.size() + history.size()) {
-    merged_pairs_.reserve(3 * (pairs.size() + history.size()) / 2);
-  }
-  auto next = pairs.begin();
-  for (const auto& contact : history) {
-    if (!contact.bonded) continue;
-    for (; next != pairs.end() && key(*next) < key(contact); ++next) merged_pairs_.push_back(*next);
-    if (next != pairs.end() && key(*next) == key(contact)) continue;
-    merged_pairs_.push_back({contact.i, contact.j, contact.shift});
-  }
-  merged_pairs_.insert(merged_pairs_.end(), next, pairs.end());
-  pairs.swap(merged_pairs_);
-}
-
-void Increment::build_list() {
-  const HistoryStart from{start, cell_at(*problem, start_deformation), history, history_moments,
-                          history_gaps};
-  build_contacts(pairs, pair_weights, problem->packing->radius, problem->space->node, nodes(),
-                 *problem->law, cell, from, contacts);
-}
-
-void Increment::keep_neighbours() {
-  const auto n = particles();
-  double largest = 0;
-  for (std::size_t p = 0; p < n; ++p) {
-    const double dx = coordinates[p] - listed_[p];
-    const double dy = coordinates[n + p] - listed_[n + p];
-    largest = std::max(largest, dx * dx + dy * dy);
-  }
-  if (4 * largest > gap_ * gap_) list_neighbours();
 }
 
 void Increment::load_records() {
@@ -269,47 +209,7 @@ double Increment::overlap(std::size_t c) const {
   return contacts.rest_of(c) - std::sqrt(lx * lx + ly * ly);
 }
 
-void Increment::refresh_masses() {
-  load_records();
-  sum_masses();
-  const auto m = nodes();
-  const bool rotating = problem->law->rotating();
-  for (std::size_t q = 0; q < m; ++q) {
-    const double r = node_radius[q];
-    mass[q] = mass[m + q] = mass_records[q].x;
-    if (rotating) mass[2 * m + q] = mass_records[q].roll * r * r;
-  }
-  if (!problem->space->finds_deformation) return;
-  for (std::size_t i = 0; i < 2; ++i) {
-    mass[node_unknowns() + 2 * i] = mass_records[m + i].x;
-    mass[node_unknowns() + 2 * i + 1] = mass_records[m + i].y;
-  }
-}
-
-void Increment::sum_masses() {
-  const auto totals = sum_stiffnesses(records, *problem->law, contacts, mass_records);
-  touching = totals.touching;
-  mean_force = touching > 0 ? totals.force / totals.weights : 0;
-  for (std::size_t q = 0; q < nodes(); ++q) {
-    constexpr double factor = 0.8;
-    auto& mass_of = mass_records[q];
-    const auto& least = least_masses_[q];
-    mass_of.x = mass_of.y = factor * std::max(mass_of.x, least.x);
-    mass_of.roll = factor * std::max(mass_of.roll * least.unused, least.roll);
-    mass_of.unused = 1;
-  }
-  if (problem->space->identity) return;
-  find_average_masses();
-  find_deformation_masses();
-}
-
 double Increment::relative_scale() const { return std::max(mean_force, problem->force_floor); }
-
-double Increment::mean_stiffness() const {
-  double sum = 0;
-  for (std::size_t q = 0; q < nodes(); ++q) sum += least_masses_[q].x;
-  return sum / static_cast<double>(nodes());
-}
 
 double Increment::residual_norm() const {
   if (touching == 0) return std::numeric_limits<double>::infinity();

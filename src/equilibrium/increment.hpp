@@ -137,24 +137,25 @@ class Increment {
   std::vector<double> start;                  // coordinates where the history starts
   std::vector<ContactHistory> history;        // touching contacts there
   std::vector<double> history_moments, history_gaps;  // of them, as in Configuration
-  std::vector<ParticleRecord> records;        // the coordinates as contacts read them
-  std::vector<ForceRecord> forces;            // on nodes, and two for F where some of it is found
-  std::vector<double> node_residual;          // reduced, component-major [N, N m]
-  std::vector<double> mass;                   // of the unknowns
-  std::vector<ForceRecord> mass_records;      // the same as records
-  std::vector<double> node_radius;            // [m]
+  std::vector<ParticleRecord> records;                // the coordinates as contacts read them
+  std::vector<ForceRecord> forces;        // on nodes, and two for F where some of it is found
+  std::vector<double> node_residual;      // reduced, component-major [N, N m]
+  std::vector<double> mass;               // of the unknowns
+  std::vector<ForceRecord> mass_records;  // the same as records
+  std::vector<double> node_radius;        // [m]
   ContactList contacts;
   std::vector<NeighbourPair> pairs;
   std::vector<double> pair_weights;
   double mean_force = 0;  // [N]
   int touching = 0;
-  double dissipated = 0;  // since begin [J]
+  double dissipated = 0;    // since begin [J]
   double broken_bonds = 0;  // since begin, with their weights [-]
   long relaxation_steps = 0;
   long servo_corrections = 0;
   int factorisations = 0;
 
  private:
+  [[nodiscard]] std::array<double, 4> cell_at(const std::array<double, 4>& f) const;
   void list_neighbours();
   void list_bonded_pairs();
   [[nodiscard]] double bond_load(std::size_t c) const;
@@ -162,6 +163,7 @@ class Increment {
   void build_list();
   void project();
   void place_fixed();
+  void find_least_masses();
   void take_averages(std::span<ForceRecord> residual) const;
   void find_average_masses();
   void find_deformation_masses();
@@ -170,12 +172,12 @@ class Increment {
   // Of the state in which bonds broke last: until the next, what the energy falls by is lost.
   bool after_break_ = false;
   double break_energy_ = 0, break_dissipated_ = 0;  // [J]
-  std::vector<ForceRecord> least_masses_;  // of one contact; and 1 / R in `unused`
-  std::vector<double> listed_;  // positions when the neighbours were listed
+  std::vector<ForceRecord> least_masses_;           // of one contact; and 1 / R in `unused`
+  std::vector<double> listed_;                      // positions when the neighbours were listed
   double gap_ = 0;
   double rounding_force_ = 0;  // [N]
   double deformation_scale_ = 1;
-  double mean_branch_ = 0;                              // 2 R [m]
+  double mean_branch_ = 0;                               // 2 R [m]
   std::array<std::array<double, 3>, 2> average_mass_{};  // inverse of sum row row / m
   std::vector<char> held_;                               // nodes with a contact
   NeighbourSearch search_;

@@ -107,8 +107,7 @@ bool Stiffness::solve_by_gmres(const Increment& increment) {
   gmres_.solve(matrix_, lu_, good, right_, solution_);
   const auto check = std::span(check_).first(matrix_.nodes);
   matrix_.residual(right_, solution_, check);
-  return largest_of(check) <=
-         std::max(usable * largest_of(right_), increment.rounding_force());
+  return largest_of(check) <= std::max(usable * largest_of(right_), increment.rounding_force());
 }
 
 // The worst of the four residuals counts.
@@ -154,11 +153,13 @@ bool Stiffness::solve_four(Increment& increment, std::span<const Quad> b, std::s
   for (std::size_t l = 0; l < width; ++l) {
     for (std::size_t q = 0; q < nodes; ++q) {
       right_[q] = {};
-      for (std::size_t k = 0; k < components; ++k) right_[q].lane[k] = b[q * components + k].lane[l];
+      for (std::size_t k = 0; k < components; ++k)
+        right_[q].lane[k] = b[q * components + k].lane[l];
     }
     if (!solve_by_gmres(increment)) return false;
     for (std::size_t q = 0; q < nodes; ++q) {
-      for (std::size_t k = 0; k < components; ++k) x[q * components + k].lane[l] = solution_[q].lane[k];
+      for (std::size_t k = 0; k < components; ++k)
+        x[q * components + k].lane[l] = solution_[q].lane[k];
     }
   }
   return true;
