@@ -183,6 +183,7 @@ void draw_hexagonal(HierarchicalStudy& study) {
                                                         : "differs");
   }
   if (panel.curves.empty()) return;
+  panel.legend = "top left";
   draw({"biaxial compression, hexagonal packing", "axial strain [%]", {panel}},
        study.results / "figure_13");
 }

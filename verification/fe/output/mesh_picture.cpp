@@ -87,7 +87,7 @@ std::string plot(const MeshPanel& panel, std::size_t number, const std::array<do
 bool draw_mesh(const std::vector<MeshPanel>& panels, const std::string& title,
                const std::filesystem::path& stem) {
   if (panels.empty()) return true;
-  constexpr double gap = 20, heading = 62, foot = 12, scale_room = 96;  // pixels
+  constexpr double gap = 20, heading = 62, foot = 12, scale_room = 112;  // pixels
   constexpr double widest = 900, tallest = 640;
   const auto count = static_cast<double>(panels.size());
   std::vector<Box> boxes;
