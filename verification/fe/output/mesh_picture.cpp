@@ -87,7 +87,13 @@ std::string plot(const MeshPanel& panel, std::size_t number, const std::array<do
 bool draw_mesh(const std::vector<MeshPanel>& panels, const std::string& title,
                const std::filesystem::path& stem) {
   if (panels.empty()) return true;
-  constexpr double gap = 20, heading = 62, foot = 12, scale_room = 112;  // pixels
+  constexpr double gap = 20, heading = 62, foot = 12;  // pixels
+  double scale_room = 96;
+  for (const MeshPanel& panel : panels) {
+    const auto [low, high] = colour_range(panel);
+    const bool long_numbers = high - low < 1e-2 * std::max(std::abs(low), std::abs(high));
+    if (long_numbers) scale_room = 140;
+  }
   constexpr double widest = 900, tallest = 640;
   const auto count = static_cast<double>(panels.size());
   std::vector<Box> boxes;
