@@ -39,6 +39,27 @@ GRAINLAW_INLINE Lanes<2> half_record(const double* records, std::int32_t index, 
   return load<2>(records + 4 * static_cast<std::size_t>(index) + from);
 }
 
+// The records at these indices.
+template <std::size_t width>
+GRAINLAW_INLINE Columns<width> records_of(const double* records, const std::int32_t* index) {
+  if constexpr (width == 2) {
+    Lanes<2> x = half_record(records, index[0], 0);
+    Lanes<2> y = half_record(records, index[1], 0);
+    Lanes<2> roll = half_record(records, index[0], 2);
+    Lanes<2> last = half_record(records, index[1], 2);
+    transpose(x, y);
+    transpose(roll, last);
+    return {x, y, roll, last};
+  } else {
+    auto a = record<width>(records, index, 0);
+    auto b = record<width>(records, index, 1);
+    auto c = record<width>(records, index, 2);
+    auto d = record<width>(records, index, 3);
+    transpose(a, b, c, d);
+    return {a, b, c, d};
+  }
+}
+
 // p_j + sign p_i = (l_x, l_y, rolls, radii) of the pairs i, j of particles.
 template <std::size_t width>
 GRAINLAW_INLINE Columns<width> pair_columns(const double* particles, const std::int32_t* i,
@@ -64,24 +85,25 @@ GRAINLAW_INLINE Columns<width> pair_columns(const double* particles, const std::
   }
 }
 
-// Columns as records.
-template <std::size_t width>
-GRAINLAW_INLINE void put_records(Columns<width> from, double* to) {
+// Columns as records, the one of lane k put at place(k).
+template <std::size_t width, class Place>
+GRAINLAW_INLINE void put_records(const Columns<width>& columns, Place&& place) {
+  Columns<width> from = columns;
   if constexpr (width == 2) {
     transpose(from.x, from.y);
     transpose(from.roll, from.last);
-    store(to, from.x);
-    store(to + 2, from.roll);
-    store(to + 4, from.y);
-    store(to + 6, from.last);
+    store(place(0), from.x);
+    store(place(0) + 2, from.roll);
+    store(place(1), from.y);
+    store(place(1) + 2, from.last);
   } else {
     transpose(from.x, from.y, from.roll, from.last);
     const auto put = [&](std::size_t k, const Lanes<width>& row) {
       if constexpr (width == 4) {
-        store(to + 4 * k, row);
+        store(place(k), row);
       } else {
-        store(to + 4 * k, first(row));
-        store(to + 4 * k + 16, second(row));
+        store(place(k), first(row));
+        store(place(k + 4), second(row));
       }
     };
     put(0, from.x);
@@ -89,6 +111,10 @@ GRAINLAW_INLINE void put_records(Columns<width> from, double* to) {
     put(2, from.roll);
     put(3, from.last);
   }
+}
+template <std::size_t width>
+GRAINLAW_INLINE void put_records(const Columns<width>& from, double* to) {
+  put_records<width>(from, [to](std::size_t k) { return to + 4 * k; });
 }
 
 // A sum over contacts by their places in a group, so that it has the same bits for any width.

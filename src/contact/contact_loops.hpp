@@ -47,6 +47,15 @@ GRAINLAW_INLINE Vector arc_tangent(const Vector& t) {
   return t * (a + u4 * (b + u4 * c));
 }
 
+// Any turn by halving the angle, to round-off below 90 degrees and to 1e-7 at 180; dot and cross are
+// the start normal's products with the branch.
+template <class Vector>
+GRAINLAW_INLINE Vector far_turn(const Vector& distance, const Vector& dot, const Vector& cross) {
+  const Vector half = cross / largest(distance + dot, 1e-12 * distance);
+  const Vector quarter = half / (1 + square_root(1 + half * half));
+  return 8 * arc_tangent(quarter / (1 + square_root(1 + quarter * quarter)));
+}
+
 struct Loop {
   const ParticleRecord* particles;
   double friction;
@@ -177,9 +186,7 @@ GRAINLAW_INLINE Lanes<width> lost_by(const Lanes<width>& start, const Lanes<widt
   return (magnitude(force * (trial - force)) + 0.5 * excess * excess) / stiffness;
 }
 
-// `far` takes any turn by halving the angle, to round-off below 90 degrees and to 1e-7 at 180;
-// `advance` moves the start of the history here
-// and adds up what was dissipated.
+// `far` takes any turn; `advance` moves the start of the history here and adds up what was dissipated.
 template <std::size_t width, Features law, bool far, bool advance>
 GRAINLAW_INLINE void find_forces(const Loop& loop, std::size_t first, std::size_t size,
                                  const Block& at, GroupSum<width>& dissipated) {
@@ -204,9 +211,7 @@ GRAINLAW_INLINE void find_forces(const Loop& loop, std::size_t first, std::size_
     if constexpr (far) {
       const V dot = load<width>(start_x + c) * x + load<width>(start_y + c) * y;
       const V cross = load<width>(start_x + c) * y - load<width>(start_y + c) * x;
-      const V half = cross / largest(distance + dot, 1e-12 * distance);
-      const V quarter = half / (1 + square_root(1 + half * half));
-      turn = 8 * arc_tangent(quarter / (1 + square_root(1 + quarter * quarter)));
+      turn = far_turn(distance, dot, cross);
     } else {
       turn = arc_sine(load<width>(at.sine + c));
     }

@@ -31,12 +31,15 @@ class Increment {
   // The same with the friction history advanced to here.
   void update_forces_advancing();
 
-  // Mean normal force, and pseudo-masses of the nodes: 0.8 x the stiffness of the touching
+  // Mean normal force, and pseudo-masses of the nodes: mass_factor x the stiffness of the touching
   // contacts, never below one contact's worth (mechanics of the relaxation: unit pseudo-time step).
+  static constexpr double mass_factor = 0.8;
   void refresh_masses();
 
   // The same from the records and for the records alone: the mass of the roll R theta is I / R^2.
   void sum_masses();
+  // One contact's worth in x, y and roll, and 1 / R in `unused`.
+  [[nodiscard]] std::span<const ForceRecord> least_masses() const { return least_masses_; }
 
   // Largest residual force (moment / R) of update_forces over max(mean normal force, floor) [-];
   // infinite when no contact is left or a number is not finite.
@@ -81,8 +84,8 @@ class Increment {
   // Put contacts, coordinates and dissipation into `to`, rotations added to those of `from`.
   void export_to(const Configuration& from, Configuration& to) const;
 
-  // Relist neighbours when a particle may have come near one that is not listed.
-  void keep_neighbours();
+  // Relist neighbours when a particle may have come near one that is not listed; whether it did.
+  bool keep_neighbours();
 
   // From forces on nodes to the residual, in place: nothing on what is prescribed, nothing that the
   // average constraint carries (with the present masses), and behind the nodes two records for what

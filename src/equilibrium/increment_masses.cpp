@@ -40,11 +40,10 @@ void Increment::sum_masses() {
   touching = totals.touching;
   mean_force = touching > 0 ? totals.force / totals.weights : 0;
   for (std::size_t q = 0; q < nodes(); ++q) {
-    constexpr double factor = 0.8;
     auto& mass_of = mass_records[q];
     const auto& least = least_masses_[q];
-    mass_of.x = mass_of.y = factor * std::max(mass_of.x, least.x);
-    mass_of.roll = factor * std::max(mass_of.roll * least.unused, least.roll);
+    mass_of.x = mass_of.y = mass_factor * std::max(mass_of.x, least.x);
+    mass_of.roll = mass_factor * std::max(mass_of.roll * least.unused, least.roll);
     mass_of.unused = 1;
   }
   if (problem->space->identity) return;

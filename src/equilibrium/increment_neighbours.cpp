@@ -46,7 +46,7 @@ void Increment::build_list() {
                  *problem->law, cell, from, contacts);
 }
 
-void Increment::keep_neighbours() {
+bool Increment::keep_neighbours() {
   const auto n = particles();
   double largest = 0;
   for (std::size_t p = 0; p < n; ++p) {
@@ -54,7 +54,9 @@ void Increment::keep_neighbours() {
     const double dy = coordinates[n + p] - listed_[n + p];
     largest = std::max(largest, dx * dx + dy * dy);
   }
-  if (4 * largest > gap_ * gap_) list_neighbours();
+  if (4 * largest <= gap_ * gap_) return false;
+  list_neighbours();
+  return true;
 }
 
 }  // namespace grainlaw

@@ -26,12 +26,7 @@ struct Nodes {
   double* z;           // moves along; null: moved by others
 };
 
-struct Measured {
-  double largest;     // component of the residual r [N]
-  double power;       // sum v r
-  double next_power;  // the same of the velocity after the step
-  double inertia;     // sum v m v
-};
+using Measured = ContactSides::Measured;
 
 // v <- keep v + gain r / m, and z <- z + v, node by node; what is measured is of the state before.
 class NodeStep {
@@ -61,7 +56,7 @@ class NodeStep {
   Record largest_{}, power_{}, next_power_{}, inertia_{};
 };
 
-GRAINLAW_CLONES Measured step_nodes(const Nodes& nodes, std::span<const ForceRecord> residual,
+GRAINLAW_CLONES Measured step_all(const Nodes& nodes, std::span<const ForceRecord> residual,
                                     double keep, double gain) {
   NodeStep step(nodes, keep, gain);
   for (std::size_t q = 0; q < residual.size(); ++q) step(q, load<4>(&residual[q].x));
@@ -85,6 +80,12 @@ GRAINLAW_CLONES void find_gains(const double* mass, double* gain, std::size_t do
 
 Relaxation::Relaxation(Increment& increment, History history, RelaxationMemory& memory)
     : increment_(increment), history_(history), memory_(memory) {
+  const auto& law = *increment.problem->law;
+  const bool direct =
+      history == History::committed && increment.problem->space->identity && law.plain();
+  by_sides_ = direct && law.tangential();
+  at_once_ = direct && !law.tangential();
+  if (by_sides_) return;
   for (auto* column : {&memory.velocity, &memory.gain}) {
     column->assign(width * increment.forces.size(), 0.0);
   }
@@ -93,7 +94,15 @@ Relaxation::Relaxation(Increment& increment, History history, RelaxationMemory& 
 // Masses, mean force and neighbours of the present coordinates.
 void Relaxation::refresh() {
   if (history_ == History::advancing) increment_.advance_history();
-  increment_.keep_neighbours();
+  const bool relisted = increment_.keep_neighbours();
+  if (by_sides_) {
+    if (relisted || !arranged_) {
+      memory_.sides.arrange(increment_.contacts, increment_.problem->packing->radius,
+                            increment_.least_masses(), steps_ == 0);
+      arranged_ = true;
+    }
+    return look();
+  }
   increment_.sum_masses();
   find_gains(&increment_.mass_records[0].x, memory_.gain.data(), memory_.gain.size());
   const auto& space = *increment_.problem->space;
@@ -110,19 +119,20 @@ void Relaxation::refresh() {
   }
 }
 
-// Nothing comes between the sums of forces and the step.
-bool Relaxation::at_once() const {
-  return history_ == History::committed && increment_.problem->space->identity &&
-         increment_.problem->law->plain();
+void Relaxation::look() {
+  const auto totals = memory_.sides.look(increment_.records, *increment_.problem->law,
+                                         Increment::mass_factor, increment_.contacts);
+  increment_.touching = totals.touching;
+  increment_.mean_force = totals.touching > 0 ? totals.force / totals.weights : 0;
 }
 
 void Relaxation::update() {
+  if (by_sides_) return;  // step() finds them
   const auto& law = *increment_.problem->law;
   auto& forces = increment_.forces;
-  if (at_once()) return find_contact_forces(increment_.records, law, increment_.contacts);
+  if (at_once_) return find_contact_forces(increment_.records, law, increment_.contacts);
   if (history_ == History::advancing) {
-    increment_.dissipated +=
-        advance_contacts(increment_.records, law, increment_.contacts, forces);
+    increment_.dissipated += advance_contacts(increment_.records, law, increment_.contacts, forces);
   } else {
     evaluate_contacts(increment_.records, law, increment_.contacts, forces);
   }
@@ -147,12 +157,8 @@ void Relaxation::step() {
   const double damping = std::clamp(2 * frequency_, floor_, largest_damping);
   const double keep = (2 - damping) / (2 + damping);
   const double gain = 2 / (2 + damping);
-  const auto& space = *increment_.problem->space;
-  double* z = &increment_.records[0].x;
-  const Nodes nodes{memory_.velocity.data(), &increment_.mass_records[0].x, memory_.gain.data(),
-                    space.identity ? z : nullptr};
-  const auto before = at_once() ? gather_and_step(nodes, increment_.contacts, keep, gain)
-                                : step_nodes(nodes, increment_.forces, keep, gain);
+  const auto before =
+      by_sides_ ? memory_.sides.step(*increment_.problem->law, keep, gain) : step_nodes(keep, gain);
   const double stiffness = power_ - before.power;  // sum v (r_previous - r)
   power_ = before.next_power;
   residual_ = std::numeric_limits<double>::infinity();
@@ -163,12 +169,22 @@ void Relaxation::step() {
   frequency_ = std::sqrt(std::max(stiffness / inertia, 0.0));
   ++steps_;
   ++increment_.relaxation_steps;
-  if (space.identity) return;
+}
+
+Measured Relaxation::step_nodes(double keep, double gain) {
+  const auto& space = *increment_.problem->space;
+  double* z = &increment_.records[0].x;
+  const Nodes nodes{memory_.velocity.data(), &increment_.mass_records[0].x, memory_.gain.data(),
+                    space.identity ? z : nullptr};
+  if (at_once_) return gather_and_step(nodes, increment_.contacts, keep, gain);
+  const auto before = step_all(nodes, increment_.forces, keep, gain);
+  if (space.identity) return before;
   if (space.finds_deformation) step_deformation();
   for (std::size_t p = 0; p < increment_.particles(); ++p) {
     const double* v = memory_.velocity.data() + width * static_cast<std::size_t>(space.node[p]);
     store(z + width * p, load<4>(z + width * p) + load<4>(v));
   }
+  return before;
 }
 
 // Found components of F move on with the nodes, never far in one step.
@@ -183,6 +199,7 @@ void Relaxation::step_deformation() {
 bool Relaxation::run(double tolerance, long steps) {
   constexpr long window = 100;  // steps after which the floor is reviewed
   increment_.load_records();
+  arranged_ = false;
   refresh();
   increment_.update_forces();
   if (increment_.residual_norm() < tolerance) return true;
@@ -190,6 +207,7 @@ bool Relaxation::run(double tolerance, long steps) {
     step();
     const bool over = residual_ < tolerance || steps_ == last || !std::isfinite(residual_);
     if (over || steps_ % mass_interval == 0) {
+      if (by_sides_) memory_.sides.move(increment_.records);
       increment_.store_records();
       refresh();
     }

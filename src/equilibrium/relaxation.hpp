@@ -2,6 +2,7 @@
 // contacts.
 #pragma once
 
+#include "contact/contact_sides.hpp"
 #include "equilibrium/increment.hpp"
 
 #include <array>
@@ -16,6 +17,7 @@ enum class History { committed, advancing };
 // Memory of the relaxations, reused from call to call.
 struct RelaxationMemory {
   std::vector<double> velocity, gain, mass, correction;
+  ContactSides sides;
   // Of the servo: what the relaxations do not move, forces before reduction, areas and particles of
   // nodes under uniform stress.
   std::vector<unsigned char> frozen;
@@ -36,8 +38,9 @@ class Relaxation {
   bool run(double tolerance, long steps);
 
  private:
-  [[nodiscard]] bool at_once() const;
   void refresh();
+  void look();
+  ContactSides::Measured step_nodes(double keep, double gain);
   void update();
   void review_floor();
   void step();
@@ -46,10 +49,13 @@ class Relaxation {
   Increment& increment_;
   History history_;
   RelaxationMemory& memory_;
-  double residual_ = 0;   // before the last step [-]; infinite: no contact, or not a finite number
-  double power_ = 0;      // sum of the last step's velocity times the residual before it
-  double frequency_ = 0;  // sqrt of the Rayleigh quotient of the velocity [1 / step]
-  double floor_ = 0.1;    // of the damping
+  bool by_sides_ = false;  // forces and steps by ContactSides
+  bool at_once_ = false;   // nothing comes between the sums of forces and the step
+  bool arranged_ = false;  // of the contacts listed at present
+  double residual_ = 0;    // before the last step [-]; infinite: no contact, or not a finite number
+  double power_ = 0;       // sum of the last step's velocity times the residual before it
+  double frequency_ = 0;   // sqrt of the Rayleigh quotient of the velocity [1 / step]
+  double floor_ = 0.1;     // of the damping
   long steps_ = 0;
   double window_start_ = std::numeric_limits<double>::infinity();
   double window_max_ = 0, window_min_ = std::numeric_limits<double>::infinity();

@@ -1,0 +1,322 @@
+#include "contact/contact_sides.hpp"
+
+#include "contact/contact_loops.hpp"
+#include "room.hpp"
+
+#include <algorithm>
+
+namespace grainlaw {
+
+namespace {
+
+using namespace simd;
+using contact_loops::Columns;
+using contact_loops::GroupSum;
+using contact_loops::put_records;
+using contact_loops::records_of;
+constexpr std::size_t lanes = ContactSides::lanes;
+static_assert(lanes == ContactList::group);
+
+struct Loop {
+  std::span<ContactSides::Nodes> groups;
+  const ContactSides::Start* starts;
+  ContactSides::Side* sides;
+  const double* records;  // of the place, or the moves
+  double* next_moves = nullptr;
+  double curvature = 0, friction = 0, factor = 0, keep = 0, gain = 0;
+};
+
+struct Looked {
+  double beyond;  // > 0: a touching branch turned beyond the short series
+  double force, touching;
+};
+
+template <std::size_t width, bool rotating, bool far>
+GRAINLAW_INLINE Looked look_loop(const Loop& loop) {
+  using V = Lanes<width>;
+  const V zero{};
+  const V one = zero + 1.0;
+  V beyond{};
+  GroupSum<width> force, touching;
+  for (auto& nodes : loop.groups) {
+    for (std::size_t k = 0; k < lanes; k += width) {
+      const Columns<width> own = records_of<width>(loop.records, nodes.particle + k);
+      V stiffness{}, stiffness_roll{};
+      for (std::size_t row = nodes.first_row; row < nodes.first_row + nodes.rows; ++row) {
+        const ContactSides::Start& start = loop.starts[row];
+        ContactSides::Side& side = loop.sides[row];
+        const Columns<width> other = records_of<width>(loop.records, side.other + k);
+        const V x = own.x - other.x + load<width>(start.offset_x + k);
+        const V y = own.y - other.y + load<width>(start.offset_y + k);
+        const V distance = square_root(x * x + y * y + contact_loops::tiny);
+        const V inverse = 1 / distance;
+        const V overlap = own.last + other.last - distance;
+        const auto here = overlap > zero;
+        const V kn = load<width>(side.normal_stiffness + k);
+        const V fn = kn * overlap;
+        store(side.normal_x + k, x * inverse);
+        store(side.normal_y + k, y * inverse);
+        store(side.normal_force + k, fn);
+        const V start_x = load<width>(start.x + k);
+        const V start_y = load<width>(start.y + k);
+        const V dot = start_x * x + start_y * y;
+        const V cross = start_x * y - start_y * x;
+        const V sine = cross * inverse;
+        const V excess = dot > zero ? magnitude(sine) - contact_loops::short_series : one;
+        beyond = largest(beyond, here ? excess : zero);
+        V slip = distance;
+        if constexpr (far) {
+          slip *= contact_loops::far_turn(distance, dot, cross);
+        } else {
+          slip *= contact_loops::arc_sine(sine);
+        }
+        const V kt = load<width>(side.tangential_stiffness + k);
+        if constexpr (rotating) {
+          const V stretch = distance * load<width>(start.inverse_reach + k);
+          slip += stretch * (load<width>(start.roll + k) - (own.roll + other.roll));
+          store(side.stretch + k, stretch);
+          stiffness_roll += here ? kt * distance * stretch : zero;
+        }
+        store(side.trial + k, load<width>(start.force + k) - kt * slip);
+        stiffness += here ? kn : zero;
+        force.add(k, here ? fn : zero);
+        touching.add(k, here ? one : zero);
+      }
+      const auto put_mass = [&](const V& sum, const double* least, double* mass, double* gain) {
+        const V value = loop.factor * largest(sum, load<width>(least + k));
+        store(mass + k, value);
+        store(gain + k, 1 / value);
+      };
+      put_mass(stiffness, nodes.least, nodes.mass, nodes.gain);
+      if constexpr (rotating) {
+        put_mass(stiffness_roll * load<width>(nodes.inverse_radius + k), nodes.least_roll,
+                 nodes.mass_roll, nodes.gain_roll);
+      }
+      store(nodes.move_x + k, zero);
+      store(nodes.move_y + k, zero);
+      store(nodes.move_roll + k, zero);
+    }
+  }
+  return {most(beyond), force.total(), touching.total()};
+}
+
+template <std::size_t width, bool rotating>
+GRAINLAW_INLINE ContactSides::Measured step_loop(const Loop& loop) {
+  using V = Lanes<width>;
+  const V zero{};
+  const double friction = loop.friction;
+  const double curvature = loop.curvature;
+  V largest_force{};
+  GroupSum<width> power, next_power, inertia;
+  for (auto& nodes : loop.groups) {
+    for (std::size_t k = 0; k < lanes; k += width) {
+      Columns<width> own{load<width>(nodes.move_x + k), load<width>(nodes.move_y + k),
+                         load<width>(nodes.move_roll + k), zero};
+      V x{}, y{}, roll{};
+      const ContactSides::Side* side = loop.sides + nodes.first_row;
+      for (const auto* const end = side + nodes.rows; side != end; ++side) {
+        const Columns<width> other = records_of<width>(loop.records, side->other + k);
+        const V ux = own.x - other.x;
+        const V uy = own.y - other.y;
+        const V nx = load<width>(side->normal_x + k);
+        const V ny = load<width>(side->normal_y + k);
+        const V fn = largest(load<width>(side->normal_force + k) -
+                                 load<width>(side->normal_stiffness + k) * (nx * ux + ny * uy),
+                             zero);
+        const V across = nx * uy - ny * ux;
+        const V turn = curvature * across;
+        const V ax = nx - turn * ny;
+        const V ay = ny + turn * nx;
+        V slip = across;
+        V stretch{};
+        if constexpr (rotating) {
+          stretch = load<width>(side->stretch + k);
+          slip -= stretch * (own.roll + other.roll);
+        }
+        const V trial =
+            load<width>(side->trial + k) - load<width>(side->tangential_stiffness + k) * slip;
+        const V bound = friction * fn;
+        const V ft = smallest(largest(trial, -bound), bound);
+        x += fn * ax - ft * ay;
+        y += fn * ay + ft * ax;
+        if constexpr (rotating) roll -= stretch * ft;
+      }
+      V work{}, next_work{}, twice_energy{};
+      const auto go_on = [&](const V& force, double* velocity, const double* mass,
+                             const double* gain, double* move, V& moved) {
+        const V v = load<width>(velocity + k);
+        largest_force = largest(largest_force, magnitude(force));
+        work += v * force;
+        twice_energy += v * load<width>(mass + k) * v;
+        const V next = loop.keep * v + loop.gain * force * load<width>(gain + k);
+        next_work += next * force;
+        store(velocity + k, next);
+        moved += next;
+        store(move + k, moved);
+      };
+      go_on(x, nodes.velocity_x, nodes.mass, nodes.gain, nodes.move_x, own.x);
+      go_on(y, nodes.velocity_y, nodes.mass, nodes.gain, nodes.move_y, own.y);
+      if constexpr (rotating) {
+        go_on(roll, nodes.velocity_roll, nodes.mass_roll, nodes.gain_roll, nodes.move_roll,
+              own.roll);
+      }
+      power.add(k, work);
+      next_power.add(k, next_work);
+      inertia.add(k, twice_energy);
+      put_records<width>(own, [&](std::size_t lane) {
+        return loop.next_moves + 4 * static_cast<std::size_t>(nodes.particle[k + lane]);
+      });
+    }
+  }
+  return {most(largest_force), power.total(), next_power.total(), inertia.total()};
+}
+
+GRAINLAW_LOOP(Looked, look_locked_near, look_loop, false, false)
+GRAINLAW_LOOP(Looked, look_locked_far, look_loop, false, true)
+GRAINLAW_LOOP(Looked, look_near, look_loop, true, false)
+GRAINLAW_LOOP(Looked, look_far, look_loop, true, true)
+GRAINLAW_LOOP(ContactSides::Measured, step_locked, step_loop, false)
+GRAINLAW_LOOP(ContactSides::Measured, step_rotating, step_loop, true)
+
+std::size_t at(std::int32_t particle) { return static_cast<std::size_t>(particle); }
+
+}  // namespace
+
+void ContactSides::arrange(const ContactList& list, std::span<const double> radius,
+                           std::span<const ForceRecord> least_masses, bool at_rest) {
+  particles_ = radius.size();
+  for (auto* records : {&place_, &moves_, &next_moves_}) resize_with_room(*records, particles_ + 1);
+  auto& velocity = next_moves_;
+  if (!at_rest) {
+    for (const Nodes& nodes : nodes_) {
+      for (std::size_t k = 0; k < lanes; ++k) {
+        velocity[at(nodes.particle[k])] = {nodes.velocity_x[k], nodes.velocity_y[k],
+                                           nodes.velocity_roll[k], 0};
+      }
+    }
+  }
+
+  // Particles sorted by the number of their sides, by counting, so that the rows of a group are full.
+  resize_with_room(count_, particles_);
+  std::fill(count_.begin(), count_.end(), 0U);
+  std::uint32_t most = 15;  // nearly always enough, so that the counts keep their size
+  for (std::size_t c = 0; c < list.size(); ++c) {
+    most = std::max(most, ++count_[at(list.i[c])]);
+    most = std::max(most, ++count_[at(list.j[c])]);
+  }
+  resize_with_room(first_slot_, most + 2);
+  std::fill(first_slot_.begin(), first_slot_.end(), 0U);
+  for (const std::uint32_t count : count_) ++first_slot_[count + 1];
+  for (std::size_t k = 1; k < first_slot_.size(); ++k) first_slot_[k] += first_slot_[k - 1];
+  resize_with_room(nodes_, (particles_ + lanes - 1) / lanes);
+  place_.back() = {};
+  Nodes filling{};
+  std::fill_n(filling.particle, lanes, static_cast<std::int32_t>(particles_));
+  for (auto* column : {&filling.least, &filling.least_roll}) std::fill_n(*column, lanes, 1.0);
+  std::fill(nodes_.begin(), nodes_.end(), filling);
+  resize_with_room(slot_, particles_);
+  for (std::size_t p = 0; p < particles_; ++p) {
+    slot_[p] = first_slot_[count_[p]]++;
+    Nodes& nodes = nodes_[slot_[p] / lanes];
+    const std::size_t k = slot_[p] % lanes;
+    nodes.particle[k] = static_cast<std::int32_t>(p);
+    nodes.least[k] = least_masses[p].x;
+    nodes.least_roll[k] = least_masses[p].roll;
+    nodes.inverse_radius[k] = least_masses[p].unused;
+    nodes.rows = std::max(nodes.rows, count_[p]);
+    if (at_rest) continue;
+    nodes.velocity_x[k] = velocity[p].x;
+    nodes.velocity_y[k] = velocity[p].y;
+    nodes.velocity_roll[k] = velocity[p].roll;
+  }
+  double sum = 0;
+  for (double r : radius) sum += r;
+  curvature_ = 0.5 * static_cast<double>(particles_) / sum;
+  std::uint32_t rows = 0;
+  for (Nodes& nodes : nodes_) {
+    nodes.first_row = rows;
+    rows += nodes.rows;
+  }
+
+  // Filled up with nodes beside themselves, further than they reach, without stiffness.
+  const double wide = 4 * *std::max_element(radius.begin(), radius.end());
+  Start nothing{};
+  std::fill_n(nothing.offset_x, lanes, wide);
+  std::fill_n(nothing.inverse_reach, lanes, 1 / wide);
+  std::fill_n(nothing.x, lanes, 1.0);
+  resize_with_room(starts_, rows);
+  std::fill(starts_.begin(), starts_.end(), nothing);
+  resize_with_room(sides_, rows);
+  std::fill(sides_.begin(), sides_.end(), Side{});
+  for (const Nodes& nodes : nodes_) {
+    for (std::size_t row = nodes.first_row; row < nodes.first_row + nodes.rows; ++row) {
+      std::copy_n(nodes.particle, lanes, sides_[row].other);
+    }
+  }
+  std::fill(count_.begin(), count_.end(), 0U);
+  const auto add = [&](std::size_t c, std::int32_t node, std::int32_t other, double sign) {
+    const std::size_t slot = slot_[at(node)];
+    const std::size_t row = nodes_[slot / lanes].first_row + count_[at(node)]++;
+    const std::size_t k = slot % lanes;
+    Start& start = starts_[row];
+    start.offset_x[k] = sign * list.offset_x[c];
+    start.offset_y[k] = sign * list.offset_y[c];
+    start.inverse_reach[k] = list.inverse_reach[c];
+    start.x[k] = sign * list.start_x[c];
+    start.y[k] = sign * list.start_y[c];
+    start.roll[k] = list.start_roll[c];
+    start.force[k] = list.start_force[c];
+    Side& side = sides_[row];
+    side.other[k] = other;
+    side.normal_stiffness[k] = list.normal_stiffness[c];
+    side.tangential_stiffness[k] = list.tangential_stiffness[c];
+  };
+  for (std::size_t c = 0; c < list.size(); ++c) {
+    add(c, list.i[c], list.j[c], -1);
+    add(c, list.j[c], list.i[c], 1);
+  }
+}
+
+ContactTotals ContactSides::look(std::span<const ParticleRecord> particles, const ContactLaw& law,
+                                 double factor, ContactList& list) {
+  std::copy(particles.begin(), particles.end(), place_.begin());
+  std::fill(moves_.begin(), moves_.end(), ParticleRecord{});
+  const Loop loop{.groups = nodes_,
+                  .starts = starts_.data(),
+                  .sides = sides_.data(),
+                  .records = &place_[0].x,
+                  .factor = factor};
+  Looked seen{};
+  if (!list.turns_far) {
+    seen = law.rotating() ? look_near(loop) : look_locked_near(loop);
+    list.turns_far = seen.beyond > 0;
+  }
+  if (list.turns_far) seen = law.rotating() ? look_far(loop) : look_locked_far(loop);
+  // Every contact was seen twice.
+  return {0.5 * seen.force, 0.5 * seen.touching, static_cast<int>(0.5 * seen.touching)};
+}
+
+ContactSides::Measured ContactSides::step(const ContactLaw& law, double keep, double gain) {
+  const Loop loop{.groups = nodes_,
+                  .starts = nullptr,
+                  .sides = sides_.data(),
+                  .records = &moves_[0].x,
+                  .next_moves = &next_moves_[0].x,
+                  .curvature = curvature_,
+                  .friction = law.friction,
+                  .keep = keep,
+                  .gain = gain};
+  const Measured measured = law.rotating() ? step_rotating(loop) : step_locked(loop);
+  moves_.swap(next_moves_);
+  return measured;
+}
+
+void ContactSides::move(std::span<ParticleRecord> particles) const {
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    particles[p].x += moves_[p].x;
+    particles[p].y += moves_[p].y;
+    particles[p].roll += moves_[p].roll;
+  }
+}
+
+}  // namespace grainlaw

@@ -1,0 +1,78 @@
+// The contacts of a plain law with friction, each from both its sides, node by node; and their forces as functions
+// of how far the nodes moved from one place. Between two looks at the geometry a relaxation needs no
+// square roots, and no force goes through memory.
+#pragma once
+
+#include "contact/contact_list.hpp"
+#include "contact/frictional.hpp"
+#include "contact/law.hpp"
+#include "simd.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace grainlaw {
+
+// Every particle is a node of its own. At a place, set by look(), with the moves u from it:
+//   fn = max(kn (overlap - n.u), 0), ft = clamp(trial - kt (t.u - s w), +-friction fn)
+// with s = d / (R_i + R_j), w the change of R_i theta_i + R_j theta_j, and normals that turn by t.u over
+// the mean branch: the law's forces at the place, and nearly so to first order around it.
+class ContactSides {
+ public:
+  // Lists the sides of the contacts, which have no weights. least_masses: kn in x [N/m], kt in roll,
+  // and 1 / R. Particles are at rest, or keep the velocities they had in the last list.
+  void arrange(const ContactList& list, std::span<const double> radius,
+               std::span<const ForceRecord> least_masses, bool at_rest);
+
+  // Forces at this place, and masses: `factor` times the larger of sum_stiffnesses() and least_masses.
+  // From here on nothing has moved.
+  ContactTotals look(std::span<const ParticleRecord> particles, const ContactLaw& law,
+                     double factor, ContactList& list);
+
+  struct Measured {
+    double largest;     // component of the residual r [N]
+    double power;       // sum v r
+    double next_power;  // the same of the velocity after the step
+    double inertia;     // sum v m v
+  };
+  // v <- keep v + gain r / m, and u <- u + v; what is measured is of the state before.
+  Measured step(const ContactLaw& law, double keep, double gain);
+
+  // Particles that are at the place follow the moves.
+  void move(std::span<ParticleRecord> particles) const;
+
+  // Nodes of a group, as many as the widest registers have lanes: results do not depend on how many
+  // lanes there are.
+  static constexpr std::size_t lanes = 8;
+  using Doubles = double[lanes];
+  struct alignas(64) Nodes {
+    std::int32_t particle[lanes];
+    std::uint32_t first_row, rows;  // of their sides, one of each node in a row
+    Doubles velocity_x, velocity_y, velocity_roll, move_x, move_y, move_roll;
+    Doubles mass, mass_roll, gain, gain_roll;  // gain = 1 / mass
+    Doubles least, least_roll, inverse_radius;
+  };
+  // As in ContactList, with the node as j.
+  struct alignas(64) Start {
+    Doubles offset_x, offset_y, inverse_reach, x, y, roll, force;
+  };
+  struct alignas(64) Side {
+    std::int32_t other[lanes];
+    Doubles normal_x, normal_y, normal_stiffness, tangential_stiffness;
+    Doubles normal_force, trial, stretch;  // at the place: kn overlap, the trial force, s
+  };
+
+ private:
+  std::size_t particles_ = 0;
+  double curvature_ = 0;       // 1 / mean branch [1/m]
+  simd::Column<Nodes> nodes_;  // sorted by the number of sides
+  simd::Column<Start> starts_;
+  simd::Column<Side> sides_;
+  // Of the particles, and of one more, which fills up the last group.
+  simd::Column<ParticleRecord> place_, moves_, next_moves_;
+  std::vector<std::uint32_t> count_, first_slot_, slot_;
+};
+
+}  // namespace grainlaw

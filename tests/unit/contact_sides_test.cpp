@@ -1,0 +1,145 @@
+// Contacts seen from their nodes: the forces of the law at a place and around it, and steps that they
+// drive.
+#include "contact/contact_sides.hpp"
+#include "equilibrium/increment.hpp"
+#include "law_support.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace grainlaw::test {
+namespace {
+
+constexpr double gain = 1e-3;
+
+// An increment at its affine start, seen from there.
+struct Scene {
+  explicit Scene(const Packing& packing, const ContactLaw& law, const Tensor& F)
+      : material(make_material(describe(packing, law, BoundaryType::periodic_cell))),
+        problem(material->problem()) {
+    increment.begin(problem, material->initial, F);
+    increment.refresh_masses();
+    arrange(true);
+    totals = look();
+  }
+
+  void arrange(bool at_rest) {
+    sides.arrange(increment.contacts, material->packing.radius, increment.least_masses(), at_rest);
+  }
+
+  ContactTotals look() {
+    return sides.look(increment.records, material->law, Increment::mass_factor, increment.contacts);
+  }
+
+  // Residual by the law where the records are.
+  [[nodiscard]] std::vector<ForceRecord> residual() {
+    std::vector<ForceRecord> result(increment.nodes());
+    evaluate_contacts(increment.records, material->law, increment.contacts, result);
+    return result;
+  }
+
+  // The same by a step from rest, which moves particles by gain r / m.
+  [[nodiscard]] std::vector<ForceRecord> step() {
+    auto before = increment.records;
+    sides.move(before);
+    measured = sides.step(material->law, 0, gain);
+    auto after = increment.records;
+    sides.move(after);
+    std::vector<ForceRecord> result(increment.nodes());
+    for (std::size_t p = 0; p < result.size(); ++p) {
+      const auto& m = increment.mass_records[p];
+      result[p] = {(after[p].x - before[p].x) * m.x / gain, (after[p].y - before[p].y) * m.y / gain,
+                   (after[p].roll - before[p].roll) * m.roll / gain};
+    }
+    return result;
+  }
+
+  std::shared_ptr<const Material> material;
+  Problem problem;
+  Increment increment;
+  ContactSides sides;
+  ContactTotals totals{};
+  ContactSides::Measured measured{};
+};
+
+double largest(const ForceRecord& a) {
+  return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.roll)});
+}
+
+double largest(const std::vector<ForceRecord>& values) {
+  double result = 0;
+  for (const auto& value : values) result = std::max(result, largest(value));
+  return result;
+}
+
+double largest_difference(const std::vector<ForceRecord>& a, const std::vector<ForceRecord>& b) {
+  double result = 0;
+  for (std::size_t p = 0; p < a.size(); ++p) {
+    result = std::max(result, largest({a[p].x - b[p].x, a[p].y - b[p].y, a[p].roll - b[p].roll}));
+  }
+  return result;
+}
+
+std::vector<ContactLaw> laws() {
+  ContactLaw locked = rough_law();
+  locked.rotation = false;
+  return {rough_law(), locked};
+}
+
+// The last one turns branches by more than the short series is for.
+const std::vector<Tensor> deformations{{1.0004, 0, 0, 0.999}, {1, 3e-3, 1e-3, 1}, {1, 0.4, 0, 1}};
+
+TEST(contact_sides, carry_the_forces_of_the_law_at_their_place) {
+  for (const std::size_t count : {2, 3, 21, 80}) {  // of the last group of eight a part, too
+    for (const auto& law : laws()) {
+      for (const Tensor& F : deformations) {
+        Scene scene(small_packing(count), law, F);
+        const auto expected = scene.residual();
+        const double force = scene.totals.force / scene.totals.weights;
+        EXPECT_LE(largest_difference(scene.step(), expected), 1e-8 * force) << count;
+        EXPECT_NEAR(scene.measured.largest, largest(expected), 1e-10 * force) << count;
+        EXPECT_EQ(scene.totals.touching, scene.increment.touching);
+        EXPECT_NEAR(force, scene.increment.mean_force, 1e-12 * force);
+      }
+    }
+  }
+}
+
+// The mean branch stands for each: of a change that is about kn u, overlap / branch kn u is of it.
+TEST(contact_sides, follow_the_law_to_first_order_of_the_moves) {
+  for (const auto& law : laws()) {
+    Scene scene(small_packing(), law, {1.0004, 2e-4, 0, 0.999});
+    const auto at_place = scene.step();
+    auto there = scene.increment.records;
+    scene.sides.move(there);
+    const auto changed = scene.step();
+    scene.increment.records = there;
+    const double change = largest_difference(changed, at_place);
+    EXPECT_GT(change, 0);
+    EXPECT_LE(largest_difference(changed, scene.residual()), 4e-3 * change);
+  }
+}
+
+TEST(contact_sides, keep_their_velocities_in_a_new_list) {
+  const auto moved = [](bool anew) {
+    Scene scene(small_packing(), rough_law(), {1.0004, 2e-4, 0, 0.999});
+    const auto& law = scene.material->law;
+    for (int k = 0; k < 5; ++k) scene.sides.step(law, 0.9, gain);
+    scene.sides.move(scene.increment.records);
+    if (anew) scene.arrange(false);
+    scene.look();
+    scene.sides.step(law, 0.9, gain);
+    scene.sides.move(scene.increment.records);
+    std::vector<std::array<double, 3>> places;
+    for (const auto& at : scene.increment.records) places.push_back({at.x, at.y, at.roll});
+    return places;
+  };
+  EXPECT_EQ(moved(true), moved(false));
+}
+
+}  // namespace
+}  // namespace grainlaw::test
