@@ -91,6 +91,13 @@ void start_iteration(const Request& request, double share, Increment& increment)
   }
 }
 
+// The tolerance, and no less than rounding leaves: below that there is no equilibrium to speak of.
+// Forces may fade on the way to it.
+double reachable(const Request& request, const Increment& increment) {
+  constexpr double loosest = 1e-3;
+  return std::max(request.tolerance, std::min(increment.rounding_residual(), loosest));
+}
+
 // One sub-increment: relaxation, then Newton; when Newton does not get there, both again from where
 // they are, the relaxation longer and tighter, at last down to the target itself.
 bool solve_part(const Request& request, Workspace& w, Outcome& outcome) {
@@ -101,13 +108,7 @@ bool solve_part(const Request& request, Workspace& w, Outcome& outcome) {
   const Effort& effort = effort_of(request);
   const long steps = relaxation_limit(effort.relaxation_steps, increment.nodes());
   increment.refresh_masses();
-  // Where rounding is all that is left, there is no equilibrium to speak of. Forces may fade on the
-  // way to it.
-  const auto reachable = [&] {
-    constexpr double loosest = 1e-3;
-    return std::max(request.tolerance, std::min(increment.rounding_residual(), loosest));
-  };
-  double target = reachable();
+  double target = reachable(request, increment);
   double hand_over = switch_tolerance(increment.nodes());
   if (target > worth_newton * hand_over) hand_over = target;
   for (int round = 0; round < effort.rounds; ++round) {
@@ -124,7 +125,7 @@ bool solve_part(const Request& request, Workspace& w, Outcome& outcome) {
     const bool too_soon = round == 0 && !request.guess_loose;
     if (!too_soon && is_loose()) return outcome.loose = true;
     hand_over *= round < 2 ? tighter : much_tighter;
-    target = reachable();
+    target = reachable(request, increment);
   }
   return is_free(request, increment);
 }
@@ -190,9 +191,10 @@ bool solve_parts(const Request& request, int parts, Workspace& w, Outcome& outco
 bool solve_advancing(const Request& request, Method method, Workspace& w, Outcome& outcome) {
   auto& increment = w.increment;
   outcome.subincrements = 1;
-  outcome.history_advanced = true;
+  outcome.history_advanced = request.problem->law->tangential();  // else there is none
   w.sensitivity.reset();
   start_iteration(request, 1, increment);
+  increment.refresh_masses();
   const auto equilibrium = [&] {
     if (request.problem->space->options.method == BoundaryMethod::servo) {
       return solve_servo(increment, *request.options, request.tolerance, w.relaxation);
@@ -201,9 +203,10 @@ bool solve_advancing(const Request& request, Method method, Workspace& w, Outcom
       return relax_published(increment, request.tolerance, request.options->published, {},
                              w.relaxation);
     }
-    const double loosest = request.options->method == Method::chain
-                               ? std::max(request.tolerance, request.loose_tolerance)
-                               : request.tolerance;
+    double loosest = reachable(request, increment);
+    if (request.options->method == Method::chain) {
+      loosest = std::max(loosest, request.loose_tolerance);
+    }
     return relax(increment, loosest,
                  50 * relaxation_limit(full_effort.relaxation_steps, increment.nodes()),
                  History::advancing, w.relaxation);
@@ -212,7 +215,8 @@ bool solve_advancing(const Request& request, Method method, Workspace& w, Outcom
   const bool done = settled() && settle_bonds(
                                      increment, [] {}, settled);
   // Counts as such too: an F at which the contacts were lost this way.
-  outcome.loose = request.loose_tolerance > 0 && increment.residual_norm() > request.tolerance;
+  outcome.loose =
+      request.loose_tolerance > 0 && increment.residual_norm() > reachable(request, increment);
   outcome.sensitivities = done && request.sensitivities && !outcome.loose && increment.bears() &&
                           w.sensitivity.solve(increment, 1, 0, w.newton.stiffness);
   return done;
