@@ -1,7 +1,10 @@
 // Increments that may end at a looser residual where their packing does not settle soon.
 #include "law_support.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <string_view>
+#include <vector>
 
 namespace grainlaw::test {
 namespace {
@@ -10,7 +13,8 @@ constexpr double tolerance = 1e-8;
 constexpr double loose = 1e-2;
 
 struct Count {
-  int increments = 0, same = 0, ended_loosely = 0, near = 0;
+  int increments = 0, same = 0, ended_loosely = 0;
+  std::vector<double> differences = {};  // of P, of those that ended loosely
 };
 
 MaterialDescription fluttering(std::uint64_t seed) {
@@ -49,7 +53,7 @@ Count compare(std::uint64_t seed) {
       EXPECT_NE(std::string_view(at.report.message).find("loose_tolerance"),
                 std::string_view::npos);
       EXPECT_EQ(at.tangent, evaluate(state, F, TangentKind::elastic).tangent);
-      if (relative_difference(at.stress, expected.stress) < 1e-2) ++count.near;
+      count.differences.push_back(relative_difference(at.stress, expected.stress));
     }
     full.commit();
     state.restore(full.committed());
@@ -58,18 +62,21 @@ Count compare(std::uint64_t seed) {
 }
 
 TEST(loose_tolerance, ends_where_a_packing_does_not_settle_and_changes_nothing_elsewhere) {
+  constexpr std::uint64_t seeds = 12;
   Count all;
-  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     const Count count = compare(seed);
     all.increments += count.increments;
     all.same += count.same;
     all.ended_loosely += count.ended_loosely;
-    all.near += count.near;
+    std::ranges::copy(count.differences, std::back_inserter(all.differences));
   }
-  EXPECT_EQ(all.increments, 80);
+  EXPECT_EQ(all.increments, 20 * static_cast<int>(seeds));
   EXPECT_GE(2 * all.same, all.increments);
-  EXPECT_GE(all.ended_loosely, 1);
-  EXPECT_GE(2 * all.near, all.ended_loosely);  // the others find another packing
+  ASSERT_GE(all.ended_loosely, 3);
+  // Some find another packing, and with it another stress.
+  std::ranges::sort(all.differences);
+  EXPECT_LE(all.differences[all.differences.size() / 2], 0.05);
 }
 
 TEST(loose_tolerance, what_ended_loosely_is_sought_for_less_from_there) {
