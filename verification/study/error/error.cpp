@@ -14,6 +14,7 @@ struct Arguments {
   std::vector<std::string> parts = all_parts;
   int reference_increments = 4000;
   int largest_count = 6400;
+  double yade_step = 0;
 };
 
 void run_study(const StudyOptions& options, const Arguments& arguments) {
@@ -25,7 +26,7 @@ void run_study(const StudyOptions& options, const Arguments& arguments) {
   const Path drained = drained_path(options);
   const Path shear = shear_path();
   if (wanted("increments")) {
-    const std::vector<YadeRow> yade = read_yade(options);
+    const std::vector<YadeRow> yade = read_yade(options, arguments.yade_step);
     const std::vector<IncrementRow> increments = study_increments(options, {drained, shear});
     draw_increments(options, increments, yade);
     compare_with_yade(options, increments, yade);
@@ -54,6 +55,11 @@ void add_error_study(CLI::App& study, const std::shared_ptr<StudyOptions>& optio
                    "most particles; packings are made once and kept [-]")
       ->check(CLI::Range(100, 6400))
       ->capture_default_str();
+  command
+      ->add_option("--yade-step", arguments->yade_step,
+                   "CPU time of a step of YADE on this machine, per particle [ns]; 0: its times "
+                   "as they were recorded on another")
+      ->check(CLI::NonNegativeNumber);
   command->callback([arguments, options] { run_study(*options, *arguments); });
 }
 

@@ -106,8 +106,11 @@ void study_budget(const StudyOptions& options, const std::vector<IncrementRow>& 
 struct YadeRow {
   std::string setting, kind;        // kind: coupling, usual, best
   double error, cpu_low, cpu_high;  // [-], [ms]
+  double recorded;                  // the middle, on the machine it was recorded on [ms]
 };
-std::vector<YadeRow> read_yade(const StudyOptions& options);
+// As recorded, times what a step takes here over what it took there; step: CPU time per particle
+// here [ns], 0: not known, the recorded times stand.
+std::vector<YadeRow> read_yade(const StudyOptions& options, double step);
 void compare_with_yade(const StudyOptions& options, const std::vector<IncrementRow>& increments,
                        const std::vector<YadeRow>& yade);
 
