@@ -4,6 +4,7 @@
 #include "room.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace grainlaw {
 
@@ -186,17 +187,37 @@ void ContactSides::arrange(const ContactList& list, std::span<const double> radi
                            std::span<const ForceRecord> least_masses, bool at_rest) {
   particles_ = radius.size();
   for (auto* records : {&place_, &moves_, &next_moves_}) resize_with_room(*records, particles_ + 1);
-  auto& velocity = next_moves_;
-  if (!at_rest) {
-    for (const Nodes& nodes : nodes_) {
-      for (std::size_t k = 0; k < lanes; ++k) {
-        velocity[at(nodes.particle[k])] = {nodes.velocity_x[k], nodes.velocity_y[k],
-                                           nodes.velocity_roll[k], 0};
-      }
+  place_.back() = {};
+  const double sum = std::accumulate(radius.begin(), radius.end(), 0.0);
+  curvature_ = 0.5 * static_cast<double>(particles_) / sum;
+  if (!at_rest) save_velocities();
+  sort_nodes(list, least_masses);
+  if (!at_rest) restore_velocities();
+  list_sides(list, 2 * *std::max_element(radius.begin(), radius.end()));
+}
+
+void ContactSides::save_velocities() {
+  for (const Nodes& nodes : nodes_) {
+    for (std::size_t k = 0; k < lanes; ++k) {
+      next_moves_[at(nodes.particle[k])] = {nodes.velocity_x[k], nodes.velocity_y[k],
+                                            nodes.velocity_roll[k], 0};
     }
   }
+}
 
-  // Particles sorted by the number of their sides, by counting, so that the rows of a group are full.
+void ContactSides::restore_velocities() {
+  for (Nodes& nodes : nodes_) {
+    for (std::size_t k = 0; k < lanes; ++k) {
+      const auto& velocity = next_moves_[at(nodes.particle[k])];
+      nodes.velocity_x[k] = velocity.x;
+      nodes.velocity_y[k] = velocity.y;
+      nodes.velocity_roll[k] = velocity.roll;
+    }
+  }
+}
+
+// By the number of their sides, so that the rows of a group are full; by counting.
+void ContactSides::sort_nodes(const ContactList& list, std::span<const ForceRecord> least_masses) {
   resize_with_room(count_, particles_);
   std::fill(count_.begin(), count_.end(), 0U);
   std::uint32_t most = 15;  // nearly always enough, so that the counts keep their size
@@ -207,12 +228,12 @@ void ContactSides::arrange(const ContactList& list, std::span<const double> radi
   resize_with_room(first_slot_, most + 2);
   std::fill(first_slot_.begin(), first_slot_.end(), 0U);
   for (const std::uint32_t count : count_) ++first_slot_[count + 1];
-  for (std::size_t k = 1; k < first_slot_.size(); ++k) first_slot_[k] += first_slot_[k - 1];
-  resize_with_room(nodes_, (particles_ + lanes - 1) / lanes);
-  place_.back() = {};
+  std::partial_sum(first_slot_.begin(), first_slot_.end(), first_slot_.begin());
+
   Nodes filling{};
   std::fill_n(filling.particle, lanes, static_cast<std::int32_t>(particles_));
   for (auto* column : {&filling.least, &filling.least_roll}) std::fill_n(*column, lanes, 1.0);
+  resize_with_room(nodes_, (particles_ + lanes - 1) / lanes);
   std::fill(nodes_.begin(), nodes_.end(), filling);
   resize_with_room(slot_, particles_);
   for (std::size_t p = 0; p < particles_; ++p) {
@@ -224,26 +245,21 @@ void ContactSides::arrange(const ContactList& list, std::span<const double> radi
     nodes.least_roll[k] = least_masses[p].roll;
     nodes.inverse_radius[k] = least_masses[p].unused;
     nodes.rows = std::max(nodes.rows, count_[p]);
-    if (at_rest) continue;
-    nodes.velocity_x[k] = velocity[p].x;
-    nodes.velocity_y[k] = velocity[p].y;
-    nodes.velocity_roll[k] = velocity[p].roll;
   }
-  double sum = 0;
-  for (double r : radius) sum += r;
-  curvature_ = 0.5 * static_cast<double>(particles_) / sum;
   std::uint32_t rows = 0;
   for (Nodes& nodes : nodes_) {
     nodes.first_row = rows;
     rows += nodes.rows;
   }
+}
 
+void ContactSides::list_sides(const ContactList& list, double longest_reach) {
   // Filled up with nodes beside themselves, further than they reach, without stiffness.
-  const double wide = 4 * *std::max_element(radius.begin(), radius.end());
   Start nothing{};
-  std::fill_n(nothing.offset_x, lanes, wide);
-  std::fill_n(nothing.inverse_reach, lanes, 1 / wide);
+  std::fill_n(nothing.offset_x, lanes, 2 * longest_reach);
+  std::fill_n(nothing.inverse_reach, lanes, 1 / longest_reach);
   std::fill_n(nothing.x, lanes, 1.0);
+  const std::size_t rows = nodes_.back().first_row + nodes_.back().rows;
   resize_with_room(starts_, rows);
   std::fill(starts_.begin(), starts_.end(), nothing);
   resize_with_room(sides_, rows);

@@ -65,13 +65,19 @@ class ContactSides {
   };
 
  private:
+  void save_velocities();
+  void restore_velocities();
+  void sort_nodes(const ContactList& list, std::span<const ForceRecord> least_masses);
+  void list_sides(const ContactList& list, double longest_reach);
+
   std::size_t particles_ = 0;
   double curvature_ = 0;       // 1 / mean branch [1/m]
   simd::Column<Nodes> nodes_;  // sorted by the number of sides
   simd::Column<Start> starts_;
   simd::Column<Side> sides_;
   // Of the particles, and of one more, which fills up the last group.
-  simd::Column<ParticleRecord> place_, moves_, next_moves_;
+  simd::Column<ParticleRecord> place_, moves_;
+  simd::Column<ParticleRecord> next_moves_;  // while listing: velocities
   std::vector<std::uint32_t> count_, first_slot_, slot_;
 };
 

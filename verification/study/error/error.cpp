@@ -26,11 +26,12 @@ void run_study(const StudyOptions& options, const Arguments& arguments) {
   const Path drained = drained_path(options);
   const Path shear = shear_path();
   if (wanted("increments")) {
-    const std::vector<YadeRow> yade = read_yade(options, arguments.yade_step);
+    const double slower = slower_than_recorded(arguments.yade_step);
+    const std::vector<YadeRow> yade = read_yade(options, slower);
     const std::vector<IncrementRow> increments = study_increments(options, {drained, shear});
     draw_increments(options, increments, yade);
     compare_with_yade(options, increments, yade);
-    study_budget(options, increments);
+    study_budget(options, increments, slower);
     study_tangents(options, {drained, shear});
   }
   if (wanted("paths"))

@@ -100,17 +100,20 @@ struct NumberRow {
 };
 std::vector<NumberRow> study_numbers(const StudyOptions& options, int largest_count);
 
-// The drained path's bars and the ratio of YADE's CPU time to ours.
-void study_budget(const StudyOptions& options, const std::vector<IncrementRow>& increments);
+// The drained path's bars, which are of a machine that `slower` is this one's CPU time over.
+void study_budget(const StudyOptions& options, const std::vector<IncrementRow>& increments,
+                  double slower);
 
 struct YadeRow {
   std::string setting, kind;        // kind: coupling, usual, best
   double error, cpu_low, cpu_high;  // [-], [ms]
   double recorded;                  // the middle, on the machine it was recorded on [ms]
 };
-// As recorded, times what a step takes here over what it took there; step: CPU time per particle
-// here [ns], 0: not known, the recorded times stand.
-std::vector<YadeRow> read_yade(const StudyOptions& options, double step);
+// Times as recorded, times `slower`.
+std::vector<YadeRow> read_yade(const StudyOptions& options, double slower);
+// CPU time of a step of YADE here over what it was where its times were recorded, from its time per
+// particle here [ns]; 0: not known, 1 is assumed.
+double slower_than_recorded(double yade_step);
 void compare_with_yade(const StudyOptions& options, const std::vector<IncrementRow>& increments,
                        const std::vector<YadeRow>& yade);
 
