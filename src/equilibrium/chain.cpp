@@ -104,9 +104,10 @@ bool solve_part(const Request& request, Workspace& w, Outcome& outcome) {
   constexpr double tighter = 0.3;
   constexpr double much_tighter = 0.1;
   constexpr double worth_newton = 0.5;  // a looser target is sooner reached by relaxation alone
-  // With them and relaxed down to the target, one increment in a thousand still settles: two
+  // After them, relaxed down to the target, one whole increment in a thousand still settles: two
   // sub-increments are cheaper.
   constexpr int enough_rounds = 6;
+  const bool whole = outcome.subincrements == 1;
   auto& increment = w.increment;
   const Effort& effort = effort_of(request);
   const long steps = relaxation_limit(effort.relaxation_steps, increment.nodes());
@@ -116,7 +117,7 @@ bool solve_part(const Request& request, Workspace& w, Outcome& outcome) {
   if (target > worth_newton * hand_over) hand_over = target;
   bool last = false;
   for (int round = 0; !last && round < effort.rounds; ++round) {
-    last = round >= enough_rounds && hand_over <= target;
+    last = whole && round >= enough_rounds && hand_over <= target;
     const double tolerance = std::max(hand_over, target);
     const long limit = (round < 5 ? 1 : 2) * steps;
     const bool relaxed = relax(increment, tolerance, limit, History::committed, w.relaxation);
