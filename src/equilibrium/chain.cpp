@@ -200,7 +200,6 @@ bool solve_advancing(const Request& request, Method method, Workspace& w, Outcom
   outcome.history_advanced = request.problem->law->tangential();  // else there is none
   w.sensitivity.reset();
   start_iteration(request, 1, increment);
-  increment.refresh_masses();
   const auto equilibrium = [&] {
     if (request.problem->space->options.method == BoundaryMethod::servo) {
       return solve_servo(increment, *request.options, request.tolerance, w.relaxation);
@@ -209,6 +208,7 @@ bool solve_advancing(const Request& request, Method method, Workspace& w, Outcom
       return relax_published(increment, request.tolerance, request.options->published, {},
                              w.relaxation);
     }
+    increment.refresh_masses();
     double loosest = reachable(request, increment);
     if (request.options->method == Method::chain) {
       loosest = std::max(loosest, request.loose_tolerance);
