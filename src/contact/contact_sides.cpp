@@ -63,13 +63,13 @@ GRAINLAW_INLINE Looked look_loop(const Loop& loop) {
         const V dot = start_x * x + start_y * y;
         const V cross = start_x * y - start_y * x;
         const V sine = cross * inverse;
-        const V excess = dot > zero ? magnitude(sine) - contact_loops::short_series : one;
+        const V excess = dot > zero ? magnitude(sine) - short_series : one;
         beyond = largest(beyond, here ? excess : zero);
         V slip = distance;
         if constexpr (far) {
-          slip *= contact_loops::far_turn(distance, dot, cross);
+          slip *= far_turn(distance, dot, cross);
         } else {
-          slip *= contact_loops::arc_sine(sine);
+          slip *= arc_sine(sine);
         }
         const V kt = load<width>(side.tangential_stiffness + k);
         if constexpr (rotating) {

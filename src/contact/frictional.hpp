@@ -47,48 +47,4 @@ struct ContactTotals {
 ContactTotals sum_stiffnesses(std::span<const ParticleRecord> particles, const ContactLaw& law,
                               ContactList& list, std::span<ForceRecord> nodes);
 
-enum class ContactStatus : char { open, sticking, sliding, bonded };
-
-// One contact seen from its own frame: normal n, tangent t = (-n_y, n_x), distance, forces, and the
-// tangential displacement divided by the distance.
-struct ContactPoint {
-  double branch_x, branch_y, distance, normal_x, normal_y;
-  double normal_force, tangential_force;  // with the contact's weight [N]
-  double turn;                            // du / d [rad]
-  ContactStatus status;
-};
-
-ContactPoint contact_point(const ContactList& list, std::size_t c,
-                           std::span<const double> coordinates, std::size_t particles,
-                           const ContactLaw& law);
-
-// d(fn, ft, d ft) by (normal displacement, tangential displacement, lambda_i theta_i + lambda_j
-// theta_j) of the branch, 3 x 3 row-major; the first two rows are the force vector's components in
-// the turning frame of the contact. Exact derivative of the law within its status.
-std::array<double, 9> contact_stiffness(const ContactList& list, std::size_t c,
-                                        const ContactPoint& point, const ContactLaw& law);
-// The same of a contact with linear springs.
-std::array<double, 9> contact_stiffness(const ContactPoint& point, double normal_stiffness,
-                                        double tangential_stiffness, double friction);
-
-// The moment of rolling or bending on j, and its derivatives by the normal displacement [N] and by
-// theta_j - theta_i [N m]. Of laws with moments, where the point is not open.
-struct ContactMoment {
-  double moment, by_normal, by_spin;
-  bool capped;  // rolls
-};
-ContactMoment contact_moment(const ContactList& list, std::size_t c, const ContactPoint& point,
-                             std::span<const double> coordinates, std::size_t particles,
-                             const ContactLaw& law);
-
-// Normal force at this overlap, negative across a gap whether it is carried or not [N].
-double normal_force(const ContactList& list, std::size_t c, double overlap, const ContactLaw& law);
-
-// From what a list starts with to a force (moment) at this overlap: 1 but for Hertz-Mindlin.
-double start_scale(double overlap, const ContactLaw& law);
-
-// What the springs of all contacts hold [J].
-double stored_energy(const ContactList& list, std::span<const double> coordinates,
-                     std::size_t particles, const ContactLaw& law);
-
 }  // namespace grainlaw

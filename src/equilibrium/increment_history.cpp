@@ -1,5 +1,6 @@
 // Where the history of contacts starts, and what ends there: the parts of Increment that outlast an
 // equilibrium.
+#include "contact/contact_point.hpp"
 #include "contact/frictional.hpp"
 #include "equilibrium/increment.hpp"
 #include "equilibrium/pull_back.hpp"

@@ -1,4 +1,4 @@
-#include "contact/frictional.hpp"
+#include "contact/contact_point.hpp"
 #include "equilibrium/options.hpp"
 #include "equilibrium/relaxation.hpp"
 

@@ -1,7 +1,7 @@
 // Derivatives of the equilibrium by the deformation gradient, carried through sub-increments.
 #pragma once
 
-#include "contact/frictional.hpp"
+#include "contact/contact_point.hpp"
 #include "equilibrium/border.hpp"
 #include "equilibrium/contact_change.hpp"
 #include "equilibrium/increment.hpp"

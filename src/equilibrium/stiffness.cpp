@@ -93,12 +93,16 @@ void Stiffness::find_touching(const Increment& increment) {
   const auto& law = *increment.problem->law;
   touching_.clear();
   for (std::size_t c = 0; c < list.size(); ++c) {
-    const auto point =
-        contact_point(list, c, increment.coordinates, increment.particles(), law);
+    if (increment.surely_open(c)) continue;
+    const auto point = contact_point(list, c, increment.coordinates, increment.particles(), law);
     if (point.status == ContactStatus::open) continue;
-    touching_.push_back({c, static_cast<std::size_t>(node[static_cast<std::size_t>(list.i[c])]),
-                         static_cast<std::size_t>(node[static_cast<std::size_t>(list.j[c])]),
-                         list.lever_i[c], point, contact_stiffness(list, c, point, law)});
+    auto& contact = touching_.emplace_back();
+    contact.index = c;
+    contact.node_i = static_cast<std::size_t>(node[static_cast<std::size_t>(list.i[c])]);
+    contact.node_j = static_cast<std::size_t>(node[static_cast<std::size_t>(list.j[c])]);
+    contact.lever_i = list.lever_i[c];
+    contact.point = point;
+    contact.stiffness = contact_stiffness(list, c, point, law);
   }
   keep_room(touching_);
   moments_.clear();

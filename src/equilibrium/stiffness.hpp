@@ -1,7 +1,7 @@
 // The exact stiffness -dr/dz of the reduced residual, and linear solves with it.
 #pragma once
 
-#include "contact/frictional.hpp"
+#include "contact/contact_point.hpp"
 #include "equilibrium/block_matrix.hpp"
 #include "equilibrium/gmres.hpp"
 #include "equilibrium/increment.hpp"
@@ -15,6 +15,8 @@ namespace grainlaw {
 
 // A contact that touches, at the coordinates of the last assemble().
 struct TouchingContact {
+  TouchingContact() {}  // filled at once: zeros would take as long as a contact's forces
+
   std::size_t index;  // in the increment's list
   std::size_t node_i, node_j;
   double lever_i;

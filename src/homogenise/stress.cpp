@@ -1,6 +1,6 @@
 #include "homogenise/stress.hpp"
 
-#include "contact/frictional.hpp"
+#include "contact/contact_point.hpp"
 #include "equilibrium/pull_back.hpp"
 
 #include <cmath>

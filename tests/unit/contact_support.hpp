@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/contact_list.hpp"
+#include "contact/contact_point.hpp"
 #include "contact/frictional.hpp"
 
 #include <cstddef>

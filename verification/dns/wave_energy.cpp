@@ -1,6 +1,6 @@
 // Energies of particles in motion, and what of the motion is of cross-sections.
 
-#include "contact/frictional.hpp"
+#include "contact/contact_point.hpp"
 #include "dns/wave_motion.hpp"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "dns/wave_motion.hpp"
 
 #include "app/library.hpp"
+#include "contact/contact_point.hpp"
 #include "contact/frictional.hpp"
 
 #include <fmt/format.h>
