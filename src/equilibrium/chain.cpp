@@ -22,9 +22,9 @@ struct Effort {
   double relaxation_steps;  // with up to 400 nodes
   int finest;               // sub-increments, times those that the size of the increment asks for
 };
-constexpr Effort full_effort{9, 12, 50, 1500, 8};
-constexpr Effort bounded_effort{3, 12, 20, 1000, 1};   // with a loose tolerance to end at
-constexpr Effort repeated_effort{2, 12, 20, 1000, 1};  // what fluttered before seldom settles now
+constexpr Effort full_effort{9, 8, 50, 1500, 8};
+constexpr Effort bounded_effort{3, 8, 20, 1000, 1};   // with a loose tolerance to end at
+constexpr Effort repeated_effort{2, 8, 20, 1000, 1};  // what fluttered before seldom settles now
 
 const Effort& effort_of(const Request& request) {
   if (request.loose_tolerance == 0) return full_effort;

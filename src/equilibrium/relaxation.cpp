@@ -141,7 +141,7 @@ void Relaxation::update() {
 
 // A high floor keeps flutter down, a low one lets soft modes move.
 void Relaxation::review_floor() {
-  constexpr double largest_floor = 0.5;
+  constexpr double largest_floor = 0.25;
   constexpr double enough_progress = 0.5;  // of the residual, over a window
   constexpr double oscillating = 2;        // largest / smallest residual of a window
   if (residual_ > enough_progress * window_start_) {
