@@ -11,10 +11,13 @@ constexpr int most_subincrements = 64;
 
 // Relaxation hands over to Newton at this residual: Newton's reach shrinks with the packing's size.
 double switch_tolerance(std::size_t nodes) {
-  return 5e-4 * std::pow(std::min(1.0, 400.0 / static_cast<double>(nodes)), 1.66);
+  constexpr double hand_over = 5e-4;
+  constexpr double exponent = 1.66;
+  return hand_over * std::pow(std::min(1.0, 400.0 / static_cast<double>(nodes)), exponent);
 }
 
-// What is spent on one sub-increment before others are tried.
+// What is spent on one sub-increment before others are tried; chosen, as what is named below, by
+// `verification/run sweep`.
 struct Effort {
   int rounds;                // of relaxation and Newton
   int first_factorisations;  // where Newton works at once, it works soon
@@ -22,7 +25,11 @@ struct Effort {
   double relaxation_steps;  // with up to 400 nodes
   int finest;               // sub-increments, times those that the size of the increment asks for
 };
-constexpr Effort full_effort{9, 8, 50, 1500, 8};
+constexpr Effort full_effort{.rounds = 9,
+                             .first_factorisations = 8,
+                             .most_factorisations = 50,
+                             .relaxation_steps = 1500,
+                             .finest = 8};
 constexpr Effort bounded_effort{3, 8, 20, 1000, 1};   // with a loose tolerance to end at
 constexpr Effort repeated_effort{2, 8, 20, 1000, 1};  // what fluttered before seldom settles now
 

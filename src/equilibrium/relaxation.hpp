@@ -55,7 +55,8 @@ class Relaxation {
   double residual_ = 0;    // before the last step [-]; infinite: no contact, or not a finite number
   double power_ = 0;       // sum of the last step's velocity times the residual before it
   double frequency_ = 0;   // sqrt of the Rayleigh quotient of the velocity [1 / step]
-  double floor_ = 0.1;     // of the damping
+  static constexpr double first_floor = 0.1;
+  double floor_ = first_floor;  // of the damping
   long steps_ = 0;
   double window_start_ = std::numeric_limits<double>::infinity();
   double window_max_ = 0, window_min_ = std::numeric_limits<double>::infinity();
