@@ -200,13 +200,7 @@ void Increment::project() {
 }
 
 double Increment::overlap(std::size_t c) const {
-  const auto n = particles();
-  const auto p = static_cast<std::size_t>(contacts.i[c]);
-  const auto q = static_cast<std::size_t>(contacts.j[c]);
-  const double* x = coordinates.data();
-  const double lx = x[q] - x[p] + contacts.offset_x[c];
-  const double ly = x[n + q] - x[n + p] + contacts.offset_y[c];
-  return contacts.rest_of(c) - std::sqrt(lx * lx + ly * ly);
+  return contacts.rest_of(c) - std::sqrt(branch_square(c));
 }
 
 double Increment::relative_scale() const { return std::max(mean_force, problem->force_floor); }

@@ -70,14 +70,18 @@ class Increment {
   // Whether it is open by more than rounding, without a root.
   [[nodiscard]] bool surely_open(std::size_t c) const {
     constexpr double more_than_rounding = 1 + 1e-9;
+    const double rest = more_than_rounding * contacts.rest_of(c);
+    return branch_square(c) > rest * rest && !contacts.bonded(c);
+  }
+  // Square of the length of its branch [m^2].
+  [[nodiscard]] double branch_square(std::size_t c) const {
     const auto n = particles();
     const auto p = static_cast<std::size_t>(contacts.i[c]);
     const auto q = static_cast<std::size_t>(contacts.j[c]);
     const double* x = coordinates.data();
     const double lx = x[q] - x[p] + contacts.offset_x[c];
     const double ly = x[n + q] - x[n + p] + contacts.offset_y[c];
-    const double rest = more_than_rounding * contacts.rest_of(c);
-    return lx * lx + ly * ly > rest * rest && !contacts.bonded(c);
+    return lx * lx + ly * ly;
   }
 
   // Forces differ by this much by chance: tolerance and rounding [N].
