@@ -17,6 +17,7 @@ using namespace simd;
 
 constexpr double tiny = std::numeric_limits<double>::min();
 constexpr double hertz_share = 2.0 / 3;  // fn / (kn overlap)
+
 struct Loop {
   const ParticleRecord* particles;
   double friction;

@@ -1,10 +1,9 @@
-// Forces and stiffness of contacts of discs, friction (Cundall & Strack 1979) and rolling resistance
+// Forces of all contacts of discs, and sums of their stiffness: friction (Cundall & Strack 1979) and rolling resistance
 // by return mapping from the start of the increment; kinematics objective and moment-balanced.
 #pragma once
 
 #include "contact/contact_list.hpp"
 
-#include <array>
 #include <cstddef>
 #include <span>
 
