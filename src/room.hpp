@@ -6,16 +6,20 @@
 
 namespace grainlaw {
 
-// Resize, and when the vector has to grow leave room for as much as such sizes vary.
+// Resize, and when the vector has to grow leave room for one part in so many: a thread's memory has
+// plenty, a state's, of which there are many, as much as its contacts vary.
+constexpr std::size_t plenty = 2;
+constexpr std::size_t little = 8;
+
 template <class Vector>
-void resize_with_room(Vector& vector, std::size_t size) {
-  if (vector.capacity() < size) vector.reserve(size + size / 2);
+void resize_with_room(Vector& vector, std::size_t size, std::size_t part = plenty) {
+  if (vector.capacity() < size) vector.reserve(size + size / part);
   vector.resize(size);
 }
 
 template <class Vector>
-void copy_with_room(const Vector& from, Vector& to) {
-  resize_with_room(to, from.size());
+void copy_with_room(const Vector& from, Vector& to, std::size_t part = plenty) {
+  resize_with_room(to, from.size(), part);
   std::copy(from.begin(), from.end(), to.begin());
 }
 

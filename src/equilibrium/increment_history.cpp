@@ -132,9 +132,9 @@ void Increment::export_to(const Configuration& from, Configuration& to) const {
   for (std::size_t k = 2 * n; k < coordinates.size(); ++k) {
     to.coordinates[k] += from.coordinates[k];
   }
-  copy_with_room(history, to.contacts);
-  copy_with_room(history_moments, to.moments);
-  copy_with_room(history_gaps, to.bond_gaps);
+  copy_with_room(history, to.contacts, little);
+  copy_with_room(history_moments, to.moments, little);
+  copy_with_room(history_gaps, to.bond_gaps, little);
   to.dissipated = from.dissipated + dissipated;
   to.broken_bonds = from.broken_bonds + broken_bonds;
 }

@@ -2,6 +2,7 @@
 
 #include "equilibrium/chain.hpp"
 #include "homogenise/stress.hpp"
+#include "room.hpp"
 #include "state/rotation.hpp"
 
 #include <algorithm>
@@ -146,10 +147,11 @@ std::array<double, 16> tangent_of(const Workspace& w, const Outcome& outcome, Ta
 
 State::State(std::shared_ptr<const Material> material)
     : material_(std::move(material)), committed_(material_->initial) {
+  const auto& initial = material_->initial;
   // The two take turns, and contacts come and go.
   for (auto* configuration : {&committed_, &trial_}) {
-    configuration->contacts.reserve(material_->initial.contacts.size() * 5 / 4);
-    configuration->coordinates.reserve(material_->initial.coordinates.size());
+    configuration->contacts.reserve(initial.contacts.size() + initial.contacts.size() / little);
+    configuration->coordinates.reserve(initial.coordinates.size());
   }
 }
 
