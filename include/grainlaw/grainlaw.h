@@ -157,8 +157,9 @@ GRAINLAW_API grainlaw_report grainlaw_report_default(void);
  * want). The result becomes the trial state. With solver.start = "committed" it is a function of
  * (committed state, F) alone: same bits however often it is called. With solver.loose_tolerance > 0
  * an increment whose friction flutters may end at that residual instead of solver.tolerance: the
- * report's residual tells, and in place of an exact tangent, which only an equilibrium has, A is
- * the elastic one. Errors: NULL_POINTER,
+ * report's residual tells. Only an equilibrium has an exact tangent: A is then that of the contacts
+ * as they stick, slide or are open there, or the elastic one where the history was advanced or the
+ * former would be the larger; tangent_exact is 0, and the message tells which. Errors: NULL_POINTER,
  * BAD_HANDLE, NOT_FINITE, BAD_REPORT, BAD_ARGUMENT, OUT_OF_MEMORY; recoverable: NOT_CONVERGED,
  * CONTACTS_LOST, INVERTED, STEP_TOO_LARGE, COLLAPSED (a boundary under uniform stress: next to no
  * force is left, or a particle of it has no contact). On any of them P and A are untouched and the

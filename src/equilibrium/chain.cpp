@@ -173,8 +173,7 @@ bool solve_parts(const Request& request, int parts, Workspace& w, Outcome& outco
     double start = static_cast<double>(k - 1) / parts;
     const auto find_sensitivities = [&] {
       if (!outcome.sensitivities || (may_be_free(request) && !increment.bears())) return;
-      outcome.sensitivities =
-          !outcome.loose && w.sensitivity.solve(increment, share, start, w.newton.stiffness);
+      outcome.sensitivities = w.sensitivity.solve(increment, share, start, w.newton.stiffness);
     };
     const auto carry = [&] {
       if (!outcome.sensitivities) return;

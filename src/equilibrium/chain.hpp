@@ -46,7 +46,7 @@ struct Outcome {
   int subincrements = 1;
   bool history_advanced = false;  // approximate: friction history advanced during the relaxation
   bool loose = false;             // ended at the loose tolerance: close to an equilibrium, none
-  bool sensitivities = false;     // they exist, and belong to this solution
+  bool sensitivities = false;     // they exist, and belong to where this ended
   double step_ratio = 1;
 };
 

@@ -127,20 +127,37 @@ grainlaw_status perturb(Request request, Workspace& w, std::array<double, 16>& t
   return GRAINLAW_OK;
 }
 
+double norm(const std::array<double, 16>& tangent) {
+  double squares = 0;
+  for (const double a : tangent) squares += a * a;
+  return std::sqrt(squares);
+}
+
 // Exact or elastic; zero for the other kinds.
 std::array<double, 16> tangent_of(const Workspace& w, const Outcome& outcome, TangentKind kind,
                                   grainlaw_report& report) {
-  if (kind == TangentKind::exact && outcome.sensitivities) {
+  if (kind != TangentKind::exact && kind != TangentKind::elastic) return {};
+  if (kind == TangentKind::exact && outcome.sensitivities && !outcome.loose) {
     report.tangent_exact = !outcome.history_advanced && w.sensitivity.determined() ? 1 : 0;
     return condensed_tangent(w.increment, w.sensitivity);
   }
-  if (kind != TangentKind::exact && kind != TangentKind::elastic) return {};
-  if (kind == TangentKind::exact) {
-    describe(report, outcome.loose
-                         ? "ended at solver.loose_tolerance; the elastic tangent was returned"
-                         : "the stiffness is singular; the elastic tangent was returned");
+  const auto elastic = elastic_tangent(w.increment);
+  if (kind == TangentKind::elastic) return elastic;
+  if (!outcome.loose) {
+    describe(report, "the stiffness is singular; the elastic tangent was returned");
+    return elastic;
   }
-  return elastic_tangent(w.increment);
+  // Friction and lost contacts only soften: what is stiffer would come of a stiffness that is close
+  // to singular, as it may be away from equilibrium.
+  if (outcome.sensitivities) {
+    const auto tangent = condensed_tangent(w.increment, w.sensitivity);
+    if (norm(tangent) <= norm(elastic)) {
+      describe(report, "ended at solver.loose_tolerance; the tangent is of the contacts there");
+      return tangent;
+    }
+  }
+  describe(report, "ended at solver.loose_tolerance; the elastic tangent was returned");
+  return elastic;
 }
 
 }  // namespace

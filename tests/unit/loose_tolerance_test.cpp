@@ -14,6 +14,7 @@ constexpr double loose = 1e-2;
 
 struct Count {
   int increments = 0, same = 0, ended_loosely = 0;
+  int closer = 0, further = 0;           // tangents of those, against the elastic one
   std::vector<double> differences = {};  // of P, of those that ended loosely
 };
 
@@ -52,7 +53,14 @@ Count compare(std::uint64_t seed) {
       EXPECT_EQ(at.report.tangent_exact, 0);
       EXPECT_NE(std::string_view(at.report.message).find("loose_tolerance"),
                 std::string_view::npos);
-      EXPECT_EQ(at.tangent, evaluate(state, F, TangentKind::elastic).tangent);
+      const auto elastic = evaluate(state, F, TangentKind::elastic).tangent;
+      EXPECT_LE(norm(at.tangent), norm(elastic));
+      if (expected.report.tangent_exact == 1) {
+        const double error = relative_difference(at.tangent, expected.tangent);
+        const double elastic_error = relative_difference(elastic, expected.tangent);
+        if (error < elastic_error) ++count.closer;
+        if (error > elastic_error) ++count.further;
+      }
       count.differences.push_back(relative_difference(at.stress, expected.stress));
     }
     full.commit();
@@ -69,11 +77,14 @@ TEST(loose_tolerance, ends_where_a_packing_does_not_settle_and_changes_nothing_e
     all.increments += count.increments;
     all.same += count.same;
     all.ended_loosely += count.ended_loosely;
+    all.closer += count.closer;
+    all.further += count.further;
     std::ranges::copy(count.differences, std::back_inserter(all.differences));
   }
   EXPECT_EQ(all.increments, 20 * static_cast<int>(seeds));
   EXPECT_GE(2 * all.same, all.increments);
   ASSERT_GE(all.ended_loosely, 3);
+  EXPECT_GT(all.closer, all.further);
   // Some find another packing, and with it another stress.
   std::ranges::sort(all.differences);
   EXPECT_LE(all.differences[all.differences.size() / 2], 0.05);
