@@ -21,8 +21,8 @@ struct NewtonOptions {
   // such a jump; 0: it has to stall first.
   int jump_iterations = 0;
   // An attempt with the exact tangent ends when this many iterations in a row have not halved the
-  // residual: it goes to and fro across a jump. Points that ended loosely bring elastic tangents,
-  // with which it gets there slowly but does: more for them.
+  // residual: it goes to and fro across a jump. With the tangents of points that ended loosely, which
+  // are not exact, it gets there slowly but does: more for them.
   int patience = 4;
   // Corrections are shortened so that no F changes by more than this (Frobenius norm): a correction
   // far beyond the load increment costs far more to evaluate, and seldom leads anywhere; 0: no bound
