@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <thread>
 
 #if defined(__GLIBC__)
@@ -26,7 +27,7 @@ double heap_bytes() {
 
 struct Led {
   State state;
-  double cpu = 0;  // [ms]
+  std::vector<double> cpu = {};  // of every increment [ms]
   long evaluations = 0;
   long relaxation_steps = 0;
   long factorisations = 0;
@@ -36,10 +37,11 @@ Led lead(const Material& material, const std::vector<Increment>& path, const Usa
   Led led{make_state(material)};
   grainlaw_state* const state = led.state.get();
   for (const Increment& increment : path) {
+    double& cpu = led.cpu.emplace_back();
     for (const Tensor& deformation : increment) {
       const double start = cpu_milliseconds();
       const Evaluation found = evaluate(state, deformation, usage.want);
-      led.cpu += cpu_milliseconds() - start;
+      cpu += cpu_milliseconds() - start;
       check(found.status, "an increment of the feature table");
       ++led.evaluations;
       led.relaxation_steps += found.report.relaxation_steps;
@@ -48,7 +50,7 @@ Led lead(const Material& material, const std::vector<Increment>& path, const Usa
     if (usage.also) {
       const double start = cpu_milliseconds();
       usage.also(state);
-      led.cpu += cpu_milliseconds() - start;
+      cpu += cpu_milliseconds() - start;
     }
     check(grainlaw_commit(state), "committing an increment of the feature table");
   }
@@ -70,31 +72,38 @@ double workspace_bytes(const State& state, const Tensor& deformation, unsigned w
 
 }  // namespace
 
-Cost measure_cost(const MaterialSource& source, const std::vector<Increment>& path,
-                  const Usage& usage) {
-  constexpr std::size_t repetitions = 3;
+CostMeasurement::CostMeasurement(const MaterialSource& source, const std::vector<Increment>& path,
+                                 const Usage& usage)
+    : path_(path), usage_(usage) {
   make_material(source);  // what is loaded and allocated once in a process
-  Cost cost;
   double bytes = heap_bytes();
-  const Material material = make_material(source);
-  cost.material = heap_bytes() - bytes;
+  material_ = make_material(source);
+  cost_.material = heap_bytes() - bytes;
 
-  lead(material, path, usage);  // the memory of this thread
-  std::vector<Led> runs;
-  runs.reserve(repetitions);
+  lead(material_, path_, usage_);  // the memory of this thread
   bytes = heap_bytes();
-  for (std::size_t k = 0; k < repetitions; ++k) runs.push_back(lead(material, path, usage));
-  cost.state = (heap_bytes() - bytes) / static_cast<double>(repetitions);
-  const Led& best = *std::ranges::min_element(runs, {}, &Led::cpu);
-  const auto evaluations = static_cast<double>(best.evaluations);
-  cost.cpu = best.cpu / evaluations;
-  cost.relaxation_steps = static_cast<double>(best.relaxation_steps) / evaluations;
-  cost.factorisations = static_cast<double>(best.factorisations) / evaluations;
-  cost.workspace = workspace_bytes(best.state, path.back().back(), usage.want);
+  const Led led = lead(material_, path_, usage_);
+  const grainlaw_state* state = led.state.get();
+  cost_.state = heap_bytes() - bytes;
+  evaluations_ = static_cast<double>(led.evaluations);
+  cost_.relaxation_steps = static_cast<double>(led.relaxation_steps) / evaluations_;
+  cost_.factorisations = static_cast<double>(led.factorisations) / evaluations_;
+  cost_.workspace = workspace_bytes(led.state, path_.back().back(), usage_.want);
   std::size_t size = 0;
-  check(grainlaw_state_save(best.state.get(), nullptr, &size), "sizing a saved state");
-  cost.saved = static_cast<double>(size);
-  cost.particles = measure_scalar(best.state.get(), GRAINLAW_PARTICLES);
+  check(grainlaw_state_save(state, nullptr, &size), "sizing a saved state");
+  cost_.saved = static_cast<double>(size);
+  cost_.particles = measure_scalar(state, GRAINLAW_PARTICLES);
+  cpu_ = led.cpu;
+}
+
+void CostMeasurement::again() {
+  const Led led = lead(material_, path_, usage_);
+  for (std::size_t k = 0; k < cpu_.size(); ++k) cpu_[k] = std::min(cpu_[k], led.cpu[k]);
+}
+
+Cost CostMeasurement::cost() const {
+  Cost cost = cost_;
+  cost.cpu = std::accumulate(cpu_.begin(), cpu_.end(), 0.0) / evaluations_;
   return cost;
 }
 

@@ -30,9 +30,22 @@ struct Cost {
   double particles = 0;  // [-]
 };
 
-// A new state is led along the path; the best of a few times. Throws ComputationError when an
-// increment fails.
-Cost measure_cost(const MaterialSource& source, const std::vector<Increment>& path,
+// New states are led along the path, which has to outlive this; every increment counts with its
+// best time. Throws ComputationError when an increment fails.
+class CostMeasurement {
+ public:
+  CostMeasurement(const MaterialSource& source, const std::vector<Increment>& path,
                   const Usage& usage);
+  void again();
+  [[nodiscard]] Cost cost() const;
+
+ private:
+  const std::vector<Increment>& path_;
+  Usage usage_;
+  Material material_;
+  Cost cost_;
+  double evaluations_ = 0;
+  std::vector<double> cpu_;  // of every increment [ms]
+};
 
 }  // namespace verification
