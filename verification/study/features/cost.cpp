@@ -80,20 +80,19 @@ CostMeasurement::CostMeasurement(const MaterialSource& source, const std::vector
   material_ = make_material(source);
   cost_.material = heap_bytes() - bytes;
 
-  lead(material_, path_, usage_);  // the memory of this thread
+  const Led led = lead(material_, path_, usage_);  // takes the memory of this thread, too
+  cpu_ = led.cpu;
   bytes = heap_bytes();
-  const Led led = lead(material_, path_, usage_);
-  const grainlaw_state* state = led.state.get();
+  const State state = lead(material_, path_, usage_).state;
   cost_.state = heap_bytes() - bytes;
   evaluations_ = static_cast<double>(led.evaluations);
   cost_.relaxation_steps = static_cast<double>(led.relaxation_steps) / evaluations_;
   cost_.factorisations = static_cast<double>(led.factorisations) / evaluations_;
-  cost_.workspace = workspace_bytes(led.state, path_.back().back(), usage_.want);
+  cost_.workspace = workspace_bytes(state, path_.back().back(), usage_.want);
   std::size_t size = 0;
-  check(grainlaw_state_save(state, nullptr, &size), "sizing a saved state");
+  check(grainlaw_state_save(state.get(), nullptr, &size), "sizing a saved state");
   cost_.saved = static_cast<double>(size);
-  cost_.particles = measure_scalar(state, GRAINLAW_PARTICLES);
-  cpu_ = led.cpu;
+  cost_.particles = measure_scalar(state.get(), GRAINLAW_PARTICLES);
 }
 
 void CostMeasurement::again() {
