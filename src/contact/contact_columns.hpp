@@ -60,6 +60,13 @@ GRAINLAW_INLINE Columns<width> records_of(const double* records, const std::int3
   }
 }
 
+// Records one after another.
+template <std::size_t width>
+GRAINLAW_INLINE Columns<width> columns_at(const double* records) {
+  constexpr std::int32_t index[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+  return records_of<width>(records, index);
+}
+
 // p_j + sign p_i = (l_x, l_y, rolls, radii) of the pairs i, j of particles.
 template <std::size_t width>
 GRAINLAW_INLINE Columns<width> pair_columns(const double* particles, const std::int32_t* i,

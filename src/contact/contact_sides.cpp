@@ -12,6 +12,7 @@ namespace {
 
 using namespace simd;
 using contact_loops::Columns;
+using contact_loops::columns_at;
 using contact_loops::GroupSum;
 using contact_loops::put_records;
 using contact_loops::records_of;
@@ -24,7 +25,7 @@ struct Loop {
   ContactSides::Side* sides;
   const double* records;  // of the place, or the moves
   double* next_moves = nullptr;
-  double curvature = 0, friction = 0, factor = 0, keep = 0, gain = 0;
+  double curvature = 0, friction = 0, ratio = 0, factor = 0, keep = 0, gain = 0;
 };
 
 struct Looked {
@@ -37,11 +38,13 @@ GRAINLAW_INLINE Looked look_loop(const Loop& loop) {
   using V = Lanes<width>;
   const V zero{};
   const V one = zero + 1.0;
+  const double ratio = loop.ratio;
   V beyond{};
   GroupSum<width> force, touching;
+  const double* own_records = loop.records;
   for (auto& nodes : loop.groups) {
-    for (std::size_t k = 0; k < lanes; k += width) {
-      const Columns<width> own = records_of<width>(loop.records, nodes.particle + k);
+    for (std::size_t k = 0; k < lanes; k += width, own_records += 4 * width) {
+      const Columns<width> own = columns_at<width>(own_records);
       V stiffness{}, stiffness_roll{};
       for (std::size_t row = nodes.first_row; row < nodes.first_row + nodes.rows; ++row) {
         const ContactSides::Start& start = loop.starts[row];
@@ -71,7 +74,7 @@ GRAINLAW_INLINE Looked look_loop(const Loop& loop) {
         } else {
           slip *= arc_sine(sine);
         }
-        const V kt = load<width>(side.tangential_stiffness + k);
+        const V kt = ratio * kn;
         if constexpr (rotating) {
           const V stretch = distance * load<width>(start.inverse_reach + k);
           slip += stretch * (load<width>(start.roll + k) - (own.roll + other.roll));
@@ -93,9 +96,6 @@ GRAINLAW_INLINE Looked look_loop(const Loop& loop) {
         put_mass(stiffness_roll * load<width>(nodes.inverse_radius + k), nodes.least_roll,
                  nodes.mass_roll, nodes.gain_roll);
       }
-      store(nodes.move_x + k, zero);
-      store(nodes.move_y + k, zero);
-      store(nodes.move_roll + k, zero);
     }
   }
   return {most(beyond), force.total(), touching.total()};
@@ -106,13 +106,16 @@ GRAINLAW_INLINE ContactSides::Measured step_loop(const Loop& loop) {
   using V = Lanes<width>;
   const V zero{};
   const double friction = loop.friction;
+  const double ratio = loop.ratio;
   const double curvature = loop.curvature;
   V largest_force{};
   GroupSum<width> power, next_power, inertia;
+  double* next_moves = loop.next_moves;
+  const double* own_records = loop.records;
   for (auto& nodes : loop.groups) {
-    for (std::size_t k = 0; k < lanes; k += width) {
-      Columns<width> own{load<width>(nodes.move_x + k), load<width>(nodes.move_y + k),
-                         load<width>(nodes.move_roll + k), zero};
+    for (std::size_t k = 0; k < lanes;
+         k += width, next_moves += 4 * width, own_records += 4 * width) {
+      Columns<width> own = columns_at<width>(own_records);
       V x{}, y{}, roll{};
       const ContactSides::Side* side = loop.sides + nodes.first_row;
       for (const auto* const end = side + nodes.rows; side != end; ++side) {
@@ -121,9 +124,8 @@ GRAINLAW_INLINE ContactSides::Measured step_loop(const Loop& loop) {
         const V uy = own.y - other.y;
         const V nx = load<width>(side->normal_x + k);
         const V ny = load<width>(side->normal_y + k);
-        const V fn = largest(load<width>(side->normal_force + k) -
-                                 load<width>(side->normal_stiffness + k) * (nx * ux + ny * uy),
-                             zero);
+        const V kn = load<width>(side->normal_stiffness + k);
+        const V fn = largest(load<width>(side->normal_force + k) - kn * (nx * ux + ny * uy), zero);
         const V across = nx * uy - ny * ux;
         const V turn = curvature * across;
         const V ax = nx - turn * ny;
@@ -134,8 +136,7 @@ GRAINLAW_INLINE ContactSides::Measured step_loop(const Loop& loop) {
           stretch = load<width>(side->stretch + k);
           slip -= stretch * (own.roll + other.roll);
         }
-        const V trial =
-            load<width>(side->trial + k) - load<width>(side->tangential_stiffness + k) * slip;
+        const V trial = load<width>(side->trial + k) - ratio * kn * slip;
         const V bound = friction * fn;
         const V ft = smallest(largest(trial, -bound), bound);
         x += fn * ax - ft * ay;
@@ -144,7 +145,7 @@ GRAINLAW_INLINE ContactSides::Measured step_loop(const Loop& loop) {
       }
       V work{}, next_work{}, twice_energy{};
       const auto go_on = [&](const V& force, double* velocity, const double* mass,
-                             const double* gain, double* move, V& moved) {
+                             const double* gain, V& moved) {
         const V v = load<width>(velocity + k);
         largest_force = largest(largest_force, magnitude(force));
         work += v * force;
@@ -153,20 +154,16 @@ GRAINLAW_INLINE ContactSides::Measured step_loop(const Loop& loop) {
         next_work += next * force;
         store(velocity + k, next);
         moved += next;
-        store(move + k, moved);
       };
-      go_on(x, nodes.velocity_x, nodes.mass, nodes.gain, nodes.move_x, own.x);
-      go_on(y, nodes.velocity_y, nodes.mass, nodes.gain, nodes.move_y, own.y);
+      go_on(x, nodes.velocity_x, nodes.mass, nodes.gain, own.x);
+      go_on(y, nodes.velocity_y, nodes.mass, nodes.gain, own.y);
       if constexpr (rotating) {
-        go_on(roll, nodes.velocity_roll, nodes.mass_roll, nodes.gain_roll, nodes.move_roll,
-              own.roll);
+        go_on(roll, nodes.velocity_roll, nodes.mass_roll, nodes.gain_roll, own.roll);
       }
       power.add(k, work);
       next_power.add(k, next_work);
       inertia.add(k, twice_energy);
-      put_records<width>(own, [&](std::size_t lane) {
-        return loop.next_moves + 4 * static_cast<std::size_t>(nodes.particle[k + lane]);
-      });
+      put_records<width>(own, next_moves);
     }
   }
   return {most(largest_force), power.total(), next_power.total(), inertia.total()};
@@ -183,41 +180,43 @@ std::size_t at(std::int32_t particle) { return static_cast<std::size_t>(particle
 
 }  // namespace
 
-void ContactSides::arrange(const ContactList& list, std::span<const double> radius,
+void ContactSides::arrange(const ContactList& list, const Packing& packing,
                            std::span<const ForceRecord> least_masses, bool at_rest) {
-  particles_ = radius.size();
-  for (auto* records : {&place_, &moves_, &next_moves_}) resize_with_room(*records, particles_ + 1);
-  place_.back() = {};
+  const auto& radius = packing.radius;
+  particles_ = packing.size();
   const double sum = std::accumulate(radius.begin(), radius.end(), 0.0);
   curvature_ = 0.5 * static_cast<double>(particles_) / sum;
   if (!at_rest) save_velocities();
-  sort_nodes(list, least_masses);
+  sort_nodes(list, packing.order, least_masses);
   if (!at_rest) restore_velocities();
+  for (auto* records : {&place_, &moves_, &next_moves_}) {
+    resize_with_room(*records, lanes * nodes_.size());
+  }
+  std::fill(place_.begin(), place_.end(), ParticleRecord{});
   list_sides(list, 2 * *std::max_element(radius.begin(), radius.end()));
 }
 
 void ContactSides::save_velocities() {
-  for (const Nodes& nodes : nodes_) {
-    for (std::size_t k = 0; k < lanes; ++k) {
-      next_moves_[at(nodes.particle[k])] = {nodes.velocity_x[k], nodes.velocity_y[k],
-                                            nodes.velocity_roll[k], 0};
-    }
+  for (std::size_t p = 0; p < particles_; ++p) {
+    const Nodes& nodes = nodes_[slot_[p] / lanes];
+    const std::size_t k = slot_[p] % lanes;
+    next_moves_[p] = {nodes.velocity_x[k], nodes.velocity_y[k], nodes.velocity_roll[k], 0};
   }
 }
 
 void ContactSides::restore_velocities() {
-  for (Nodes& nodes : nodes_) {
-    for (std::size_t k = 0; k < lanes; ++k) {
-      const auto& velocity = next_moves_[at(nodes.particle[k])];
-      nodes.velocity_x[k] = velocity.x;
-      nodes.velocity_y[k] = velocity.y;
-      nodes.velocity_roll[k] = velocity.roll;
-    }
+  for (std::size_t p = 0; p < particles_; ++p) {
+    Nodes& nodes = nodes_[slot_[p] / lanes];
+    const std::size_t k = slot_[p] % lanes;
+    nodes.velocity_x[k] = next_moves_[p].x;
+    nodes.velocity_y[k] = next_moves_[p].y;
+    nodes.velocity_roll[k] = next_moves_[p].roll;
   }
 }
 
 // By the number of their sides, so that the rows of a group are full; by counting.
-void ContactSides::sort_nodes(const ContactList& list, std::span<const ForceRecord> least_masses) {
+void ContactSides::sort_nodes(const ContactList& list, std::span<const std::int32_t> order,
+                              std::span<const ForceRecord> least_masses) {
   resize_with_room(count_, particles_);
   std::fill(count_.begin(), count_.end(), 0U);
   std::uint32_t most = 15;  // nearly always enough, so that the counts keep their size
@@ -231,16 +230,15 @@ void ContactSides::sort_nodes(const ContactList& list, std::span<const ForceReco
   std::partial_sum(first_slot_.begin(), first_slot_.end(), first_slot_.begin());
 
   Nodes filling{};
-  std::fill_n(filling.particle, lanes, static_cast<std::int32_t>(particles_));
   for (auto* column : {&filling.least, &filling.least_roll}) std::fill_n(*column, lanes, 1.0);
   resize_with_room(nodes_, (particles_ + lanes - 1) / lanes);
   std::fill(nodes_.begin(), nodes_.end(), filling);
   resize_with_room(slot_, particles_);
-  for (std::size_t p = 0; p < particles_; ++p) {
+  for (std::size_t q = 0; q < particles_; ++q) {
+    const std::size_t p = order.empty() ? q : at(order[q]);
     slot_[p] = first_slot_[count_[p]]++;
     Nodes& nodes = nodes_[slot_[p] / lanes];
     const std::size_t k = slot_[p] % lanes;
-    nodes.particle[k] = static_cast<std::int32_t>(p);
     nodes.least[k] = least_masses[p].x;
     nodes.least_roll[k] = least_masses[p].roll;
     nodes.inverse_radius[k] = least_masses[p].unused;
@@ -264,10 +262,12 @@ void ContactSides::list_sides(const ContactList& list, double longest_reach) {
   std::fill(starts_.begin(), starts_.end(), nothing);
   resize_with_room(sides_, rows);
   std::fill(sides_.begin(), sides_.end(), Side{});
+  std::int32_t first = 0;
   for (const Nodes& nodes : nodes_) {
     for (std::size_t row = nodes.first_row; row < nodes.first_row + nodes.rows; ++row) {
-      std::copy_n(nodes.particle, lanes, sides_[row].other);
+      std::iota(sides_[row].other, sides_[row].other + lanes, first);
     }
+    first += lanes;
   }
   std::fill(count_.begin(), count_.end(), 0U);
   const auto add = [&](std::size_t c, std::int32_t node, std::int32_t other, double sign) {
@@ -283,9 +283,8 @@ void ContactSides::list_sides(const ContactList& list, double longest_reach) {
     start.roll[k] = list.start_roll[c];
     start.force[k] = list.start_force[c];
     Side& side = sides_[row];
-    side.other[k] = other;
+    side.other[k] = static_cast<std::int32_t>(slot_[at(other)]);
     side.normal_stiffness[k] = list.normal_stiffness[c];
-    side.tangential_stiffness[k] = list.tangential_stiffness[c];
   };
   for (std::size_t c = 0; c < list.size(); ++c) {
     add(c, list.i[c], list.j[c], -1);
@@ -295,12 +294,13 @@ void ContactSides::list_sides(const ContactList& list, double longest_reach) {
 
 ContactTotals ContactSides::look(std::span<const ParticleRecord> particles, const ContactLaw& law,
                                  double factor, ContactList& list) {
-  std::copy(particles.begin(), particles.end(), place_.begin());
+  for (std::size_t p = 0; p < particles_; ++p) place_[slot_[p]] = particles[p];
   std::fill(moves_.begin(), moves_.end(), ParticleRecord{});
   const Loop loop{.groups = nodes_,
                   .starts = starts_.data(),
                   .sides = sides_.data(),
                   .records = &place_[0].x,
+                  .ratio = law.ratio,
                   .factor = factor};
   Looked seen{};
   if (!list.turns_far) {
@@ -320,6 +320,7 @@ ContactSides::Measured ContactSides::step(const ContactLaw& law, double keep, do
                   .next_moves = &next_moves_[0].x,
                   .curvature = curvature_,
                   .friction = law.friction,
+                  .ratio = law.ratio,
                   .keep = keep,
                   .gain = gain};
   const Measured measured = law.rotating() ? step_rotating(loop) : step_locked(loop);
@@ -329,9 +330,10 @@ ContactSides::Measured ContactSides::step(const ContactLaw& law, double keep, do
 
 void ContactSides::move(std::span<ParticleRecord> particles) const {
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    particles[p].x += moves_[p].x;
-    particles[p].y += moves_[p].y;
-    particles[p].roll += moves_[p].roll;
+    const ParticleRecord& moved = moves_[slot_[p]];
+    particles[p].x += moved.x;
+    particles[p].y += moved.y;
+    particles[p].roll += moved.roll;
   }
 }
 

@@ -6,6 +6,7 @@
 #include "contact/contact_list.hpp"
 #include "contact/frictional.hpp"
 #include "contact/law.hpp"
+#include "packing/packing.hpp"
 #include "simd.hpp"
 
 #include <cstddef>
@@ -23,7 +24,7 @@ class ContactSides {
  public:
   // Lists the sides of the contacts, which have no weights. least_masses: kn in x [N/m], kt in roll,
   // and 1 / R. Particles are at rest, or keep the velocities they had in the last list.
-  void arrange(const ContactList& list, std::span<const double> radius,
+  void arrange(const ContactList& list, const Packing& packing,
                std::span<const ForceRecord> least_masses, bool at_rest);
 
   // Forces at this place, and masses: `factor` times the larger of sum_stiffnesses() and least_masses.
@@ -48,9 +49,8 @@ class ContactSides {
   static constexpr std::size_t lanes = 8;
   using Doubles = double[lanes];
   struct alignas(64) Nodes {
-    std::int32_t particle[lanes];
     std::uint32_t first_row, rows;  // of their sides, one of each node in a row
-    Doubles velocity_x, velocity_y, velocity_roll, move_x, move_y, move_roll;
+    Doubles velocity_x, velocity_y, velocity_roll;
     Doubles mass, mass_roll, gain, gain_roll;  // gain = 1 / mass
     Doubles least, least_roll, inverse_radius;
   };
@@ -58,16 +58,17 @@ class ContactSides {
   struct alignas(64) Start {
     Doubles offset_x, offset_y, inverse_reach, x, y, roll, force;
   };
-  struct alignas(64) Side {
+  struct alignas(32) Side {
     std::int32_t other[lanes];
-    Doubles normal_x, normal_y, normal_stiffness, tangential_stiffness;
+    Doubles normal_x, normal_y, normal_stiffness;
     Doubles normal_force, trial, stretch;  // at the place: kn overlap, the trial force, s
   };
 
  private:
   void save_velocities();
   void restore_velocities();
-  void sort_nodes(const ContactList& list, std::span<const ForceRecord> least_masses);
+  void sort_nodes(const ContactList& list, std::span<const std::int32_t> order,
+                  std::span<const ForceRecord> least_masses);
   void list_sides(const ContactList& list, double longest_reach);
 
   std::size_t particles_ = 0;
@@ -75,10 +76,11 @@ class ContactSides {
   simd::Column<Nodes> nodes_;  // sorted by the number of sides
   simd::Column<Start> starts_;
   simd::Column<Side> sides_;
-  // Of the particles, and of one more, which fills up the last group.
+  // Of the nodes, and of those that fill up the last group.
   simd::Column<ParticleRecord> place_, moves_;
-  simd::Column<ParticleRecord> next_moves_;  // while listing: velocities
-  std::vector<std::uint32_t> count_, first_slot_, slot_;
+  simd::Column<ParticleRecord> next_moves_;  // while listing: velocities, by particles
+  std::vector<std::uint32_t> count_, first_slot_;
+  std::vector<std::uint32_t> slot_;  // of a particle: which node it is
 };
 
 }  // namespace grainlaw

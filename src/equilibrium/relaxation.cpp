@@ -57,7 +57,7 @@ class NodeStep {
 };
 
 GRAINLAW_CLONES Measured step_all(const Nodes& nodes, std::span<const ForceRecord> residual,
-                                    double keep, double gain) {
+                                  double keep, double gain) {
   NodeStep step(nodes, keep, gain);
   for (std::size_t q = 0; q < residual.size(); ++q) step(q, load<4>(&residual[q].x));
   return step.measured();
@@ -97,7 +97,7 @@ void Relaxation::refresh() {
   const bool relisted = increment_.keep_neighbours();
   if (by_sides_) {
     if (relisted || !arranged_) {
-      memory_.sides.arrange(increment_.contacts, increment_.problem->packing->radius,
+      memory_.sides.arrange(increment_.contacts, *increment_.problem->packing,
                             increment_.least_masses(), steps_ == 0);
       arranged_ = true;
     }

@@ -7,6 +7,7 @@
 #include "material/given_contacts.hpp"
 #include "material/initial_stress.hpp"
 #include "packing/frame.hpp"
+#include "packing/row_order.hpp"
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -158,6 +159,7 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
   } else if (!material->packing.frame) {
     material->packing = cut_frame(material->packing);
   }
+  material->packing.order = row_order(material->packing);
   material->space = make_boundary_space(material->packing, description.boundary);
   material->fingerprint = fingerprint_of(*material);
   check_given_forces(*material);
@@ -194,12 +196,14 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
   }
   if (outcome.status == GRAINLAW_COLLAPSED) {
     const int let_go = workspace.increment.particle_let_go();
-    throw Error(outcome.status,
-                fmt::format("the packing carries no uniform stress at F = I: {}; expected every "
-                            "boundary particle under \"T\" to be held by others",
-                            let_go < 0 ? "the forces vanish"
-                                       : fmt::format("boundary particle {} (from 0, as written) has "
-                                                     "no contact", let_go)));
+    throw Error(
+        outcome.status,
+        fmt::format("the packing carries no uniform stress at F = I: {}; expected every "
+                    "boundary particle under \"T\" to be held by others",
+                    let_go < 0 ? "the forces vanish"
+                               : fmt::format("boundary particle {} (from 0, as written) has "
+                                             "no contact",
+                                             let_go)));
   }
   if (outcome.status != GRAINLAW_OK) {
     throw Error(outcome.status,

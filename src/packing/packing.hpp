@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -46,7 +47,8 @@ struct Packing {
   std::vector<double> position;  // component-major: position[c * size + p] [m], not wrapped
   std::vector<double> radius;    // [m]
   std::vector<InitialContact> contacts;
-  std::optional<Frame> frame;  // when set, there are no images and `cell` is the frame's
+  std::vector<std::int32_t> order;  // row_order(); empty: as numbered
+  std::optional<Frame> frame;       // when set, there are no images and `cell` is the frame's
 
   [[nodiscard]] std::size_t size() const { return radius.size(); }
 };

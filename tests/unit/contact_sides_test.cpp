@@ -28,7 +28,7 @@ struct Scene {
   }
 
   void arrange(bool at_rest) {
-    sides.arrange(increment.contacts, material->packing.radius, increment.least_masses(), at_rest);
+    sides.arrange(increment.contacts, material->packing, increment.least_masses(), at_rest);
   }
 
   ContactTotals look() {
@@ -122,6 +122,18 @@ TEST(contact_sides, follow_the_law_to_first_order_of_the_moves) {
     EXPECT_GT(change, 0);
     EXPECT_LE(largest_difference(changed, scene.residual()), 4e-3 * change);
   }
+}
+
+TEST(contact_sides, give_every_particle_its_force_in_whatever_order_they_lie) {
+  Scene scene(small_packing(), rough_law(), {1.0004, 2e-4, 0, 0.999});
+  const auto expected = scene.step();
+  Packing reversed = scene.material->packing;
+  for (std::size_t p = reversed.size(); p > 0; --p) {
+    reversed.order.push_back(static_cast<std::int32_t>(p - 1));
+  }
+  scene.sides.arrange(scene.increment.contacts, reversed, scene.increment.least_masses(), true);
+  scene.look();
+  EXPECT_EQ(largest_difference(scene.step(), expected), 0);
 }
 
 TEST(contact_sides, keep_their_velocities_in_a_new_list) {
