@@ -5,7 +5,13 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <memory>
+#include <numeric>
+#include <random>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -17,6 +23,49 @@ constexpr std::array<double, 4> target{1.0004, 0, 0, 0.999};
 const Material& material() {
   static const auto instance = make_material(read_material_file(GRAINLAW_TEST_DATA "/rve400.toml"));
   return *instance;
+}
+
+// The packing side by side with itself, `side` x `side` times, particles numbered at random.
+std::shared_ptr<const Material> tiled(int side) {
+  MaterialDescription description = read_material_file(GRAINLAW_TEST_DATA "/rve400.toml");
+  const Packing one = description.packing;
+  Packing& many = description.packing;
+  const std::size_t n = one.size();
+  const auto tiles = static_cast<std::size_t>(side * side);
+  std::vector<int> number(n * tiles);
+  std::iota(number.begin(), number.end(), 0);
+  std::shuffle(number.begin(), number.end(), std::mt19937_64(1));
+  const auto of = [&](int p, int a, int b) {
+    return number[n * static_cast<std::size_t>(a * side + b) + static_cast<std::size_t>(p)];
+  };
+  const auto& h = one.cell;
+  many.cell = {side * h[0], side * h[1], side * h[2], side * h[3]};
+  many.position.resize(2 * n * tiles);
+  many.radius.resize(n * tiles);
+  many.contacts.clear();
+  for (int a = 0; a < side; ++a) {
+    for (int b = 0; b < side; ++b) {
+      for (std::size_t p = 0; p < n; ++p) {
+        const auto q = static_cast<std::size_t>(of(static_cast<int>(p), a, b));
+        many.position[q] = one.position[p] + h[0] * a + h[1] * b;
+        many.position[n * tiles + q] = one.position[n + p] + h[2] * a + h[3] * b;
+        many.radius[q] = one.radius[p];
+      }
+      for (InitialContact contact : one.contacts) {
+        const auto wrap = [&](int cell, int& shift) {
+          const int wrapped = ((cell + shift) % side + side) % side;
+          shift = (cell + shift - wrapped) / side;
+          return wrapped;
+        };
+        const int i = of(contact.i, a, b);
+        const int a_of_j = wrap(a, contact.shift[0]);
+        contact.j = of(contact.j, a_of_j, wrap(b, contact.shift[1]));
+        contact.i = i;
+        many.contacts.push_back(contact);
+      }
+    }
+  }
+  return make_material(std::move(description));
 }
 
 // An increment that has come to rest, with its contacts' status mixed.
@@ -47,17 +96,19 @@ BENCHMARK(contact_forces)->Unit(benchmark::kMicrosecond);
 
 // Divided by the counter `steps`: a relaxation step, with its share of new masses.
 void relaxation(benchmark::State& timing) {
-  const Problem problem = material().problem();
+  const auto packing = tiled(static_cast<int>(timing.range(0)));
+  const Problem problem = packing->problem();
   constexpr long steps = 500;
   Workspace workspace;
   for (auto _ : timing) {
-    workspace.increment.begin(problem, material().initial, target);
+    workspace.increment.begin(problem, packing->initial, target);
     workspace.increment.refresh_masses();
     relax(workspace.increment, 0, steps, History::committed, workspace.relaxation);
   }
   timing.counters["steps"] = steps;
+  timing.counters["particles"] = static_cast<double>(packing->packing.size());
 }
-BENCHMARK(relaxation)->Unit(benchmark::kMicrosecond);
+BENCHMARK(relaxation)->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMicrosecond);
 
 void assembly(benchmark::State& timing) {
   Workspace workspace = solved();
