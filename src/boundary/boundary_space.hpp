@@ -28,7 +28,7 @@ struct AverageConstraint {
 
 // periodic-cell: one node per particle, nothing fixed. frame-p (Liu, Bosco & Suiker 2017, eqs.
 // 19-20): one node per particle of the periodic packing that was cut, so that opposite edge
-// particles share theirs, and the four corners share one whose translation is prescribed. frame-d
+// particles share theirs, and the four corners share one, kept where F has it. frame-d
 // (eq. 17): a node per particle, those of the boundary fixed. frame-t (eqs. 15, 21-22): a node per
 // particle, the boundary's under the average constraint. mixed (section 5): each side by its rules.
 struct BoundarySpace {
@@ -39,9 +39,13 @@ struct BoundarySpace {
   std::vector<unsigned char> fixed;  // [nodes] bits of Fixed: prescribed
   std::vector<char> boundary;        // [nodes] 1: on the frame, 2: and turns freely
   std::array<AverageConstraint, 2> average;  // in x and in y
-  double reference_volume = 0;               // V at F = I, thickness included [m3]
-  double solid_volume = 0;                   // of the particles, copies counted once [m3]
-  std::vector<int> source;  // [particles] the particle that it is, copies being the same one
+  // What is periodic both ways in a direction may move as a whole in it, and does while an equilibrium
+  // is sought: held at one node, a relaxation takes twice as long. Then it is put back to where F has
+  // this particle; -1: something else holds it.
+  std::array<int, 2> anchor{-1, -1};
+  double reference_volume = 0;  // V at F = I, thickness included [m3]
+  double solid_volume = 0;      // of the particles, copies counted once [m3]
+  std::vector<int> source;      // [particles] the particle that it is, copies being the same one
   std::size_t sources = 0;
 
   // A condition whose directions are those of space, as a layer between plates has them: it does

@@ -135,16 +135,11 @@ class Builder {
       fix(fixed_y, held_y);
       fix(fixed_rotation, [](const Side& s) { return s.rotation == SideRotation::fixed; });
     }
-    // What is periodic both ways would be free to move as a whole.
-    for (int direction = 0; direction < 2; ++direction) {
-      if (sides_[left_side].rule(direction) != SideRule::p ||
-          sides_[bottom_side].rule(direction) != SideRule::p) {
-        continue;
-      }
-      for (const int c : frame_.corner) {
-        space_.fixed[static_cast<std::size_t>(space_.node[static_cast<std::size_t>(c)])] |=
-            direction == 0 ? fixed_x : fixed_y;
-      }
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto shared = [&](SideName side) {
+        return sides_[side].rule(static_cast<int>(k)) == SideRule::p;
+      };
+      if (shared(left_side) && shared(bottom_side)) space_.anchor[k] = frame_.corner[0];
     }
   }
 

@@ -123,22 +123,40 @@ void Increment::deform(const std::array<double, 4>& target) {
   list_neighbours();
 }
 
-// No rounding adds up from increment to increment: prescribed particles are where F puts them, and
-// boundary particles average to F.
+// Where F has a particle that does not fluctuate.
+double Increment::affine_place(std::size_t p, std::size_t direction) const {
+  const auto& space = *problem->space;
+  const bool bound = space.bound_to_axes();
+  const double* x = bound ? space.reference.data() : problem->packing->position.data();
+  const auto n = particles();
+  const double offset = bound ? space.offset[direction * n + p] : 0;
+  return deformation[2 * direction] * x[p] + deformation[2 * direction + 1] * x[n + p] + offset;
+}
+
+std::array<double, 2> Increment::drift() const {
+  std::array<double, 2> result{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const int anchor = problem->space->anchor[k];
+    if (anchor < 0) continue;
+    const auto p = static_cast<std::size_t>(anchor);
+    result[k] = coordinates[k * particles() + p] - affine_place(p, k);
+  }
+  return result;
+}
+
+// No rounding adds up from increment to increment: prescribed particles are where F puts them,
+// boundary particles average to F, and what may move as a whole goes back.
 void Increment::place_fixed() {
   const auto& space = *problem->space;
   const auto n = particles();
-  const auto& f = deformation;
-  const double* reference =
-      space.bound_to_axes() ? space.reference.data() : problem->packing->position.data();
-  const auto at = [&](std::size_t p, std::size_t k) {
-    const double offset = space.bound_to_axes() ? space.offset[k * n + p] : 0;
-    return f[2 * k] * reference[p] + f[2 * k + 1] * reference[n + p] + offset;
-  };
-  for (std::size_t p = 0; p < n; ++p) {
-    const unsigned char fixed = space.fixed[static_cast<std::size_t>(space.node[p])];
-    if ((fixed & fixed_x) != 0) coordinates[p] = at(p, 0);
-    if ((fixed & fixed_y) != 0) coordinates[n + p] = at(p, 1);
+  const auto moved = drift();
+  for (std::size_t k = 0; k < 2; ++k) {
+    double* x = coordinates.data() + k * n;
+    const auto bit = k == 0 ? fixed_x : fixed_y;
+    for (std::size_t p = 0; p < n; ++p) {
+      const bool fixed = (space.fixed[static_cast<std::size_t>(space.node[p])] & bit) != 0;
+      x[p] = fixed ? affine_place(p, k) : x[p] - moved[k];
+    }
   }
 }
 

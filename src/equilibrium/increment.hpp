@@ -181,7 +181,10 @@ class Increment {
   [[nodiscard]] double worst_bond() const;
   void build_list();
   void project();
+  [[nodiscard]] double affine_place(std::size_t p, std::size_t direction) const;
   void place_fixed();
+  // How far a packing that nothing holds has moved as a whole [m].
+  [[nodiscard]] std::array<double, 2> drift() const;
   void find_least_masses();
   void take_averages(std::span<ForceRecord> residual) const;
   void find_average_masses();

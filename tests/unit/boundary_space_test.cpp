@@ -87,6 +87,23 @@ TEST(boundary_space, homogeneous_deformation_moves_the_boundary_with_it) {  // e
                 });
 }
 
+TEST(boundary_space, periodic_fluctuations_leave_the_corners_in_their_affine_place) {  // eq. 20
+  at_equilibria(describe(small_packing(), rough_law(), BoundaryType::frame_p),
+                [](const State& state) {
+                  const auto& packing = state.material().packing;
+                  const auto n = packing.size();
+                  const auto& f = state.current().deformation;
+                  const auto& z = state.current().coordinates;
+                  for (const int corner : packing.frame->corner) {
+                    const auto p = static_cast<std::size_t>(corner);
+                    const double x = packing.position[p];
+                    const double y = packing.position[n + p];
+                    EXPECT_NEAR(z[p], f[0] * x + f[1] * y, 1e-14);
+                    EXPECT_NEAR(z[n + p], f[2] * x + f[3] * y, 1e-14);
+                  }
+                });
+}
+
 TEST(boundary_space, moments_on_the_boundary_make_the_stress_asymmetric) {
   at_equilibria(
       describe(small_packing(), rough_law(), BoundaryType::frame_d), [](const State& state) {

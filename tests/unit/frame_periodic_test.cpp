@@ -38,6 +38,20 @@ TEST(frame_periodic, stress_is_that_of_the_cell_along_a_path) {
   }
 }
 
+TEST(frame_periodic, takes_the_relaxation_steps_of_the_cell) {
+  const Packing packing = without_rattlers(reference_packing());
+  State cell(make_material(describe(packing, rough_law(), BoundaryType::periodic_cell, tolerance)));
+  State frame(make_material(framed(packing, rough_law(), ContactWeight::copies)));
+  double in_cell = 0;
+  double in_frame = 0;
+  for (int step = 1; step <= 5; ++step) {
+    const Tensor F{1 + 3e-4 * step, 0, 0, 1 - 1e-3 * step};
+    in_cell += static_cast<double>(advance(cell, F).report.relaxation_steps);
+    in_frame += static_cast<double>(advance(frame, F).report.relaxation_steps);
+  }
+  EXPECT_LE(in_frame, 1.2 * in_cell);
+}
+
 TEST(frame_periodic, measures_are_those_of_the_cell) {
   State cell(make_material(
       describe(reference_packing(), rough_law(), BoundaryType::periodic_cell, tolerance)));
