@@ -135,11 +135,20 @@ class Builder {
       fix(fixed_y, held_y);
       fix(fixed_rotation, [](const Side& s) { return s.rotation == SideRotation::fixed; });
     }
-    for (std::size_t k = 0; k < 2; ++k) {
+    // What is periodic both ways is free to move as a whole, unless by the published servo, which
+    // prescribes the corners.
+    for (int direction = 0; direction < 2; ++direction) {
       const auto shared = [&](SideName side) {
-        return sides_[side].rule(static_cast<int>(k)) == SideRule::p;
+        return sides_[side].rule(direction) == SideRule::p;
       };
-      if (shared(left_side) && shared(bottom_side)) space_.anchor[k] = frame_.corner[0];
+      if (!shared(left_side) || !shared(bottom_side)) continue;
+      const int corner = frame_.corner[0];
+      if (space_.options.method == BoundaryMethod::servo) {
+        const auto node = static_cast<std::size_t>(space_.node[static_cast<std::size_t>(corner)]);
+        space_.fixed[node] |= direction == 0 ? fixed_x : fixed_y;
+      } else {
+        space_.anchor[static_cast<std::size_t>(direction)] = corner;
+      }
     }
   }
 
