@@ -130,7 +130,8 @@ void Increment::export_to(const Configuration& from, Configuration& to) const {
   to.deformation = {deformation[0], deformation[1], deformation[2], deformation[3]};
   to.coordinates = coordinates;
   const auto moved = drift();
-  for (std::size_t k = 0; k < 2 && !problem->space->identity; ++k) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (problem->space->anchor[k] < 0) continue;
     for (std::size_t p = 0; p < n; ++p) to.coordinates[k * n + p] -= moved[k];
   }
   for (std::size_t k = 2 * n; k < coordinates.size(); ++k) {
