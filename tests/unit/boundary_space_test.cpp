@@ -68,21 +68,26 @@ TEST(boundary_space, boundary_forces_make_the_stress) {  // eq. 23
   }
 }
 
+void expect_affine_place(const State& state, int particle) {
+  const auto& packing = state.material().packing;
+  const auto n = packing.size();
+  const auto p = static_cast<std::size_t>(particle);
+  const auto& f = state.current().deformation;
+  const auto& z = state.current().coordinates;
+  const double x = packing.position[p];
+  const double y = packing.position[n + p];
+  EXPECT_NEAR(z[p], f[0] * x + f[1] * y, 1e-14);
+  EXPECT_NEAR(z[n + p], f[2] * x + f[3] * y, 1e-14);
+}
+
 TEST(boundary_space, homogeneous_deformation_moves_the_boundary_with_it) {  // eq. 17
   at_equilibria(describe(small_packing(), rough_law(), BoundaryType::frame_d),
                 [](const State& state) {
                   const auto& packing = state.material().packing;
-                  const auto n = packing.size();
-                  const auto& f = state.current().deformation;
-                  const auto& z = state.current().coordinates;
-                  const double turn = z[2 * n + static_cast<std::size_t>(packing.frame->corner[0])];
+                  const auto* turn = state.current().coordinates.data() + 2 * packing.size();
                   for (const int q : packing.frame->boundary) {
-                    const auto p = static_cast<std::size_t>(q);
-                    const double x = packing.position[p];
-                    const double y = packing.position[n + p];
-                    EXPECT_NEAR(z[p], f[0] * x + f[1] * y, 1e-14);
-                    EXPECT_NEAR(z[n + p], f[2] * x + f[3] * y, 1e-14);
-                    EXPECT_EQ(z[2 * n + p], turn);
+                    expect_affine_place(state, q);
+                    EXPECT_EQ(turn[q], turn[packing.frame->corner[0]]);
                   }
                 });
 }
@@ -90,16 +95,8 @@ TEST(boundary_space, homogeneous_deformation_moves_the_boundary_with_it) {  // e
 TEST(boundary_space, periodic_fluctuations_leave_the_corners_in_their_affine_place) {  // eq. 20
   at_equilibria(describe(small_packing(), rough_law(), BoundaryType::frame_p),
                 [](const State& state) {
-                  const auto& packing = state.material().packing;
-                  const auto n = packing.size();
-                  const auto& f = state.current().deformation;
-                  const auto& z = state.current().coordinates;
-                  for (const int corner : packing.frame->corner) {
-                    const auto p = static_cast<std::size_t>(corner);
-                    const double x = packing.position[p];
-                    const double y = packing.position[n + p];
-                    EXPECT_NEAR(z[p], f[0] * x + f[1] * y, 1e-14);
-                    EXPECT_NEAR(z[n + p], f[2] * x + f[3] * y, 1e-14);
+                  for (const int corner : state.material().packing.frame->corner) {
+                    expect_affine_place(state, corner);
                   }
                 });
 }
