@@ -48,7 +48,7 @@ struct SnapshotPanel {
 
 // stem.svg and stem.png: discs, the frame and force chains, side by side at one scale. A bar between
 // two centres is as wide as a mean radius when it carries `force` [N]; 0: twice the mean normal
-// force of the first panel. Bonded contacts have another colour than frictional ones.
+// force of the first panel that has forces. Bonded contacts have another colour than frictional ones.
 bool draw_snapshots(const std::vector<SnapshotPanel>& panels, double force,
                     const std::string& title, const std::filesystem::path& stem);
 

@@ -119,9 +119,10 @@ bool draw_snapshots(const std::vector<SnapshotPanel>& panels, double force,
   if (panels.empty()) return true;
   constexpr double pixels_wide = 860;
   constexpr double gap = 14, heading = 56, foot = 8;  // pixels
-  const Snapshot& first = panels.front().snapshot;
-  const double unit = force > 0 ? force : 2 * mean_force(first);
-  const double width_per_force = unit > 0 ? mean(first.radius) / unit : 0;
+  double unit = force;
+  for (const SnapshotPanel& panel : panels)
+    if (unit == 0) unit = 2 * mean_force(panel.snapshot);
+  const double width_per_force = unit > 0 ? mean(panels.front().snapshot.radius) / unit : 0;
 
   std::vector<Extent> extents;
   double total = 0, highest = 0;

@@ -24,11 +24,13 @@ std::filesystem::path StudyOptions::scene(const std::string& name) const {
   return path;
 }
 
-MaterialSource StudyOptions::material(double tolerance) const {
+MaterialSource StudyOptions::material(double tolerance, int repeat) const {
+  constexpr double young = 6e8;  // as in the file [Pa]
   MaterialSource source;
   source.file = scene("yade400.toml");
   source.base = source.file.parent_path();
   change(source, "solver", "tolerance", tolerance);
+  change(source, "contact", "young", young * nudged(repeat));
   return source;
 }
 

@@ -21,9 +21,17 @@ struct StudyOptions {
 
   // A file in the scenes' directory. Throws InputError when it is not there.
   [[nodiscard]] std::filesystem::path scene(const std::string& name) const;
-  // yade400.toml, to be changed by the caller, at this solver tolerance [-].
-  [[nodiscard]] MaterialSource material(double tolerance) const;
+  // yade400.toml, to be changed by the caller, at this solver tolerance [-]; its contacts nudged()
+  // that many times.
+  [[nodiscard]] MaterialSource material(double tolerance, int repeat = 0) const;
 };
+
+// What multiplies a stiffness in the repeats of a run [-]: nobody could tell it from the first, but it
+// rounds otherwise, and what lies beyond the peak depends on that.
+inline double nudged(int repeat) {
+  constexpr double smallest = 1e-6;
+  return 1 + smallest * repeat;
+}
 
 // A table that is printed to stdout and written as CSV.
 class Table {

@@ -112,13 +112,15 @@ void RunOutput::draw(const LoadStep& step) const {
     packings.push_back(
         {fmt::format("point {}", point), take_snapshot(points.state(point), scratch)});
   for (const std::string& name : scene_.output.pictures.extremes) {
-    const std::vector<double> all = values(field(name), points);
+    const Field& shown = field(name);
+    const std::string unit = shown.unit == "-" ? "" : fmt::format(" {}", shown.unit);
+    const std::vector<double> all = values(shown, points);
     const auto [least, largest] = std::minmax_element(all.begin(), all.end());
     for (const auto& [end, word] : {std::pair{least, "least"}, std::pair{largest, "largest"}}) {
       const auto point = static_cast<std::size_t>(end - all.begin());
-      packings.push_back(
-          {fmt::format("point {}: {} {} {:.3g}", point, word, field(name).label, *end),
-           take_snapshot(points.state(point), scratch)});
+      const double value = *end + 0.0;  // no -0
+      packings.push_back({fmt::format("{} {}, point {}: {:.3g}{}", word, name, point, value, unit),
+                          take_snapshot(points.state(point), scratch)});
     }
   }
   if (packings.empty()) return;

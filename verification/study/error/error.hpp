@@ -28,8 +28,9 @@ inline constexpr double reference_tolerance = 1e-12;
 inline constexpr double path_end = 0.01;
 inline constexpr double increment_size = 0.001;
 
-// yade400.toml with this method and tolerance [-].
-MaterialSource with_method(const StudyOptions& options, const Method& method, double tolerance);
+// yade400.toml with this method and tolerance [-], its contacts nudged() that many times.
+MaterialSource with_method(const StudyOptions& options, const Method& method, double tolerance,
+                           int repeat = 0);
 
 // F(t), linear between its points.
 struct Path {
@@ -94,9 +95,10 @@ struct PathRow {
 std::vector<PathRow> study_paths(const StudyOptions& options, const std::vector<Path>& paths,
                                  int reference_increments);
 
-// CPU per evaluation against the number of particles.
+// CPU per evaluation against the number of particles, and the standard error of cpu_exact over
+// packings.
 struct NumberRow {
-  double particles, cpu, cpu_exact, steps, factorisations;
+  double particles, packings, cpu, cpu_exact, error, steps, factorisations;
 };
 std::vector<NumberRow> study_numbers(const StudyOptions& options, int largest_count);
 

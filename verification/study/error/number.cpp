@@ -16,17 +16,23 @@ namespace {
 
 constexpr double tolerance = 1e-6;
 constexpr int increments = 10;
-constexpr std::array counts{100, 225, 400, 900, 1600, 3600, 6400};
+// Increments of one packing differ by chance, the more of which the smaller it is.
+struct Count {
+  int particles, packings;
+};
+constexpr std::array<Count, 7> counts{
+    {{100, 16}, {225, 16}, {400, 16}, {900, 8}, {1600, 8}, {3600, 4}, {6400, 2}}};
 
 // The packing of pack400.toml with this many particles, made once and kept in the output directory.
-Material packing_of(const StudyOptions& options, int count) {
+Material packing_of(const StudyOptions& options, int count, int seed) {
   const auto directory = std::filesystem::absolute(options.output) / "packings";
-  const std::string stem = (directory / fmt::format("compaction{}", count)).string();
+  const std::string stem = (directory / fmt::format("compaction{}_seed{}", count, seed)).string();
   if (!std::filesystem::exists(stem + "_cell.csv")) {
     MaterialSource recipe;
     recipe.file = options.scene("pack400.toml");
     recipe.base = recipe.file.parent_path();
     change(recipe, "packing", "count", count);
+    change(recipe, "packing", "seed", seed);
     std::filesystem::create_directories(directory);
     check(grainlaw_state_write_packing(make_state(make_material(recipe)).get(), stem.c_str()),
           "writing a packing");
@@ -38,7 +44,7 @@ Material packing_of(const StudyOptions& options, int count) {
   return make_material(source);
 }
 
-NumberRow measure_count(const Material& material, int count) {
+NumberRow measure_packing(const Material& material) {
   std::vector<double> plain, exact, steps, factorisations;
   PointDriver driver(material, {});
   driver.run(drained_segment(-increments * increment_size, drained_pressure, increments),
@@ -51,20 +57,49 @@ NumberRow measure_count(const Material& material, int count) {
                exact.push_back(
                    time_evaluation(step.state, deformation, GRAINLAW_WANT_TANGENT_EXACT, 500).cpu);
              });
-  return {static_cast<double>(count), average(plain), average(exact), average(steps),
+  return {.cpu = average(plain),
+          .cpu_exact = average(exact),
+          .steps = average(steps),
+          .factorisations = average(factorisations)};
+}
+
+NumberRow measure_count(const StudyOptions& options, const Count& count) {
+  std::vector<double> plain, exact, steps, factorisations;
+  for (int seed = 1; seed <= count.packings; ++seed) {
+    const NumberRow row = measure_packing(packing_of(options, count.particles, seed));
+    plain.push_back(row.cpu);
+    exact.push_back(row.cpu_exact);
+    steps.push_back(row.steps);
+    factorisations.push_back(row.factorisations);
+  }
+  return {static_cast<double>(count.particles),
+          static_cast<double>(count.packings),
+          average(plain),
+          average(exact),
+          standard_error(exact),
+          average(steps),
           average(factorisations)};
 }
 
-// Of cpu = c N^exponent by least squares of the logarithms.
-double fitted_exponent(const std::vector<NumberRow>& rows) {
-  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
-  for (const NumberRow& row : rows) {
-    const double a = std::log(row.particles);
-    const double b = std::log(row.cpu_exact);
-    n += 1, x += a, y += b, xx += a * a, xy += a * b;
+// Of cpu = c N^exponent by least squares of the logarithms, and what the errors of the rows leave of it.
+struct Exponent {
+  double value, error;
+
+  explicit Exponent(const std::vector<NumberRow>& rows) {
+    double centre = 0, spread = 0, sum = 0, variance = 0;
+    for (const NumberRow& row : rows)
+      centre += std::log(row.particles) / static_cast<double>(rows.size());
+    for (const NumberRow& row : rows) {
+      const double lever = std::log(row.particles) - centre;
+      const double relative = row.error / row.cpu_exact;
+      spread += lever * lever;
+      sum += lever * std::log(row.cpu_exact);
+      variance += lever * lever * relative * relative;
+    }
+    value = sum / spread;
+    error = std::sqrt(variance) / spread;
   }
-  return (n * xy - x * y) / (n * xx - x * x);
-}
+};
 
 }  // namespace
 
@@ -74,29 +109,30 @@ std::vector<NumberRow> study_numbers(const StudyOptions& options, int largest_co
   Table table(
       fmt::format("CPU per evaluation against the number of particles: mean of the first {} "
                   "increments of 0.1 % of the drained path, tolerance {:.0e} [-], generator "
-                  "compaction, seed 1",
+                  "compaction, seeds 1, 2, ...; standard_error: over packings",
                   increments, tolerance),
-      {"particles[-]", "cpu[ms]", "cpu_with_exact_tangent[ms]", "relaxation_steps[-]",
-       "factorisations[-]"});
+      {"particles[-]", "packings[-]", "cpu[ms]", "cpu_with_exact_tangent[ms]", "standard_error[ms]",
+       "relaxation_steps[-]", "factorisations[-]"});
   Progress progress("particle numbers");
-  for (const int count : counts) {
-    if (count > largest_count) break;
+  for (const Count& count : counts) {
+    if (count.particles > largest_count) break;
     progress.update(static_cast<double>(rows.size()) / static_cast<double>(counts.size()),
-                    fmt::format("{}", count));
-    const NumberRow row = measure_count(packing_of(options, count), count);
-    table.row({row.particles, row.cpu, row.cpu_exact, row.steps, row.factorisations});
+                    fmt::format("{} x {}", count.packings, count.particles));
+    const NumberRow row = measure_count(options, count);
+    table.row({row.particles, row.packings, row.cpu, row.cpu_exact, row.error, row.steps,
+               row.factorisations});
     rows.push_back(row);
   }
   table.print();
   table.write(std::filesystem::path(options.output) / "error_number.csv");
-  const double exponent = fitted_exponent(rows);
+  const Exponent exponent(rows);
   Table fit("exponent of the particle number in the CPU time with the exact tangent",
-            {"from[-]", "to[-]", "exponent[-]", "bar[-]", "met"});
-  fit.row({rows.front().particles, rows.back().particles, exponent, bar,
-           exponent <= bar ? "yes" : "no"});
+            {"from[-]", "to[-]", "exponent[-]", "standard_error[-]", "bar[-]", "met"});
+  fit.row({rows.front().particles, rows.back().particles, exponent.value, exponent.error, bar,
+           exponent.value <= bar ? "yes" : "no"});
   fit.print();
   fit.write(std::filesystem::path(options.output) / "error_exponent.csv");
-  draw_numbers(options, rows, exponent);
+  draw_numbers(options, rows, exponent.value);
   return rows;
 }
 

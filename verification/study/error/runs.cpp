@@ -17,8 +17,9 @@ constexpr double servo_tolerance = 1e-3;
 
 }  // namespace
 
-MaterialSource with_method(const StudyOptions& options, const Method& method, double tolerance) {
-  MaterialSource source = options.material(tolerance);
+MaterialSource with_method(const StudyOptions& options, const Method& method, double tolerance,
+                           int repeat) {
+  MaterialSource source = options.material(tolerance, repeat);
   change(source, "boundary", "type", std::string(method.boundary_type));
   change(source, "boundary", "method", std::string(method.boundary_method));
   change(source, "solver", "method", std::string(method.solver_method));

@@ -119,8 +119,8 @@ std::string make_packing(const PackingRecipe& recipe, double stiffness) {
 }
 
 Material read_packing(const PackingRecipe& recipe, const std::string& name, double stiffness,
-                      double friction) {
-  return read(recipe, name, young(stiffness), friction);
+                      double friction, double factor) {
+  return read(recipe, name, factor * young(stiffness), friction);
 }
 
 }  // namespace verification::reach

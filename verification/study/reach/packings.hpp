@@ -22,8 +22,9 @@ struct PackingRecipe {
 // ComputationError, InputError.
 std::string make_packing(const PackingRecipe& recipe, double stiffness);
 
-// That packing with the friction tan(phi) in its contacts.
+// That packing with the friction tan(phi) in its contacts, whose stiffness is `factor` times what it
+// was made with [-].
 Material read_packing(const PackingRecipe& recipe, const std::string& name, double stiffness,
-                      double friction);
+                      double friction, double factor);
 
 }  // namespace verification::reach

@@ -26,12 +26,14 @@ struct Arguments {
   int count = 400;
   long seed = 1;
   int threads = 1;
+  int repeats = 1;
   SmallIncrements small;
 };
 
-// A path that is to be led, and how many increments it will have.
+// A path that is to be led, how many increments it will have, and in which repeat.
 struct Job {
   Path path;
+  int repeat = 0;
   int steps = 0;
   std::function<void(Path&, const Observer&)> lead;
 };
@@ -40,24 +42,43 @@ constexpr double large_increment = 0.001;
 
 // The packing of the scenes.
 void add_reference_paths(std::vector<Job>& jobs, const StudyOptions& options,
-                         const Arguments& arguments) {
+                         const Arguments& arguments, int repeat) {
   constexpr double stiffness = 300;  // of discs of 5 mm at 100 kPa
   constexpr double friction = 0.5463024898437905;
   const auto material =
-      std::make_shared<Material>(make_material(options.material(arguments.tolerance)));
+      std::make_shared<Material>(make_material(options.material(arguments.tolerance, repeat)));
   const auto steps = [](double strain) { return static_cast<int>(strain / large_increment + 0.5); };
   if (arguments.only != "shear")
     jobs.push_back({{"yade400", "drained", stiffness, friction, {}, "", 1},
+                    repeat,
                     steps(arguments.axial),
                     [=, n = steps(arguments.axial)](Path& path, const Observer& observe) {
                       lead_drained(path, *material, arguments.axial, n, observe);
                     }});
   if (arguments.only != "drained")
     jobs.push_back({{"yade400", "shear", stiffness, friction, {}, "", 1},
+                    repeat,
                     steps(arguments.shear),
                     [=, n = steps(arguments.shear)](Path& path, const Observer& observe) {
                       lead_shear(path, *material, arguments.shear, n, observe);
                     }});
+}
+
+// Both paths of a packing, with this friction in its contacts.
+void add_grid_material(std::vector<Job>& jobs, const PackingRecipe& recipe, const std::string& name,
+                       double stiffness, double friction, int repeat,
+                       const SmallIncrements& limits) {
+  const auto material =
+      std::make_shared<Material>(read_packing(recipe, name, stiffness, friction, nudged(repeat)));
+  const auto add = [&](const char* kind, auto lead) {
+    jobs.push_back(
+        {{name, kind, stiffness, friction, {}, "", 1},
+         repeat,
+         limits.steps(stiffness),
+         [=](Path& path, const Observer& observe) { lead(path, *material, limits, observe); }});
+  };
+  add("drained", lead_small_drained);
+  add("shear", lead_small_shear);
 }
 
 // Packings of five stiffnesses, each with five frictions.
@@ -65,24 +86,12 @@ void add_grid_paths(std::vector<Job>& jobs, const StudyOptions& options,
                     const Arguments& arguments) {
   const PackingRecipe recipe{options.scene("pack400.toml"), options.output + "/reach_packings",
                              arguments.count, arguments.seed, arguments.tolerance};
-  const SmallIncrements limits = arguments.small;
   for (const double stiffness : {1e2, 1e3, 1e4, 1e5, 1e6}) {
     fmt::print(stderr, "packing of {} discs at kn/p = {:.0e}\n", arguments.count, stiffness);
     const std::string name = make_packing(recipe, stiffness);
-    for (const double friction : {0.0, 0.2, 0.4, 0.6, 0.8}) {
-      const auto material =
-          std::make_shared<Material>(read_packing(recipe, name, stiffness, friction));
-      for (const char* kind : {"drained", "shear"}) {
-        const bool drained = std::string_view(kind) == "drained";
-        jobs.push_back({{name, kind, stiffness, friction, {}, "", 1},
-                        limits.steps(stiffness),
-                        [=](Path& path, const Observer& observe) {
-                          if (drained)
-                            lead_small_drained(path, *material, limits, observe);
-                          else
-                            lead_small_shear(path, *material, limits, observe);
-                        }});
-      }
+    for (int repeat = 0; repeat < arguments.repeats; ++repeat) {
+      for (const double friction : {0.0, 0.2, 0.4, 0.6, 0.8})
+        add_grid_material(jobs, recipe, name, stiffness, friction, repeat, arguments.small);
     }
   }
 }
@@ -117,12 +126,15 @@ void lead_all(std::vector<Job>& jobs, int threads) {
 
 void run_study(const StudyOptions& options, const Arguments& arguments) {
   std::vector<Job> jobs;
-  if (arguments.only != "grid") add_reference_paths(jobs, options, arguments);
+  for (int repeat = 0; arguments.only != "grid" && repeat < arguments.repeats; ++repeat)
+    add_reference_paths(jobs, options, arguments, repeat);
   if (arguments.only == "grid" || arguments.only == "all") add_grid_paths(jobs, options, arguments);
   lead_all(jobs, arguments.threads);
-  std::vector<Path> paths;
-  for (Job& job : jobs) paths.push_back(std::move(job.path));
-  tabulate(paths, arguments.tolerance, options.output);
+  std::vector<std::vector<Path>> repeats(static_cast<std::size_t>(arguments.repeats));
+  for (Job& job : jobs)
+    repeats[static_cast<std::size_t>(job.repeat)].push_back(std::move(job.path));
+  tabulate(repeats[0], arguments.tolerance, options.output);
+  if (repeats.size() > 1) tabulate_repeats(repeats, arguments.tolerance, options.output);
 }
 
 }  // namespace
@@ -147,6 +159,12 @@ void add_reach_study(CLI::App& study, const std::shared_ptr<StudyOptions>& optio
   command->add_option("--seed", arguments->seed, "of the packings of the grid [-]")
       ->capture_default_str();
   command->add_option("--increments", arguments->small.most, "of a path of the grid, at most [-]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--repeats", arguments->repeats,
+          "of every path, with stiffnesses apart by 1e-6 of it: what is left to chance [-]")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--threads", arguments->threads, "paths led at once [-]")

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 namespace verification::reach {
 namespace {
@@ -102,6 +104,38 @@ void tabulate_paths(const std::vector<Path>& paths, double tolerance,
                  path.friction, path.increments.size(), path.gave_up);
 }
 
+// Paths that count together.
+struct Group {
+  std::string name;
+  std::function<bool(const Path&)> belongs;
+};
+
+std::vector<Group> groups() {
+  std::vector<Group> result;
+  const auto ours = [](const Path& path) { return path.packing != "yade400"; };
+  for (const char* kind : {"drained", "shear"})
+    result.push_back({fmt::format("yade400 {}", kind),
+                      [=](const Path& path) { return !ours(path) && path.kind == kind; }});
+  for (const char* kind : {"drained", "shear"})
+    result.push_back({fmt::format("grid {}", kind),
+                      [=](const Path& path) { return ours(path) && path.kind == kind; }});
+  for (const double stiffness : {1e2, 1e3, 1e4, 1e5, 1e6})
+    result.push_back({fmt::format("grid kn/p = {:.0e}", stiffness),
+                      [=](const Path& path) { return ours(path) && path.stiffness == stiffness; }});
+  for (const double friction : {0.0, 0.2, 0.4, 0.6, 0.8})
+    result.push_back({fmt::format("grid friction {}", friction),
+                      [=](const Path& path) { return ours(path) && path.friction == friction; }});
+  result.push_back({"all", [](const Path&) { return true; }});
+  return result;
+}
+
+Tally tally_of(const Group& group, const std::vector<Path>& paths, double tolerance) {
+  Tally tally;
+  for (const Path& path : paths)
+    if (group.belongs(path)) tally.add(path, tolerance);
+  return tally;
+}
+
 void tabulate_groups(const std::vector<Path>& paths, double tolerance,
                      const std::filesystem::path& output) {
   Table table(
@@ -109,30 +143,14 @@ void tabulate_groups(const std::vector<Path>& paths, double tolerance,
                   "history",
                   tolerance, 100 * bar_direct, 100 * bar_exact),
       with_tally({"group", "share_without_advancing[-]", "bars_met"}));
-  const auto group = [&](const std::string& name, const std::function<bool(const Path&)>& belongs) {
-    Tally tally;
-    for (const Path& path : paths)
-      if (belongs(path)) tally.add(path, tolerance);
-    if (tally.steps.empty()) return;
+  for (const Group& group : groups()) {
+    const Tally tally = tally_of(group, paths, tolerance);
+    if (tally.steps.empty()) continue;
     const bool met = tally.direct() >= bar_direct && tally.exact() >= bar_exact;
-    std::vector<Table::Cell> cells{name, tally.exact(), met ? "yes" : "no"};
+    std::vector<Table::Cell> cells{group.name, tally.exact(), met ? "yes" : "no"};
     append(cells, tally);
     table.row(cells);
-  };
-  const auto ours = [](const Path& path) { return path.packing != "yade400"; };
-  for (const char* kind : {"drained", "shear"})
-    group(fmt::format("yade400 {}", kind),
-          [&](const Path& path) { return !ours(path) && path.kind == kind; });
-  for (const char* kind : {"drained", "shear"})
-    group(fmt::format("grid {}", kind),
-          [&](const Path& path) { return ours(path) && path.kind == kind; });
-  for (const double stiffness : {1e2, 1e3, 1e4, 1e5, 1e6})
-    group(fmt::format("grid kn/p = {:.0e}", stiffness),
-          [&](const Path& path) { return ours(path) && path.stiffness == stiffness; });
-  for (const double friction : {0.0, 0.2, 0.4, 0.6, 0.8})
-    group(fmt::format("grid friction {}", friction),
-          [&](const Path& path) { return ours(path) && path.friction == friction; });
-  group("all", [](const Path&) { return true; });
+  }
   table.print();
   table.write(output / "reach_groups.csv");
 }
@@ -168,6 +186,42 @@ void tabulate(const std::vector<Path>& paths, double tolerance,
   tabulate_paths(paths, tolerance, output);
   tabulate_groups(paths, tolerance, output);
   tabulate_rest(paths, output);
+}
+
+void tabulate_repeats(const std::vector<std::vector<Path>>& repeats, double tolerance,
+                      const std::filesystem::path& output) {
+  const std::vector<std::pair<std::string, std::function<double(const Tally&)>>> quantities{
+      {"share_direct[-]", [](const Tally& t) { return t.direct(); }},
+      {"share_without_advancing[-]", [](const Tally& t) { return t.exact(); }},
+      {"failed[-]", [](const Tally& t) { return t.ended[3]; }},
+      {"steps[-]", [](const Tally& t) { return average(t.steps); }},
+      {"factorisations[-]", [](const Tally& t) { return average(t.factorisations); }},
+      {"cpu[ms]", [](const Tally& t) { return average(t.cpu); }}};
+  std::vector<std::string> columns{"group", "repeats[-]", "increments[-]"};
+  for (const auto& [name, value] : quantities) {
+    columns.push_back(name);
+    columns.push_back("error_of_" + name);
+  }
+  Table table("means of repeats whose stiffnesses differ by 1e-6, and their standard errors",
+              columns);
+  for (const Group& group : groups()) {
+    std::vector<Tally> tallies;
+    for (const auto& paths : repeats) tallies.push_back(tally_of(group, paths, tolerance));
+    if (tallies[0].steps.empty()) continue;
+    std::vector<double> counts;
+    for (const Tally& tally : tallies) counts.push_back(tally.count());
+    std::vector<Table::Cell> cells{group.name, static_cast<double>(repeats.size()),
+                                   average(counts)};
+    for (const auto& [name, value] : quantities) {
+      std::vector<double> values;
+      for (const Tally& tally : tallies) values.push_back(value(tally));
+      cells.push_back(average(values));
+      cells.push_back(standard_error(values));
+    }
+    table.row(cells);
+  }
+  table.print();
+  table.write(output / "reach_repeats.csv");
 }
 
 }  // namespace verification::reach

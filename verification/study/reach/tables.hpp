@@ -12,4 +12,9 @@ namespace verification::reach {
 void tabulate(const std::vector<Path>& paths, double tolerance,
               const std::filesystem::path& output);
 
+// Means over repeats of the same paths, and the standard errors of these means, to reach_repeats.csv.
+// Throws ComputationError.
+void tabulate_repeats(const std::vector<std::vector<Path>>& repeats, double tolerance,
+                      const std::filesystem::path& output);
+
 }  // namespace verification::reach
