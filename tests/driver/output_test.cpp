@@ -1,5 +1,6 @@
 // What a run writes: fields at points, ParaView files, pictures of the mesh, tables, cost.
 #include "app/csv.hpp"
+#include "app/snapshot.hpp"
 #include "fe/output/cost_report.hpp"
 #include "fe/output/mesh_picture.hpp"
 #include "fe/output/output_options.hpp"
@@ -240,6 +241,21 @@ TEST(output_options, wrong_ones_are_refused_with_what_was_expected) {
                                        {"[picture]\nsteps = [11]", "load steps, 0 to 10"},
                                        {"[picture]\nstep = [1]", "picture.step"}})
     EXPECT_NE(refusal(text).find(expected), std::string::npos) << text << ": " << refusal(text);
+}
+
+TEST(snapshot, forces_are_drawn_beside_a_packing_without_any) {
+  const TemporaryDirectory directory;
+  Snapshot free{{0, 2}, {0, 0}, {1, 1}, {0, 0}, {}, {4, 0, 0, 4}, {}};
+  Snapshot bearing = free;
+  bearing.contacts = {{0, 1, {2, 0}, 5, false}};
+  const auto bars = [&](const char* name, const std::vector<SnapshotPanel>& panels) {
+    const auto stem = directory.path() / name;
+    EXPECT_TRUE(draw_snapshots(panels, 0, name, stem));
+    const std::string picture = contents(stem.string() + ".svg");
+    return picture.find("rgb(  0, 114, 178)") != std::string::npos;
+  };
+  EXPECT_FALSE(bars("free", {{"", free}}));
+  EXPECT_TRUE(bars("beside", {{"", free}, {"", bearing}}));
 }
 
 TEST(csv, is_continued_after_the_length_that_is_given) {

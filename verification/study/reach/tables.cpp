@@ -191,9 +191,8 @@ void tabulate(const std::vector<Path>& paths, double tolerance,
 void tabulate_repeats(const std::vector<std::vector<Path>>& repeats, double tolerance,
                       const std::filesystem::path& output) {
   const std::vector<std::pair<std::string, std::function<double(const Tally&)>>> quantities{
-      {"share_direct[-]", [](const Tally& t) { return t.direct(); }},
-      {"share_without_advancing[-]", [](const Tally& t) { return t.exact(); }},
-      {"failed[-]", [](const Tally& t) { return t.ended[3]; }},
+      {"not_direct[%]", [](const Tally& t) { return 100 * (1 - t.direct()); }},
+      {"advanced_or_failed[%]", [](const Tally& t) { return 100 * (1 - t.exact()); }},
       {"steps[-]", [](const Tally& t) { return average(t.steps); }},
       {"factorisations[-]", [](const Tally& t) { return average(t.factorisations); }},
       {"cpu[ms]", [](const Tally& t) { return average(t.cpu); }}};
@@ -202,7 +201,9 @@ void tabulate_repeats(const std::vector<std::vector<Path>>& repeats, double tole
     columns.push_back(name);
     columns.push_back("error_of_" + name);
   }
-  Table table("means of repeats whose stiffnesses differ by 1e-6, and their standard errors",
+  Table table(fmt::format("means of repeats whose stiffnesses differ by 1e-6, and their standard "
+                          "errors; the bars: {:g} % not direct, {:g} % advanced or failed",
+                          100 * (1 - bar_direct), 100 * (1 - bar_exact)),
               columns);
   for (const Group& group : groups()) {
     std::vector<Tally> tallies;
