@@ -95,15 +95,10 @@ struct PathRow {
 std::vector<PathRow> study_paths(const StudyOptions& options, const std::vector<Path>& paths,
                                  int reference_increments);
 
-// CPU per evaluation against the number of particles.
+// CPU per evaluation against the number of particles, and the standard error of cpu_exact over
+// packings.
 struct NumberRow {
-  // With the exact tangent, and its standard error over packings [ms].
-  struct Exact {
-    double cpu, error;
-  };
-  double particles, packings, cpu;
-  Exact first, all;  // of the first increments of the path, of all
-  double steps, factorisations;
+  double particles, packings, cpu, cpu_exact, error, steps, factorisations;
 };
 std::vector<NumberRow> study_numbers(const StudyOptions& options, int largest_count);
 

@@ -10,14 +10,12 @@
 
 #include <array>
 #include <cmath>
-#include <utility>
 
 namespace verification::error_study {
 namespace {
 
 constexpr double tolerance = 1e-6;
 constexpr int increments = 10;
-constexpr int first_increments = 3;  // where few contacts slide
 // Increments of one packing differ by chance, the more of which the smaller it is.
 struct Count {
   int particles, packings;
@@ -46,9 +44,9 @@ Material packing_of(const StudyOptions& options, int count, int seed) {
   return make_material(source);
 }
 
-// Means over the increments of one packing.
+// Over the increments of one packing.
 struct Means {
-  double cpu, first, all, steps, factorisations;
+  double cpu, cpu_exact, steps, factorisations;
 };
 
 Means measure_packing(const Material& material) {
@@ -64,43 +62,40 @@ Means measure_packing(const Material& material) {
                exact.push_back(
                    time_evaluation(step.state, deformation, GRAINLAW_WANT_TANGENT_EXACT, 500).cpu);
              });
-  return {average(plain), average({exact.begin(), exact.begin() + first_increments}),
-          average(exact), average(steps), average(factorisations)};
+  return {average(plain), average(exact), average(steps), average(factorisations)};
 }
 
 NumberRow measure_count(const StudyOptions& options, const Count& count) {
-  std::vector<double> plain, first, all, steps, factorisations;
+  std::vector<double> plain, exact, steps, factorisations;
   for (int seed = 1; seed <= count.packings; ++seed) {
     const Means means = measure_packing(packing_of(options, count.particles, seed));
     plain.push_back(means.cpu);
-    first.push_back(means.first);
-    all.push_back(means.all);
+    exact.push_back(means.cpu_exact);
     steps.push_back(means.steps);
     factorisations.push_back(means.factorisations);
   }
-  return {.particles = static_cast<double>(count.particles),
-          .packings = static_cast<double>(count.packings),
-          .cpu = average(plain),
-          .first = {average(first), standard_error(first)},
-          .all = {average(all), standard_error(all)},
-          .steps = average(steps),
-          .factorisations = average(factorisations)};
+  return {static_cast<double>(count.particles),
+          static_cast<double>(count.packings),
+          average(plain),
+          average(exact),
+          standard_error(exact),
+          average(steps),
+          average(factorisations)};
 }
 
 // Of cpu = c N^exponent by least squares of the logarithms, and what the errors of the rows leave of it.
 struct Exponent {
   double value, error;
 
-  Exponent(const std::vector<NumberRow>& rows, NumberRow::Exact NumberRow::*part) {
+  explicit Exponent(const std::vector<NumberRow>& rows) {
     double centre = 0, spread = 0, sum = 0, variance = 0;
     for (const NumberRow& row : rows)
       centre += std::log(row.particles) / static_cast<double>(rows.size());
     for (const NumberRow& row : rows) {
       const double lever = std::log(row.particles) - centre;
-      const auto& [cpu, its_error] = row.*part;
-      const double relative = its_error / cpu;
+      const double relative = row.error / row.cpu_exact;
       spread += lever * lever;
-      sum += lever * std::log(cpu);
+      sum += lever * std::log(row.cpu_exact);
       variance += lever * lever * relative * relative;
     }
     value = sum / spread;
@@ -119,31 +114,27 @@ std::vector<NumberRow> study_numbers(const StudyOptions& options, int largest_co
                   "compaction, seeds 1, 2, ...; standard_error: over packings",
                   increments, tolerance),
       {"particles[-]", "packings[-]", "cpu[ms]", "cpu_with_exact_tangent[ms]", "standard_error[ms]",
-       "cpu_of_first_three[ms]", "standard_error_of_first_three[ms]", "relaxation_steps[-]",
-       "factorisations[-]"});
+       "relaxation_steps[-]", "factorisations[-]"});
   Progress progress("particle numbers");
   for (const Count& count : counts) {
     if (count.particles > largest_count) break;
     progress.update(static_cast<double>(rows.size()) / static_cast<double>(counts.size()),
                     fmt::format("{} x {}", count.packings, count.particles));
     const NumberRow row = measure_count(options, count);
-    table.row({row.particles, row.packings, row.cpu, row.all.cpu, row.all.error, row.first.cpu,
-               row.first.error, row.steps, row.factorisations});
+    table.row({row.particles, row.packings, row.cpu, row.cpu_exact, row.error, row.steps,
+               row.factorisations});
     rows.push_back(row);
   }
   table.print();
   table.write(std::filesystem::path(options.output) / "error_number.csv");
-  const Exponent first(rows, &NumberRow::first);
-  const Exponent all(rows, &NumberRow::all);
-  Table fit(
-      "exponent of the particle number in the CPU time with the exact tangent",
-      {"increments[-]", "from[-]", "to[-]", "exponent[-]", "standard_error[-]", "bar[-]", "met"});
-  for (const auto& [count, exponent] : {std::pair{increments, all}, {first_increments, first}})
-    fit.row({static_cast<double>(count), rows.front().particles, rows.back().particles,
-             exponent.value, exponent.error, bar, exponent.value <= bar ? "yes" : "no"});
+  const Exponent exponent(rows);
+  Table fit("exponent of the particle number in the CPU time with the exact tangent",
+            {"from[-]", "to[-]", "exponent[-]", "standard_error[-]", "bar[-]", "met"});
+  fit.row({rows.front().particles, rows.back().particles, exponent.value, exponent.error, bar,
+           exponent.value <= bar ? "yes" : "no"});
   fit.print();
   fit.write(std::filesystem::path(options.output) / "error_exponent.csv");
-  draw_numbers(options, rows, all.value);
+  draw_numbers(options, rows, exponent.value);
   return rows;
 }
 

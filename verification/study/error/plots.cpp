@@ -132,14 +132,12 @@ void draw_numbers(const StudyOptions& options, const std::vector<NumberRow>& row
   constexpr double bar = 1.5;
   Curve plain{"without a tangent", {}, {}, colour::sky, Stroke::dashed, ring};
   Curve exact{"with the exact tangent", {}, {}, colour::blue, Stroke::solid, disc};
-  Curve first{"the same, first three increments", {}, {}, colour::orange, Stroke::solid, disc};
   Curve slope{fmt::format("exponent {:g}", bar), {}, {}, colour::grey, Stroke::thin};
   for (const NumberRow& row : rows) {
     add_point(plain, row.particles, row.cpu);
-    add_point(exact, row.particles, row.all.cpu);
-    add_point(first, row.particles, row.first.cpu);
+    add_point(exact, row.particles, row.cpu_exact);
     add_point(slope, row.particles,
-              rows.front().all.cpu * std::pow(row.particles / rows.front().particles, bar));
+              rows.front().cpu_exact * std::pow(row.particles / rows.front().particles, bar));
   }
   Figure figure{
       fmt::format("Increments of 0.1 %, tolerance 1e-6; fitted exponent {:.2f}", exponent),
@@ -147,7 +145,7 @@ void draw_numbers(const StudyOptions& options, const std::vector<NumberRow>& row
       {},
       true};
   figure.panels.push_back(
-      {"CPU time of one evaluation [ms]", {slope, plain, exact, first}, 2, "top left", true});
+      {"CPU time of one evaluation [ms]", {slope, plain, exact}, 2, "top left", true});
   save(options, figure, "error_number");
 }
 
