@@ -30,7 +30,7 @@ MaterialSource StudyOptions::material(double tolerance, int repeat) const {
   source.file = scene("yade400.toml");
   source.base = source.file.parent_path();
   change(source, "solver", "tolerance", tolerance);
-  change(source, "contact", "young", young * nudged(repeat));
+  if (repeat > 0) change(source, "contact", "young", young * nudged(repeat));
   return source;
 }
 

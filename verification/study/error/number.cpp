@@ -83,7 +83,8 @@ NumberRow measure_count(const StudyOptions& options, const Count& count) {
           average(factorisations)};
 }
 
-// Of cpu = c N^exponent by least squares of the logarithms, and what the errors of the rows leave of it.
+// Of cpu = c N^exponent by least squares of the logarithms, with the error that those of the rows
+// give it.
 struct Exponent {
   double value, error;
 
