@@ -26,7 +26,7 @@ struct StudyOptions {
   [[nodiscard]] MaterialSource material(double tolerance, int repeat = 0) const;
 };
 
-// What multiplies a stiffness in the repeats of a run [-]: nobody could tell it from the first, but it
+// What multiplies a stiffness in the repeats of a run [-]: too little for anybody to tell, but it
 // rounds otherwise, and what lies beyond the peak depends on that.
 inline double nudged(int repeat) {
   constexpr double smallest = 1e-6;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double tolerance = 1e-6;
 constexpr int increments = 10;
-// Increments of one packing differ by chance, the more of which the smaller it is.
+// Packings of one size differ in cost, small ones most: hence so many of each.
 struct Count {
   int particles, packings;
 };

@@ -46,7 +46,7 @@ Interpolated cpu_at(const std::vector<IncrementRow>& rows, double error) {
 
 const char* verdict(bool met) { return met ? "yes" : "no"; }
 
-// Means over the increments of long drained paths, of one evaluation with the exact tangent each [ms].
+// Of long drained paths, the mean over the increments of one evaluation with the exact tangent [ms].
 std::vector<double> time_long_paths(const StudyOptions& options, double tolerance, double axial,
                                     int paths) {
   std::vector<double> means;
