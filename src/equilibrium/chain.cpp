@@ -26,7 +26,7 @@ struct Effort {
   int finest;               // sub-increments, times those that the size of the increment asks for
 };
 constexpr Effort full_effort{.rounds = 9,
-                             .first_factorisations = 8,
+                             .first_factorisations = 20,
                              .most_factorisations = 50,
                              .relaxation_steps = 1500,
                              .finest = 8};

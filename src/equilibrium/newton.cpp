@@ -44,17 +44,18 @@ class FlowNewton {
   FlowNewton(Increment& increment, NewtonMemory& memory) : increment_(increment), memory_(memory) {
     memory.step.assign(increment.unknowns(), 0.0);
     memory.coordinates.reserve(increment.coordinates.size());
+    memory.flow.reserve(increment.unknowns());
+    memory.total.reserve(increment.unknowns());
     increment.refresh_masses();
     keep_best();
   }
 
   bool run(double tolerance, int max_factorisations) {
-    for (int count = 0; count < max_factorisations && std::isfinite(norm_); ++count) {
+    const int last = increment_.factorisations + max_factorisations;
+    while (increment_.factorisations < last && std::isfinite(norm_)) {
       if (increment_.residual_norm() < tolerance) return true;
       const auto r = increment_.residual();
       memory_.residual.assign(r.begin(), r.end());
-      memory_.stiffness.assemble(increment_, shift_);
-      memory_.stiffness.factorise(increment_);
       if (!solve()) {
         if (!raise_shift()) return false;
       } else if (full_steps_) {
@@ -69,8 +70,11 @@ class FlowNewton {
  private:
   [[nodiscard]] double defect() const { return defect_norm(increment_, memory_.step, 0); }
 
+  // For memory_.step, at the present coordinates.
   bool solve() {
-    auto& [stiffness, border, step, residual, coordinates, best] = memory_;
+    auto& [stiffness, border, step, residual, coordinates, best, flow, total] = memory_;
+    stiffness.assemble(increment_, shift_);
+    stiffness.factorise(increment_);
     if (Border::needed(*increment_.problem->space)) {
       return border.solve(increment_, stiffness, shift_, residual, step);
     }
@@ -120,40 +124,74 @@ class FlowNewton {
     }
   }
 
-  bool flow_step() {
-    constexpr double good = 0.1;
+  // How much of memory_.step leaves particles near where they are.
+  [[nodiscard]] double near_share() const {
     constexpr double move_limit = 0.2;  // of the smallest radius
-    constexpr double enough_gain = 0.5;
     const double smallest =
         *std::min_element(increment_.node_radius.begin(), increment_.node_radius.end());
+    return std::min(1.0, move_limit * smallest / largest_move(increment_, memory_.step));
+  }
+
+  void move(double fraction) {
+    increment_.move(memory_.step, fraction);
+    increment_.keep_neighbours();
+    increment_.update_forces();
+  }
+
+  // An implicit Euler step of the overdamped flow, shift_ m dz = r(z + dz): corrected where contacts
+  // switch on the way, at last shortened.
+  bool flow_step() {
+    constexpr double good = 0.1;
+    constexpr double enough_gain = 0.5;
     memory_.coordinates = increment_.coordinates;
+    memory_.flow = memory_.step;
     const auto deformation = increment_.deformation;
-    const double cap =
-        std::min(1.0, move_limit * smallest / largest_move(increment_, memory_.step));
+    const double cap = near_share();
     double fraction = cap;
     for (int shortening = 0; shortening < 3; ++shortening, fraction *= 0.3) {
-      increment_.coordinates = memory_.coordinates;
-      increment_.deformation = deformation;
-      increment_.move(memory_.step, fraction);
-      increment_.keep_neighbours();
-      increment_.update_forces();
+      if (shortening > 0) {
+        increment_.coordinates = memory_.coordinates;
+        increment_.deformation = deformation;
+        memory_.step = memory_.flow;
+      }
+      move(fraction);
       const double error = defect_norm(increment_, memory_.step, fraction * shift_);
       // A shortened step promises only its share of the decrease.
-      if (error < (1 - fraction * (1 - acceptable)) * norm_) {
-        if (fraction == 1) shift_ /= error < good * norm_ ? 16 : 4;
-        if (fraction < cap) shift_ *= 4;
-        if (shift_ < least_shift) shift_ = 0;
-        increment_.refresh_masses();
-        norm_ = defect();
-        if (norm_ < enough_gain * best_) {
-          full_steps_ = true;
-          keep_best();
-        }
-        return true;
+      const bool found = error < (1 - fraction * (1 - acceptable)) * norm_;
+      if (!found && !(fraction == 1 && corrected(error))) continue;
+      if (fraction == 1) shift_ /= error < good * norm_ ? 16 : 4;
+      if (fraction < cap) shift_ *= 4;
+      if (shift_ < least_shift) shift_ = 0;
+      increment_.refresh_masses();
+      norm_ = defect();
+      if (norm_ < enough_gain * best_) {
+        full_steps_ = true;
+        keep_best();
       }
+      return true;
     }
     go_to(memory_.coordinates, deformation);
     return raise_shift();
+  }
+
+  // Newton on the equation of a whole implicit step, from where the first iteration of it went.
+  bool corrected(double error) {
+    constexpr int most_corrections = 5;
+    constexpr double hopeless = 1e4;
+    memory_.total = memory_.flow;
+    for (int k = 0; k < most_corrections && error < hopeless * norm_; ++k) {
+      const double* r = increment_.residual().data();
+      const double* m = increment_.mass.data();
+      for (std::size_t q = 0; q < memory_.total.size(); ++q) {
+        memory_.residual[q] = r[q] - shift_ * m[q] * memory_.total[q];
+      }
+      if (!solve() || near_share() < 1) return false;
+      for (std::size_t q = 0; q < memory_.total.size(); ++q) memory_.total[q] += memory_.step[q];
+      move(1);
+      error = defect_norm(increment_, memory_.total, shift_);
+      if (error < acceptable * norm_) return true;
+    }
+    return false;
   }
 
   Increment& increment_;

@@ -13,15 +13,16 @@ namespace grainlaw {
 struct NewtonMemory {
   Stiffness stiffness;
   Border border;
-  std::vector<double> step, residual, coordinates, best;
+  std::vector<double> step, residual, coordinates, best, flow, total;
 };
 
 // Solve (K + s M) dz = r with the exact, non-symmetric K until residual_norm() < tolerance.
 // Full steps may pass through states of larger residual, since K is known only on this side of a
 // kink; when a few in a row gain nothing, they are taken back and the flow leads on until it gains.
-// The flow's s falls while the linear model is good and rises when it is not; with s > 0 it is
-// stable exactly where the equilibrium is, flutter included. False after max_factorisations or when
-// the residual is no longer finite.
+// The flow's s falls while the linear model is good and rises when it is not, and a step on which
+// contacts switch is corrected by Newton on its own equation; with s > 0 it is stable exactly where
+// the equilibrium is, flutter included. False after max_factorisations, or a few more to end a step,
+// or when the residual is no longer finite.
 bool flow_newton(Increment& increment, double tolerance, int max_factorisations,
                  NewtonMemory& memory);
 
