@@ -1,5 +1,7 @@
 #include "fe/model.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace verification {
@@ -76,7 +78,7 @@ double PointField::step_ratio() const {
 std::string PointField::message() const {
   for (std::size_t p = 0; p < points_.size(); ++p)
     if (status_[p] != GRAINLAW_OK)
-      return std::string(grainlaw_status_text(status_[p])) + " " + reports_[p].message;
+      return fmt::format("integration point {}: {}", p, reports_[p].message);
   return {};
 }
 

@@ -33,7 +33,7 @@ class PointField {
 
   // F at every point for these displacements, one batch call. When a point fails, its status.
   grainlaw_status evaluate(const Eigen::VectorXd& displacement, unsigned want, int threads);
-  // Smallest step ratio of the points that failed, and the message of the first.
+  // Smallest step ratio of the points that failed, and the first of them with its message.
   [[nodiscard]] double step_ratio() const;
   [[nodiscard]] std::string message() const;
 

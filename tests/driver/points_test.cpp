@@ -1,0 +1,24 @@
+// The integration points of a mesh.
+#include "fe/model.hpp"
+#include "support.hpp"
+
+#include <gtest/gtest.h>
+
+namespace verification {
+namespace {
+
+TEST(points, a_refusal_names_the_point) {
+  const Mesh mesh = rectangle_mesh({0.1, 0.05}, {2, 1}, ElementKind::q4r);
+  const Material material = lattice_material();
+  PointField points(mesh, material, 0);
+  Eigen::VectorXd displacement =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * mesh.nodes.size()));
+  for (const int node : mesh.node_sets.at("right")) displacement[2 * node] = 0.025;
+  EXPECT_EQ(points.evaluate(displacement, 0, 1), GRAINLAW_STEP_TOO_LARGE);
+  EXPECT_EQ(points.message(),
+            "integration point 1: the stretch since the committed state is more than 30 %");
+  EXPECT_LT(points.step_ratio(), 1);
+}
+
+}  // namespace
+}  // namespace verification
