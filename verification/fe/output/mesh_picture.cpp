@@ -91,8 +91,8 @@ bool draw_mesh(const std::vector<MeshPanel>& panels, const std::string& title,
   double scale_room = 96;
   for (const MeshPanel& panel : panels) {
     const auto [low, high] = colour_range(panel);
-    const bool long_numbers = high - low < 1e-2 * std::max(std::abs(low), std::abs(high));
-    if (long_numbers) scale_room = 140;
+    const double spread = (high - low) / std::max(std::abs(low), std::abs(high));
+    if (spread < 0.1) scale_room = std::max(scale_room, spread < 1e-2 ? 140.0 : 116.0);
   }
   constexpr double widest = 900, tallest = 640;
   const auto count = static_cast<double>(panels.size());
