@@ -21,7 +21,7 @@ struct Scene {
   double planned;  // load steps; of cyclic tests, which end by themselves, at most
   const char* paper;
 };
-constexpr std::array<Scene, 21> scenes{
+constexpr std::array<Scene, 24> scenes{
     {{"element_exact", 4, 400, 100, ""},
      {"element_elastic", 4, 400, 55, "not stated"},
      {"element_perturbed", 4, 400, 55, "not stated"},
@@ -29,8 +29,11 @@ constexpr std::array<Scene, 21> scenes{
      {"biaxial_2x4_100", 32, 100, 20, ""},
      {"biaxial_2x4_coarse", 32, 400, 8, ""},
      {"biaxial_2x4_fine", 32, 400, 80, ""},
+     {"biaxial_2x4_full", 32, 400, 20, ""},
      {"biaxial_3x5", 60, 400, 100, ""},
+     {"biaxial_3x5_full", 60, 400, 20, ""},
      {"biaxial_6x10", 240, 400, 100, "1.4 h on 16 cores (22.4 core-hours)"},
+     {"biaxial_6x10_full", 240, 400, 20, ""},
      {"biaxial_6x10_fine", 240, 400, 80, ""},
      {"biaxial_10x15", 600, 400, 100, "3 h on 16 cores"},
      {"biaxial_12x20", 960, 400, 100, "4.5 h on 16 cores"},

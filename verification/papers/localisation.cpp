@@ -47,9 +47,12 @@ struct Mesh {
   const char* title;
   const char* colour;
 };
-// To the peak in steps of 0.025 % instead of 0.1 %.
-constexpr std::array<Mesh, 2> fine_meshes{
-    {{"biaxial_2x4_fine", "2 x 4, steps of 0.025 %", colour::amber},
+// To the peak alone.
+constexpr std::array<Mesh, 5> meshes_to_the_peak{
+    {{"biaxial_2x4_full", "2 x 4, points solved in full", colour::amber},
+     {"biaxial_3x5_full", "3 x 5, points solved in full", colour::grey},
+     {"biaxial_6x10_full", "6 x 10, points solved in full", colour::blue},
+     {"biaxial_2x4_fine", "2 x 4, steps of 0.025 %", colour::amber},
      {"biaxial_6x10_fine", "6 x 10, steps of 0.025 %", colour::blue}}};
 constexpr std::array<Mesh, 6> meshes{{{"biaxial_2x4", "2 x 4", colour::amber},
                                       {"biaxial_3x5", "3 x 5", colour::grey},
@@ -148,7 +151,7 @@ void draw_meshes(HierarchicalStudy& study) {
                                             : "differs");
     }
   }
-  for (const Mesh& mesh : fine_meshes) {
+  for (const Mesh& mesh : meshes_to_the_peak) {
     const auto run = load_mesh_run(study.results, mesh.name);
     if (run && run->steps() > 2) newton_facts(study, *run, response(*run, mesh.title));
   }
