@@ -162,17 +162,24 @@ void BlockLU::find_sources() {
   }
 }
 
-void BlockLU::analyse(const BlockMatrix& matrix) {
+void BlockLU::analyse(const BlockMatrix& matrix, bool keep_order) {
+  constexpr double more_fill = 1.1;  // that a kept order may leave
+  keep_order = keep_order && nodes_ == matrix.nodes;
   if (nodes_ == matrix.nodes && components_ == matrix.components && edges_ == matrix.edges &&
-      !begin_.empty()) {
+      (keep_order || ordered_)) {
     return;
   }
   nodes_ = matrix.nodes;
   components_ = matrix.components;
   resize_with_room(edges_, matrix.edges.size());
   std::copy(matrix.edges.begin(), matrix.edges.end(), edges_.begin());
-  order(nodes_, edges_);
-  find_reach();
+  if (keep_order) find_reach();
+  ordered_ = !keep_order || static_cast<double>(reach_.size()) > more_fill * own_fill_;
+  if (ordered_) {
+    order(nodes_, edges_);
+    find_reach();
+    own_fill_ = static_cast<double>(reach_.size());
+  }
   find_columns();
   find_sources();
 }

@@ -50,8 +50,9 @@ class BlockLU {
  public:
   struct Factor;  // how the loops see it
 
-  // Symbolic analysis; kept when the graph is the one analysed last.
-  void analyse(const BlockMatrix& matrix);
+  // Symbolic analysis; kept when the graph is the one analysed last. Where it may be
+  // kept, an order found for another graph of these nodes serves as long as its fill is as small.
+  void analyse(const BlockMatrix& matrix, bool keep_order = false);
   // Numeric factorisation of the matrix plus diag(added), one quad per node or none. False when a
   // pivot block is singular.
   bool factorise(const BlockMatrix& matrix, std::span<const Quad> added = {});
@@ -67,6 +68,8 @@ class BlockLU {
   };
 
   int components_ = 0;
+  bool ordered_ = false;  // in the order of its own graph
+  double own_fill_ = 0;   // of the factor in such an order [blocks below the diagonal]
   std::size_t nodes_ = 0;
   std::vector<Edge> edges_;
   std::vector<std::int32_t> position_;     // node -> place in the elimination

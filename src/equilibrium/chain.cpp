@@ -28,10 +28,16 @@ struct Effort {
 constexpr Effort full_effort{.rounds = 9,
                              .first_factorisations = 20,
                              .most_factorisations = 50,
-                             .relaxation_steps = 1500,
+                             .relaxation_steps = 2000,
                              .finest = 8};
 constexpr Effort bounded_effort{3, 8, 20, 1000, 1};   // with a loose tolerance to end at
 constexpr Effort repeated_effort{2, 8, 20, 1000, 1};  // what fluttered before seldom settles now
+
+// Newton seldom works from where the relaxation did not settle: it is given up soon in the first
+// rounds, after which another relaxation is the cheaper try.
+constexpr int unsettled_factorisations = 12;
+constexpr int unsettled_rounds = 4;
+constexpr double advancing_steps = 75000;  // of relaxation, with up to 400 nodes
 
 const Effort& effort_of(const Request& request) {
   if (request.loose_tolerance == 0) return full_effort;
@@ -132,8 +138,10 @@ bool solve_part(const Request& request, Workspace& w, Outcome& outcome) {
     if (relaxed && tolerance == target) return true;
     const auto is_loose = [&] { return increment.residual_norm() < request.loose_tolerance; };
     if (request.guess_loose && !relaxed && is_loose()) return outcome.loose = true;
-    const int factorisations =
-        round == 0 ? effort.first_factorisations : effort.most_factorisations;
+    const bool unsettled = !relaxed && round < unsettled_rounds;
+    const int factorisations = unsettled    ? unsettled_factorisations
+                               : round == 0 ? effort.first_factorisations
+                                            : effort.most_factorisations;
     if (flow_newton(increment, target, factorisations, w.newton)) return true;
     const bool too_soon = round == 0 && !request.guess_loose;
     if (!too_soon && is_loose()) return outcome.loose = true;
@@ -219,8 +227,7 @@ bool solve_advancing(const Request& request, Method method, Workspace& w, Outcom
     if (request.options->method == Method::chain) {
       loosest = std::max(loosest, request.loose_tolerance);
     }
-    return relax(increment, loosest,
-                 50 * relaxation_limit(full_effort.relaxation_steps, increment.nodes()),
+    return relax(increment, loosest, relaxation_limit(advancing_steps, increment.nodes()),
                  History::advancing, w.relaxation);
   };
   const auto settled = [&] { return equilibrium() || is_free(request, increment); };

@@ -54,8 +54,8 @@ GRAINLAW_CLONES void add_to(std::span<Quad> to, std::span<const Quad> values) {
 }  // namespace
 
 void Stiffness::factorise(Increment& increment) {
-  ++increment.factorisations;
-  lu_.analyse(matrix_);
+  const bool first = increment.factorisations++ == 0;
+  lu_.analyse(matrix_, !first);
   gmres_.reserve(matrix_.nodes);
   const auto b = static_cast<std::size_t>(matrix_.components);
   resize_with_room(ground_, matrix_.nodes);
