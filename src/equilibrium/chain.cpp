@@ -36,7 +36,7 @@ constexpr Effort repeated_effort{2, 8, 20, 1000, 1};  // what fluttered before s
 // Newton seldom works from where the relaxation did not settle: it is given up soon in the first
 // rounds, after which another relaxation is the cheaper try.
 constexpr int unsettled_factorisations = 12;
-constexpr int unsettled_rounds = 4;
+constexpr int unsettled_rounds = 2;
 constexpr double advancing_steps = 75000;  // of relaxation, with up to 400 nodes
 
 const Effort& effort_of(const Request& request) {

@@ -125,7 +125,7 @@ void compare_with_yade(const StudyOptions& options, const std::vector<IncrementR
 void study_budget(const StudyOptions& options, const std::vector<IncrementRow>& increments,
                   double slower) {
   constexpr double wanted_error = 1e-4, tight = 1e-8, long_axial = 0.1;
-  constexpr int long_paths = 10;  // single ones differ beyond the peak, by rounding alone
+  constexpr int long_paths = 40;  // single ones differ beyond the peak, by rounding alone
   constexpr double bar_loose = 1.0, bar_tight = 2.0, bar_long = 6.0;  // [ms]
   Table table(
       fmt::format("drained path on the YADE packing, increments of 0.1 %, one thread; at the speed "
