@@ -9,9 +9,10 @@ scenes_000=(biaxial_1x1 biaxial_1x2 biaxial_2x4 biaxial_4x8 friction_02 friction
   dns_packings)
 short_004=(biaxial_2x4 element_perturbed element_elastic element_exact biaxial_2x4_hexagonal cyclic_stress_column
   cyclic_strain_column biaxial_2x4_full biaxial_2x4_fine biaxial_2x4_coarse biaxial_2x4_100)
-scenes_004=("${short_004[@]}" cyclic_stress_seed_{1..5} cyclic_strain_3x2 cyclic_stress_3x2 biaxial_3x5
-  biaxial_3x5_full biaxial_6x10 biaxial_6x10_full biaxial_6x10_fine biaxial_6x10_hexagonal biaxial_10x15
-  biaxial_6x10_q8 biaxial_12x20 cyclic_strain_15x10 cyclic_stress_15x10)
+# The longest first, so that no processor is left without work at the end.
+scenes_004=(cyclic_strain_15x10 cyclic_stress_15x10 biaxial_6x10_q8 biaxial_12x20 biaxial_10x15 biaxial_6x10
+  biaxial_6x10_fine biaxial_6x10_full biaxial_6x10_hexagonal cyclic_strain_3x2 cyclic_stress_3x2
+  cyclic_stress_seed_{1..5} biaxial_3x5 biaxial_3x5_full "${short_004[@]}")
 
 papers_002() {
   local scene jobs size
