@@ -1,6 +1,7 @@
 #include "fe/solver/newton.hpp"
 
 #include "fe/conditions/dofs.hpp"
+#include "fe/solver/elastic_share.hpp"
 #include "fe/solver/forces.hpp"
 #include "fe/solver/parts.hpp"
 
@@ -40,11 +41,12 @@ System assemble(const Model& model, const PointField& points, const Eigen::Vecto
 }
 
 // Change of displacement that the linearised system asks for, the prescribed part given.
-Eigen::VectorXd solve(const System& system, const Dofs& dofs, const Eigen::VectorXd& prescribed) {
-  const Eigen::VectorXd force = dofs.reduce(system.residual - system.stiffness * prescribed);
+Eigen::VectorXd solve(const Eigen::SparseMatrix<double>& stiffness, const Eigen::VectorXd& residual,
+                      const Dofs& dofs, const Eigen::VectorXd& prescribed) {
+  const Eigen::VectorXd force = dofs.reduce(residual - stiffness * prescribed);
   Triplets triplets;
-  for (int column = 0; column < system.stiffness.outerSize(); ++column)
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(system.stiffness, column); entry; ++entry)
+  for (int column = 0; column < stiffness.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(stiffness, column); entry; ++entry)
       dofs.follow(static_cast<std::size_t>(entry.row()), [&](int i, double row_factor) {
         dofs.follow(static_cast<std::size_t>(entry.col()), [&](int k, double column_factor) {
           triplets.emplace_back(i, k, row_factor * entry.value() * column_factor);
@@ -73,6 +75,7 @@ class NewtonSolver final : public Solver {
     check(points_.evaluate(displacement_, options_.tangent, threads_),
           "evaluating the integration points at F = I");
     system_ = assemble(model_, points_, displacement_, 0);
+    elastic_ = system_.stiffness;
     points_.commit();
     points_.record();  // the start is not part of step 0's effort
   }
@@ -133,11 +136,15 @@ class NewtonSolver final : public Solver {
     residuals.push_back(error(system, prescribed));
     double best = std::numeric_limits<double>::infinity();
     int best_iteration = 0;
+    ElasticShare share(options_.elastic_share);
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
       Eigen::VectorXd correction;
       {
         const auto measure = points_.cost().measure(Stage::linear_solve);
-        correction = solve(system, dofs_, prescribed);
+        correction = share.value() == 0
+                         ? solve(system.stiffness, system.residual, dofs_, prescribed)
+                         : solve(system.stiffness + share.value() * elastic_, system.residual,
+                                 dofs_, prescribed);
       }
       if (!correction.allFinite()) return {.reason = "the stiffness is singular"};
       const double factor = bound(correction);
@@ -153,6 +160,7 @@ class NewtonSolver final : public Solver {
       const double before = residuals.back();
       const double residual = error(system, prescribed);
       residuals.push_back(residual);
+      if (iteration > 0 && options_.elastic_share > 0) share.update(before, residual);
       if (residual < 0.5 * best) {
         best = residual;
         best_iteration = iteration;
@@ -162,8 +170,9 @@ class NewtonSolver final : public Solver {
       const bool near = loaded && residual <= options_.jump_tolerance;
       const bool slow = options_.jump_iterations > 0 && made >= options_.jump_iterations &&
                         residual > slow_ratio * before;
-      const bool stalled = iteration >= best_iteration + (near ? jump_patience : options_.patience) &&
-                           options_.tangent == GRAINLAW_WANT_TANGENT_EXACT;
+      const bool stalled =
+          iteration >= best_iteration + (near ? jump_patience : options_.patience) &&
+          options_.tangent == GRAINLAW_WANT_TANGENT_EXACT;
       const bool converged = loaded && residual <= tolerance;
       if (converged || (near && (slow || stalled || made == options_.max_iterations))) {
         displacement_ = displacement;
@@ -229,9 +238,10 @@ class NewtonSolver final : public Solver {
   int threads_;
   Dofs dofs_;
   PointField points_;
-  Eigen::VectorXd displacement_;  // committed [m]
-  System system_;                 // at the committed displacement and load
-  double time_ = 0;               // committed
+  Eigen::VectorXd displacement_;         // committed [m]
+  Eigen::SparseMatrix<double> elastic_;  // stiffness at F = I
+  System system_;                        // at the committed displacement and load
+  double time_ = 0;                      // committed
 };
 
 }  // namespace

@@ -32,6 +32,12 @@ struct NewtonOptions {
   // does not refuse; then the step is cut. The first, which brings the load, is made whole; 0: all
   // are.
   int line_search = 0;
+  // Where a correction raises the residual this share of the stiffness at F = I is added to the
+  // tangent, more if the next ones do too, less where they lower it: after Levenberg and Marquardt.
+  // An exact tangent that is nearly singular, in points that soften, sends Newton far off, and P jumps
+  // there. What it gets to is the edge of a jump as often as an equilibrium: for runs that have a
+  // jump_tolerance. 0: none [-].
+  double elastic_share = 0;
 };
 
 // Throws InputError for contradictory conditions, ComputationError when F = I cannot be evaluated.

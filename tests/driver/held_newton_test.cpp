@@ -1,4 +1,5 @@
-// The line search of Newton's method.
+// What holds Newton's method back: line search, and a share of the elastic stiffness.
+#include "fe/solver/elastic_share.hpp"
 #include "fe/solver/newton.hpp"
 #include "support.hpp"
 
@@ -11,13 +12,13 @@ namespace verification {
 namespace {
 
 // One element, compressed by 1.6 % in one load step: too much for Newton's method in one go.
-std::vector<LoadStep> compress(const NewtonOptions& options) {
+std::vector<LoadStep> compress(const NewtonOptions& options, double strain = 0.016) {
   Model model;
   model.mesh = rectangle_mesh({0.05, 0.1}, {1, 1}, ElementKind::q4r);
   const auto& sets = model.mesh.node_sets;
   model.displacements.push_back({sets.at("left"), 0, Program{{{0, 0}}, {}}, "left_x"});
   model.displacements.push_back({sets.at("bottom"), 1, Program{{{0, 0}}, {}}, "bottom_y"});
-  model.displacements.push_back({sets.at("top"), 1, Program::linear(0, -1.6e-3), "top_y"});
+  model.displacements.push_back({sets.at("top"), 1, Program::linear(0, -0.1 * strain), "top_y"});
   model.loads.pressures.push_back({model.mesh.side_sets["right"], Program{{{0, 1e5}}, {}}, true});
   const Material material = packing_material();
   const auto solver = make_newton_solver(model, material, options, 1);
@@ -54,6 +55,48 @@ TEST(line_search, never_increases_the_residual) {
   EXPECT_GT(count(steps).corrections, 4);
   EXPECT_EQ(count(steps).increases, 0);
   EXPECT_LE(steps.back().residuals.back(), 1e-6);
+}
+
+// Increase, increase, slow, fast, fast.
+TEST(elastic_share, rises_with_the_residual_and_goes_as_it_falls) {
+  ElasticShare share(0.1);
+  share.update(1, 0.5);
+  EXPECT_EQ(share.value(), 0);
+  share.update(1, 2);
+  EXPECT_EQ(share.value(), 0.1);
+  share.update(1, 2);
+  EXPECT_DOUBLE_EQ(share.value(), 0.4);
+  share.update(1, 0.5);
+  EXPECT_DOUBLE_EQ(share.value(), 0.4);
+  share.update(1, 0.8);
+  EXPECT_DOUBLE_EQ(share.value(), 0.4 / 3);
+  share.update(1, 0.1);
+  EXPECT_EQ(share.value(), 0.1);
+  share.update(1, 0.1);
+  EXPECT_EQ(share.value(), 0);
+  for (int k = 0; k < 9; ++k) share.update(1, 1);
+  EXPECT_EQ(share.value(), 1);
+}
+
+TEST(elastic_share, is_none_where_the_residual_falls) {
+  NewtonOptions options{.tolerance = 1e-6};
+  const std::vector<double> plain = compress(options, 1e-3).back().residuals;
+  options.elastic_share = 0.1;
+  EXPECT_EQ(compress(options, 1e-3).back().residuals, plain);
+}
+
+TEST(elastic_share, leads_to_an_equilibrium_where_the_residual_rises) {
+  NewtonOptions plain{.tolerance = 1e-6, .max_iterations = 40}, held = plain;
+  held.elastic_share = 0.1;
+  int increases = 0, changed = 0;
+  for (const double strain : {0.014, 0.016, 0.018, 0.02}) {
+    const auto without = compress(plain, strain), with = compress(held, strain);
+    increases += count(without).increases;
+    changed += with.back().residuals != without.back().residuals ? 1 : 0;
+    EXPECT_LE(with.back().residuals.back(), 1e-6) << strain;
+  }
+  EXPECT_GT(increases, 0);
+  EXPECT_GT(changed, 0);
 }
 
 }  // namespace
