@@ -166,7 +166,9 @@ GRAINLAW_API grainlaw_report grainlaw_report_default(void);
  * committed state keeps its bits. With solver.contacts_lost = "stress_free" F at which no contact
  * carries is no error: P and A are zero, tangent_exact is 1, contacts 0, the message says so, and
  * the state may be committed; particles go where F carries them, and bear when they meet again. At
- * F where they just touch A is one of two derivatives, that of the free side. Where stress
+ * F where they just touch A is one of two derivatives, that of the free side. Forces that fade
+ * without settling count for nothing from solver.tolerance of the mean one at F = I on (1e-6 of it
+ * at most); history_advanced is 1 where that was how particles moved apart. Where stress
  * components are prescribed (boundary "mixed") the components of F that belong to them are ignored
  * and found instead (measure DEFORMATION_GRADIENT), P returns the prescribed ones to the tolerance,
  * and A has zero rows and columns there.

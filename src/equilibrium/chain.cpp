@@ -59,12 +59,30 @@ bool may_be_free(const Request& request) {
   return request.options->contacts_lost == ContactsLost::stress_free;
 }
 
-// Without contacts there is no force to be balanced.
+// Mean force of the packing at F = I, or what stands for it [N].
+double unloaded_force(const Problem& problem) { return problem.force_floor / relative_floor; }
+
+// Mean force below which what is left of forces that do not settle counts for nothing [N].
+double faded_force(const Request& request, const Increment& increment) {
+  constexpr double loosest = 1e-6;  // of the mean force at F = I
+  if (!may_be_free(request)) return 0;
+  return std::max(std::min(request.tolerance, loosest) * unloaded_force(*request.problem),
+                  increment.rounding_force());
+}
+
+// Without contacts there is no force to be balanced, nor where all forces fade.
 bool is_free(const Request& request, Increment& increment) {
   if (!may_be_free(request)) return false;
   increment.refresh_masses();
   increment.update_forces();
-  return increment.touching == 0;
+  if (increment.touching == 0) return true;
+  return increment.mean_force < faded_force(request, increment) && increment.let_go();
+}
+
+// Whether an increment that did not settle may be on its way there.
+bool may_fade(const Request& request, const Increment& increment) {
+  constexpr double little = 1e-2;  // of the mean force at F = I
+  return may_be_free(request) && increment.mean_force < little * unloaded_force(*request.problem);
 }
 
 // Pi = |strain increment| kn / (p t), what makes an increment hard.
@@ -85,7 +103,7 @@ double hardness(const Request& request) {
   double line = std::max(pressure * packing.thickness, request.problem->force_floor / radius);
   // A free packing has no pressure to compare with: that at F = I serves.
   if (may_be_free(request)) {
-    line = std::max(line, request.problem->force_floor / (relative_floor * radius));
+    line = std::max(line, unloaded_force(*request.problem) / radius);
   }
   // Bonds hold each other in place until they break.
   if (request.problem->law->bonds()) {
@@ -227,8 +245,9 @@ bool solve_advancing(const Request& request, Method method, Workspace& w, Outcom
     if (request.options->method == Method::chain) {
       loosest = std::max(loosest, request.loose_tolerance);
     }
-    return relax(increment, loosest, relaxation_limit(advancing_steps, increment.nodes()),
-                 History::advancing, w.relaxation);
+    const double most_steps = (may_be_free(request) ? 2 : 1) * advancing_steps;
+    return relax(increment, loosest, relaxation_limit(most_steps, increment.nodes()),
+                 History::advancing, w.relaxation, faded_force(request, increment));
   };
   const auto settled = [&] { return equilibrium() || is_free(request, increment); };
   const bool done = settled() && settle_bonds(
@@ -274,12 +293,17 @@ Outcome solve(const Request& request, Workspace& w) {
       return true;
     }
     const int finest = effort_of(request).finest;
+    bool fallback_left = true;
     for (int refinement = 1; refinement <= finest; refinement *= 2) {
       if (parts * refinement > most_subincrements) break;
       if (attempt(solve_parts(request, parts * refinement, w, outcome))) return true;
       if (w.increment.touching == 0 || w.increment.collapsed()) return false;
+      if (refinement == 1 && finest > 1 && may_fade(request, w.increment)) {
+        fallback_left = solve_advancing(request, Method::advancing, w, outcome);
+        if (attempt(fallback_left && !w.increment.bears())) return true;
+      }
     }
-    return attempt(solve_advancing(request, Method::advancing, w, outcome));
+    return fallback_left && attempt(solve_advancing(request, Method::advancing, w, outcome));
   };
   if (!chain()) {
     outcome.status = w.increment.collapsed()     ? GRAINLAW_COLLAPSED

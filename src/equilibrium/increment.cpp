@@ -95,6 +95,7 @@ void Increment::begin(const Problem& p, const Configuration& from,
 }
 
 void Increment::deform(const std::array<double, 4>& target) {
+  let_go_ = false;
   const auto& space = *problem->space;
   if (space.bound_to_axes()) {
     // Fluctuations keep their components, and what is found of F stays until it is found.

@@ -94,6 +94,10 @@ class Increment {
   // Whether any contact counts.
   [[nodiscard]] bool bears() const;
 
+  // From here to the next F no contact counts but a bond, whatever is left of its force; false, and
+  // nothing done, when there is one.
+  bool let_go();
+
   // Whether every particle is where F carried it from the start of the history.
   [[nodiscard]] bool follows_deformation() const;
 
@@ -191,6 +195,7 @@ class Increment {
   void find_deformation_masses();
 
   std::vector<NeighbourPair> merged_pairs_;
+  bool let_go_ = false;
   // Of the state in which bonds broke last: until the next, what the energy falls by is lost.
   bool after_break_ = false;
   double break_energy_ = 0, break_dissipated_ = 0;  // [J]

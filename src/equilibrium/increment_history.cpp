@@ -18,8 +18,9 @@ double Increment::chance_force() const {
 }
 
 bool Increment::carries(std::size_t c) const {
-  return contacts.bonded(c) ||
-         normal_force(contacts, c, overlap(c), *problem->law) > 10 * chance_force();
+  if (contacts.bonded(c)) return true;
+  if (let_go_) return false;
+  return normal_force(contacts, c, overlap(c), *problem->law) > 10 * chance_force();
 }
 
 bool Increment::bears() const {
@@ -27,6 +28,12 @@ bool Increment::bears() const {
     if (carries(c)) return true;
   }
   return false;
+}
+
+bool Increment::let_go() {
+  let_go_ = true;
+  if (bears()) let_go_ = false;
+  return let_go_;
 }
 
 bool Increment::follows_deformation() const {

@@ -196,7 +196,7 @@ void Relaxation::step_deformation() {
   increment_.change_deformation(v, increment_.records);
 }
 
-bool Relaxation::run(double tolerance, long steps) {
+bool Relaxation::run(double tolerance, long steps, double least_force) {
   constexpr long window = 100;  // steps after which the floor is reviewed
   increment_.load_records();
   arranged_ = false;
@@ -205,7 +205,9 @@ bool Relaxation::run(double tolerance, long steps) {
   if (increment_.residual_norm() < tolerance) return true;
   for (const long last = steps_ + steps;;) {
     step();
-    const bool over = residual_ < tolerance || steps_ == last || !std::isfinite(residual_);
+    const bool stop = steps_ == last || !std::isfinite(residual_) ||
+                      (steps_ % window == 0 && increment_.mean_force < least_force);
+    const bool over = residual_ < tolerance || stop;
     if (over || steps_ % mass_interval == 0) {
       if (by_sides_) memory_.sides.move(increment_.records);
       increment_.store_records();
@@ -215,7 +217,7 @@ bool Relaxation::run(double tolerance, long steps) {
     if (over) {
       increment_.update_forces();
       if (increment_.residual_norm() < tolerance) return true;
-      if (steps_ == last || !std::isfinite(residual_)) return false;
+      if (stop) return false;
     }
     window_max_ = std::max(window_max_, residual_);
     window_min_ = std::min(window_min_, residual_);
@@ -224,8 +226,8 @@ bool Relaxation::run(double tolerance, long steps) {
 }
 
 bool relax(Increment& increment, double tolerance, long max_steps, History history,
-           RelaxationMemory& memory) {
-  return Relaxation(increment, history, memory).run(tolerance, max_steps);
+           RelaxationMemory& memory, double least_force) {
+  return Relaxation(increment, history, memory).run(tolerance, max_steps, least_force);
 }
 
 }  // namespace grainlaw

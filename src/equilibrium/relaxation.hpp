@@ -34,8 +34,9 @@ class Relaxation {
   Relaxation(Increment& increment, History history, RelaxationMemory& memory);
 
   // Go on until residual_norm() < tolerance, at most `steps` further steps. Returns whether it got
-  // there. The coordinates may be changed between two calls.
-  bool run(double tolerance, long steps);
+  // there. Ends too when no more than `least_force` is left of the mean contact force [N]. The
+  // coordinates may be changed between two calls.
+  bool run(double tolerance, long steps, double least_force = 0);
 
  private:
   void refresh();
@@ -66,7 +67,7 @@ struct PublishedOptions;
 
 // A Relaxation from rest, run once.
 bool relax(Increment& increment, double tolerance, long max_steps, History history,
-           RelaxationMemory& memory);
+           RelaxationMemory& memory, double least_force = 0);
 
 // The papers' dynamic relaxation: physical masses, local damping -alpha |f| sign(v) (Liu, Bosco &
 // Suiker 2017 eq. 10), explicit steps, history advanced at every step. Ends at the residual
