@@ -26,6 +26,7 @@ void describe(const Contact& contact, MaterialSource& source) {
   change(source, "contact", "friction", contact.friction);
   change(source, "contact", "rotation", contact.rotation);
   change(source, "solver", "tolerance", contact.tolerance);
+  if (contact.stress_free) change(source, "solver", "contacts_lost", "stress_free");
 }
 
 void write(const std::filesystem::path& path, const std::string& text) {

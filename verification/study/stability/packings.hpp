@@ -26,7 +26,8 @@ struct Contact {
   double ratio = 0.8;        // kt / kn [-]
   double friction = 0.5463;  // [-]
   bool rotation = true;
-  double tolerance = 1e-6;  // of the equilibria [-]
+  double tolerance = 1e-6;   // of the equilibria [-]
+  bool stress_free = false;  // without contacts: P = 0, not an error
 };
 
 // A periodic packing of discs of mean radius 5 mm, uniform radii, at rest without friction: at 100

@@ -103,6 +103,20 @@ void add_dilution(const PackingStore& store, Cases& cases) {
           fmt::format("stretch {:g}, {} increments each way", strain, quarter), material,
           {.targets = targets, .zero_stress_when_lost = true}, bears_again);
     }
+  // About as wide as the packing bears at all, so that forces come, fade and go.
+  for (const double stretch : {0.004, 0.005, 0.0052, 0.0054, 0.006}) {
+    Targets targets = along(4, [=](double s) { return isotropic(1 + stretch * s); });
+    const auto sheared = [=](double s) -> Tensor {
+      return simple_shear(0.01 * s) * isotropic(1 + stretch);
+    };
+    for (const Tensor& target : cycles(1, 10, sheared)) targets.push_back(target);
+    add(cases, "hardly bearing",
+        fmt::format("400 discs, stretch {:g}, cycle of shear of 1 % by 0.1 %", stretch),
+        [store] {
+          return store.generated({.count = 400}, {.tolerance = 1e-7, .stress_free = true});
+        },
+        {.targets = targets, .cpu_budget = 60});
+  }
   add(cases, "no pressure", "from the last contacts, compression by 1 %, 0.1 %",
       [store] { return store.barely_touching({}, {}); },
       {.targets = along(10, [](double s) { return isotropic(1 - 0.01 * s); })});
