@@ -62,10 +62,11 @@ bool may_be_free(const Request& request) {
 // Mean force of the packing at F = I, or what stands for it [N].
 double unloaded_force(const Problem& problem) { return problem.force_floor / relative_floor; }
 
-// Mean force below which what is left of forces that do not settle counts for nothing [N].
+// Mean force below which what is left of forces that do not settle counts for nothing [N]. Bonds
+// hold on without any.
 double faded_force(const Request& request, const Increment& increment) {
   constexpr double loosest = 1e-6;  // of the mean force at F = I
-  if (!may_be_free(request)) return 0;
+  if (!may_be_free(request) || request.problem->law->bonds()) return 0;
   return std::max(std::min(request.tolerance, loosest) * unloaded_force(*request.problem),
                   increment.rounding_force());
 }
@@ -76,7 +77,9 @@ bool is_free(const Request& request, Increment& increment) {
   increment.refresh_masses();
   increment.update_forces();
   if (increment.touching == 0) return true;
-  return increment.mean_force < faded_force(request, increment) && increment.let_go();
+  if (increment.mean_force >= faded_force(request, increment)) return false;
+  increment.let_go();
+  return true;
 }
 
 // Whether an increment that did not settle may be on its way there.

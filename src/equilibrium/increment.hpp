@@ -94,9 +94,8 @@ class Increment {
   // Whether any contact counts.
   [[nodiscard]] bool bears() const;
 
-  // From here to the next F no contact counts but a bond, whatever is left of its force; false, and
-  // nothing done, when there is one.
-  bool let_go();
+  // From here to the next F no contact counts but a bond, whatever is left of its force.
+  void let_go() { let_go_ = true; }
 
   // Whether every particle is where F carried it from the start of the history.
   [[nodiscard]] bool follows_deformation() const;

@@ -30,12 +30,6 @@ bool Increment::bears() const {
   return false;
 }
 
-bool Increment::let_go() {
-  let_go_ = true;
-  if (bears()) let_go_ = false;
-  return let_go_;
-}
-
 bool Increment::follows_deformation() const {
   constexpr double rounding = 1e-12;  // of 2 R
   const auto n = particles();
