@@ -39,7 +39,8 @@ const std::vector<Line> meshes{{"dns_a", "DNS A", colour::black, Stroke::dashed}
                                {"biaxial_1x1", "1 x 1", colour::amber},
                                {"biaxial_1x2", "1 x 2", colour::orange},
                                {"biaxial_2x4", "2 x 4", colour::blue},
-                               {"biaxial_4x8", "4 x 8", colour::green}};
+                               {"biaxial_4x8", "4 x 8", colour::green, Stroke::dashed},
+                               {"biaxial_4x8_membrane", "4 x 8, membranes", colour::green}};
 const std::vector<Line> frictions{{"friction_02", "friction 0.2", colour::amber},
                                   {"biaxial_2x4", "friction 0.4", colour::blue},
                                   {"friction_06", "friction 0.6", colour::green}};
@@ -92,7 +93,7 @@ void compare_meshes(PaperStudy& study) {
   table.write(study.results / "peaks.csv");
   const auto coarse = load_biaxial(study, "biaxial_1x1");
   if (!coarse) return;
-  for (const char* mesh : {"1x2", "2x4", "4x8"}) {
+  for (const char* mesh : {"1x2", "2x4", "4x8", "4x8_membrane"}) {
     const auto run = load_biaxial(study, std::string("biaxial_") + mesh);
     if (!run) continue;
     const double until = std::min(coarse->strain[coarse->peak()], run->strain[run->peak()]);

@@ -15,9 +15,16 @@ struct Scene {
   const char* name;
   int points;  // integration points; 0: direct simulation
 };
-constexpr Scene scenes[]{{"biaxial_1x1", 4},   {"biaxial_1x2", 8},    {"biaxial_2x4", 32},
-                         {"biaxial_4x8", 128}, {"friction_02", 32},   {"friction_06", 32},
-                         {"locked", 32},       {"dns_a", 0},         {"dns_b", 0}};
+constexpr Scene scenes[]{{"biaxial_1x1", 4},
+                         {"biaxial_1x2", 8},
+                         {"biaxial_2x4", 32},
+                         {"biaxial_4x8", 128},
+                         {"biaxial_4x8_membrane", 128},
+                         {"friction_02", 32},
+                         {"friction_06", 32},
+                         {"locked", 32},
+                         {"dns_a", 0},
+                         {"dns_b", 0}};
 constexpr int particles_of_point = 200;  // copies of a frame once
 
 double sum(const std::vector<double>& values) {

@@ -5,8 +5,8 @@
 scenes_002=(figure_02 figure_05 figure_08 figure_10 sizes sizes_rough order_regular order_irregular figure_12
   layer_strength layer_rows locked_rotation servo_regular servo_irregular servo_layer)
 scenes_003=(figure_4_4 figure_4_5 figure_4_6 figure_4_7 figure_4_8 figure_4_10 why)
-scenes_000=(biaxial_1x1 biaxial_1x2 biaxial_2x4 biaxial_4x8 friction_02 friction_06 locked anisotropy dns_a dns_b
-  dns_packings)
+scenes_000=(biaxial_1x1 biaxial_1x2 biaxial_2x4 biaxial_4x8 biaxial_4x8_membrane friction_02 friction_06 locked
+  anisotropy dns_a dns_b dns_packings)
 short_004=(biaxial_2x4 element_perturbed element_elastic element_exact biaxial_2x4_hexagonal cyclic_stress_column
   cyclic_strain_column biaxial_2x4_full biaxial_2x4_fine biaxial_2x4_coarse biaxial_2x4_100)
 # The longest first, so that no processor is left without work at the end.
