@@ -112,13 +112,25 @@ std::vector<Layer> layers(const Snapshot& snapshot, double width_per_force) {
            "with filledcurves closed fc rgb '#e69f00'"}};
 }
 
+long breaks(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
+
+// As gnuplot writes line breaks.
+std::string quoted(const std::string& title) {
+  std::string text;
+  for (const char c : title) text += c == '\n' ? "\\n" : std::string(1, c);
+  return fmt::format("\"{}\"", text);
+}
+
 }  // namespace
 
 bool draw_snapshots(const std::vector<SnapshotPanel>& panels, double force,
                     const std::string& title, const std::filesystem::path& stem) {
   if (panels.empty()) return true;
   constexpr double pixels_wide = 860;
-  constexpr double gap = 14, heading = 56, foot = 8;  // pixels
+  constexpr double gap = 14, line = 17, foot = 8;  // pixels
+  double heading = 56;
+  for (const SnapshotPanel& panel : panels)
+    heading = std::max(heading, 56 + line * static_cast<double>(breaks(panel.title)));
   double unit = force;
   for (const SnapshotPanel& panel : panels)
     if (unit == 0) unit = 2 * mean_force(panel.snapshot);
@@ -157,8 +169,8 @@ bool draw_snapshots(const std::vector<SnapshotPanel>& panels, double force,
     body += fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n",
                         millimetre * e.low[0], millimetre * e.high[0], millimetre * e.low[1],
                         millimetre * e.high[1]);
-    body += fmt::format("set label 2 \"{}\" at screen {:.5f},{:.5f} left noenhanced\n",
-                        panels[k].title, left / wide, 1 - 40 / high);
+    body += fmt::format("set label 2 {} at screen {:.5f},{:.5f} left noenhanced\n",
+                        quoted(panels[k].title), left / wide, 1 - 40 / high);
     body += fmt::format("plot {}\nunset label 1\n", fmt::join(items, ", "));
     left = right + gap;
   }

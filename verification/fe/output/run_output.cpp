@@ -119,7 +119,7 @@ void RunOutput::draw(const LoadStep& step) const {
     for (const auto& [end, word] : {std::pair{least, "least"}, std::pair{largest, "largest"}}) {
       const auto point = static_cast<std::size_t>(end - all.begin());
       const double value = *end + 0.0;  // no -0
-      packings.push_back({fmt::format("{} {}, point {}: {:.3g}{}", word, name, point, value, unit),
+      packings.push_back({fmt::format("{} {}\npoint {}: {:.3g}{}", word, name, point, value, unit),
                           take_snapshot(points.state(point), scratch)});
     }
   }
