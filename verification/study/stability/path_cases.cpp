@@ -104,7 +104,7 @@ void add_dilution(const PackingStore& store, Cases& cases) {
           {.targets = targets, .zero_stress_when_lost = true}, bears_again);
     }
   // About as wide as the packing bears at all, so that forces come, fade and go.
-  for (const double stretch : {0.004, 0.005, 0.0052, 0.0054, 0.006}) {
+  for (const double stretch : {0.004, 0.005, 0.0052, 0.0053, 0.0054, 0.006}) {
     Targets targets = along(4, [=](double s) { return isotropic(1 + stretch * s); });
     const auto sheared = [=](double s) -> Tensor {
       return simple_shear(0.01 * s) * isotropic(1 + stretch);
