@@ -19,7 +19,7 @@ struct Line {
 void draw_runs(const PaperStudy& study, const std::string& title, const std::vector<Line>& lines,
                bool stresses, const char* name) {
   Panel first{stresses ? "stress ratio [-]" : "coordination [-]", {}, 1,
-              stresses ? "bottom center maxrows 4" : "top right"};
+              stresses ? "bottom right at graph 0.66, 0.03 maxrows 4" : "top right"};
   Panel second{
       stresses ? "volume, J / J of the start - 1 [-]" : "anisotropy [-]", {}, 1, "top left"};
   for (const Line& line : lines) {

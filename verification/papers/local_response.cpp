@@ -95,7 +95,8 @@ void draw_points(HierarchicalStudy& study, const std::string& name, const Fields
       "15", "the most dilated point", "dilation 7.4 %, p and q to zero",
       fmt::format("dilation {:.1f} %, p {:.1f} kPa, q {:.1f} kPa",
                   f.volume.columns[edge + 1].back() * percent,
-                  f.mean.columns[edge + 1].back() / 1e3, f.deviator.columns[edge + 1].back() / 1e3),
+                  f.mean.columns[edge + 1].back() / 1e3 + 0.0,  // never -0
+                  f.deviator.columns[edge + 1].back() / 1e3),
       "not stated");
 }
 
