@@ -128,7 +128,8 @@ void evaluate(ElementPoint& point, const Tensor2& F0, const Tensor2& F1, bool st
           point.evaluate(F1, stress_only ? 0u : unsigned{GRAINLAW_WANT_TANGENT_EXACT}, response);
       if (answer.status != GRAINLAW_OK) {
         give_start(point, stress, stiffness);
-        cut(pnewdt, std::min(answer.report.step_ratio, largest_cut));
+        const double ratio = answer.report.step_ratio;
+        cut(pnewdt, ratio > 0 ? std::min(ratio, largest_cut) : largest_cut);  // 0: goes on
         return;
       }
       keep(point, response, !stress_only);

@@ -179,7 +179,8 @@ int integrate(PointTable& table, int dimension, grainlaw_mgis_data& data) {
   Response response;
   const Answer answer = point.evaluate(F, request.want, response);
   if (answer.status != GRAINLAW_OK) {
-    if (data.rdt != nullptr) *data.rdt = std::min(*data.rdt, answer.report.step_ratio);
+    const double ratio = answer.report.step_ratio;
+    if (data.rdt != nullptr && ratio > 0) *data.rdt = std::min(*data.rdt, ratio);
     throw std::runtime_error(std::string(grainlaw_status_text(answer.status)) +
                              (answer.report.message[0] != '\0' ? ": " : "") +
                              answer.report.message);

@@ -67,6 +67,8 @@ grainlaw_status evaluate_point(grainlaw_state& handle, const double* F, unsigned
       },
       message);
   if (status != GRAINLAW_OK) handle.state.revert();
+  const bool suggests = full.step_ratio > 0 && full.step_ratio < 1;
+  if (status > GRAINLAW_OK && !suggests) full.step_ratio = 0.5;
   if (report != nullptr) copy_report(full, report);
   return status;
 }

@@ -6,7 +6,7 @@
 
 namespace grainlaw {
 
-// Fills node, fixed, boundary, average, reference, found and rows by the rules of the sides. A
+// Fills what the rules of the sides decide; reads what of F is found. A
 // corner belongs to two sides and follows the stricter rule. Throws Error (BAD_PACKING) when
 // opposite sides are to share fluctuations and are not copies, when they differ in their rules, or
 // when fewer than four particles are under a uniform stress.

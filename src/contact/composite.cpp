@@ -45,9 +45,10 @@ const Loops& loops_of(const ContactLaw& law) {
   return law.moments() ? hertz_rolling_loops : hertz_loops;
 }
 
-// Moments of rolling and bending, gathered in the fourth lane, become part of M / R.
+// Moments of rolling and bending, gathered in the fourth lane, become part of M / R. What stands
+// behind the nodes, for F, has none.
 void add_moments(const ContactList& list, std::span<ForceRecord> nodes) {
-  for (std::size_t q = 0; q < nodes.size(); ++q) {
+  for (std::size_t q = 0; q < list.inverse_node_radius.size(); ++q) {
     nodes[q].roll += nodes[q].unused * list.inverse_node_radius[q];
     nodes[q].unused = 0;
   }

@@ -83,6 +83,8 @@ void Increment::begin(const Problem& p, const Configuration& from,
                     p.law->stiffness(largest_radius, largest_radius);
   dissipated = 0;
   broken_bonds = 0;
+  mean_force = 0;
+  touching = 0;
   relaxation_steps = servo_corrections = 0;
   factorisations = 0;
   mean_branch_ = 2 * mean_radius;
@@ -96,6 +98,7 @@ void Increment::begin(const Problem& p, const Configuration& from,
 
 void Increment::deform(const std::array<double, 4>& target) {
   let_go_ = false;
+  after_break_ = false;
   const auto& space = *problem->space;
   if (space.bound_to_axes()) {
     // Fluctuations keep their components, and what is found of F stays until it is found.
@@ -118,7 +121,6 @@ void Increment::deform(const std::array<double, 4>& target) {
     y[p] = g[2] * a + g[3] * b;
   }
   deformation = target;
-  after_break_ = false;
   cell = cell_at(deformation);
   if (!space.identity) place_fixed();
   list_neighbours();

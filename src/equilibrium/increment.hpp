@@ -192,6 +192,7 @@ class Increment {
   void take_averages(std::span<ForceRecord> residual) const;
   void find_average_masses();
   void find_deformation_masses();
+  [[nodiscard]] double potential_energy() const;
 
   std::vector<NeighbourPair> merged_pairs_;
   bool let_go_ = false;

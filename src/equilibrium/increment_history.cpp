@@ -48,14 +48,22 @@ bool Increment::follows_deformation() const {
                      [](double turned) { return turned == 0; });
 }
 
+// What the springs hold less what the prescribed stresses have given: at the given F and those
+// stresses nothing else gives energy.
+double Increment::potential_energy() const {
+  const auto& space = *problem->space;
+  double energy = stored_energy(contacts, coordinates, particles(), *problem->law);
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (space.found[k]) energy -= space.reference_volume * space.stress[k] * deformation[k];
+  }
+  return energy;
+}
+
 void Increment::advance_history() {
   load_records();
   const auto& law = *problem->law;
   dissipated += advance_contacts(records, law, contacts, forces);
-  if (after_break_) {  // at the same F: nothing but the springs gives energy
-    dissipated =
-        break_dissipated_ + break_energy_ - stored_energy(contacts, coordinates, particles(), law);
-  }
+  if (after_break_) dissipated = break_dissipated_ + break_energy_ - potential_energy();
   const bool gaps = !history_gaps.empty();
   history.clear();
   history_moments.clear();
@@ -106,7 +114,7 @@ double Increment::worst_bond() const {
 
 bool Increment::break_bonds() {
   if (!overloads_bonds()) return false;
-  const double energy = stored_energy(contacts, coordinates, particles(), *problem->law);
+  const double energy = potential_energy();
   advance_history();
   after_break_ = true;
   break_energy_ = energy;

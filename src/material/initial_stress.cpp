@@ -50,7 +50,7 @@ void load_to_stress(const BoundarySpace& space, const Request& request, Workspac
       Configuration reached;
       workspace.increment.export_to(at, reached);
       std::copy_n(stress.begin(), 4, reached.stress.begin());
-      reached.dissipated = 0;
+      reached.dissipated = reached.broken_bonds = 0;
       at = std::move(reached);
       share = next;
       step = std::min(2 * step, first_step);

@@ -83,8 +83,9 @@ void check_given_forces(const Material& material) {
   if (given > 0 && std::abs(found - given) > tolerance * given) {
     throw Error(
         GRAINLAW_BAD_PACKING,
-        fmt::format("contact forces of the packing: their sum is {:.6g} N, but overlaps and "
-                    "stiffness of the material give {:.6g} N; expected the same within 1 %",
+        fmt::format("packing.contacts: its normal forces add up to {:.6g} N, but overlaps and "
+                    "stiffness of [contact] give {:.6g} N; expected the same within 1 %: the "
+                    "stiffness the packing was made with, or no packing.contacts",
                     given, found));
   }
 }
@@ -216,7 +217,7 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
   workspace.increment.advance_history();
   workspace.increment.export_to(given, material->initial);
   std::copy_n(stress.begin(), 4, material->initial.stress.begin());
-  material->initial.dissipated = 0;
+  material->initial.dissipated = material->initial.broken_bonds = 0;
   material->initial_mean_force =
       free ? unloaded_force : std::max(workspace.increment.mean_force, least_force);
   if (material->space.finds_deformation) {

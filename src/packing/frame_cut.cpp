@@ -193,6 +193,7 @@ Packing assemble(const Packing& periodic, const Wrapped& wrapped, const ChainGra
         if (copy.i > copy.j) {
           std::swap(copy.i, copy.j);
           for (double& component : copy.tangential_force) component = -component;
+          copy.moment = -copy.moment;
         }
         packing.contacts.push_back(copy);
       }

@@ -19,7 +19,7 @@ class State {
 
   // Find the equilibrium at F (dim x dim row-major, finite, det F > 0) from the committed state and
   // keep it as the trial. P [dim*dim] and A [dim^4] may be null; both and the trial are written on
-  // success only. Every field of report but its size is filled. Throws bad_alloc, and Error
+  // success only. The report tells what was done until then. Throws bad_alloc, and Error
   // (NOT_CONVERGED) when an iterate leaves the range of the neighbour search.
   grainlaw_status evaluate(const double* F, TangentKind kind, double* P, double* A,
                            grainlaw_report& report);

@@ -101,6 +101,8 @@ void expect_bad_deformation(const Tensor& F, grainlaw_status expected, const std
                                         P.data(), A.data(), &report);
   expect_refused(status, expected, what);
   EXPECT_STRNE(report.message, "") << what;
+  EXPECT_EQ(report.step_ratio > 0, expected > GRAINLAW_OK) << what;
+  EXPECT_LT(report.step_ratio, 1) << what;
   EXPECT_EQ(P, (Tensor{7, 7, 7, 7})) << what;
   for (const double a : A) EXPECT_EQ(a, 7) << what;
   EXPECT_TRUE(same_bits(committed, state.save())) << what;

@@ -1,4 +1,5 @@
 // When bonds break (Liu, Bosco & Suiker 2017, eq. 8), and what becomes of their energy.
+#include "boundary_support.hpp"
 #include "law_support.hpp"
 
 #include "boundary/boundary_space.hpp"
@@ -178,6 +179,41 @@ TEST(bond_failure, does_not_lose_a_bond_that_is_stretched_far) {
   advance(state, {1.8, 0, 0, 1}, 8);
   EXPECT_NEAR(state.committed().stress[0], kn * 1.6 / (2 * 0.5), 1e-6);
   EXPECT_EQ(state.committed().contacts.size(), 2U);
+}
+
+// Shear of a layer whose F22 is found under a prescribed P22, which does work.
+TEST(bond_failure, of_a_layer_under_stress_balances_the_energy) {
+  double coarse = 0;
+  for (const int increments : {20, 100}) {
+    auto description = describe_layer(small_packing(), -1e5);
+    description.law = bonded_law(1);
+    State state(make_material(description));
+    const double volume = measure(state, GRAINLAW_REFERENCE_VOLUME);
+    const double stored = measure(state, GRAINLAW_ELASTIC_ENERGY);
+    EXPECT_EQ(measure(state, GRAINLAW_DISSIPATED_ENERGY), 0);
+    double work = 0;
+    double moved = 0;
+    double dissipated = 0;
+    for (int k = 1; k <= increments; ++k) {
+      const Tensor before = deformation_of(state);
+      const Tensor stress = stress_of(state);
+      advance(state, {1, 8e-3 * k / increments, 0, 1});
+      const Tensor change = sum(deformation_of(state), -1, before);
+      const double done = 0.5 * volume * dot(sum(stress, 1, stress_of(state)), change);
+      work += done;
+      moved += std::abs(done);
+      const double lost = measure(state, GRAINLAW_DISSIPATED_ENERGY);
+      EXPECT_GE(lost, dissipated - 1e-9 * moved) << k;
+      dissipated = lost;
+    }
+    EXPECT_GT(measure(state, GRAINLAW_BROKEN_BONDS), 5);
+    const double error =
+        std::abs(work - (measure(state, GRAINLAW_ELASTIC_ENERGY) - stored) - dissipated) / moved;
+    if (increments == 100) {
+      EXPECT_LE(error, 0.5 * coarse);
+    }
+    coarse = error;
+  }
 }
 
 TEST(bond_failure, gives_the_same_bits_however_often_it_is_asked) {

@@ -272,6 +272,22 @@ TEST(frame, carries_the_contact_forces_with_weight_one_over_copies) {
   }
 }
 
+TEST(frame, turns_forces_and_moments_with_the_order_of_a_pair) {
+  Packing periodic = consolidated(40, 0.5, 1);
+  double number = 0;
+  for (InitialContact& c : periodic.contacts) {
+    c.moment = ++number;  // names the contact, and is of the sign of i before j
+    c.tangential_force = {c.moment, 0};
+  }
+  const Packing cut = cut_frame(periodic);
+  int turned = 0;
+  for (const InitialContact& c : cut.contacts) {
+    EXPECT_EQ(c.moment, c.tangential_force[0]);
+    turned += c.moment < 0 ? 1 : 0;
+  }
+  EXPECT_GT(turned, 0);
+}
+
 TEST(frame, copies_of_a_pair_are_those_with_the_same_branch) {
   const Packing cut = cut_frame(consolidated(40, 0, 1));
   const Frame& frame = *cut.frame;

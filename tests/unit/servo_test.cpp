@@ -116,5 +116,29 @@ TEST(servo, too_few_corrections_are_recoverable) {
   EXPECT_EQ(evaluate(state, identity).status, GRAINLAW_OK);
 }
 
+// Both leave out contacts that hardly carry, by the mean force of their own packing.
+TEST(servo, does_not_depend_on_what_the_thread_solved_before) {
+  const Tensor F = sheared(1);
+  ContactLaw stiff = rough_law();
+  stiff.young *= 1e4;
+  Packing stiff_packing = small_packing();
+  for (auto& contact : stiff_packing.contacts) contact.normal_force *= 1e4;
+  for (const auto boundary : {BoundaryType::periodic_cell, BoundaryType::frame_p}) {
+    const auto make = [&](const Packing& packing, const ContactLaw& law) {
+      MaterialDescription description = describe(packing, law, boundary, 1e-4);
+      description.solver.method = Method::published;
+      return make_material(description);
+    };
+    State soft(make(small_packing(), rough_law()));
+    advance(soft, F);  // springs carry forces along the tangent from here on
+    const Tensor next = sheared(2);
+    const Tensor expected = evaluate(soft, next).stress;
+    EXPECT_EQ(evaluate(soft, next).stress, expected);
+    State other(make(stiff_packing, stiff));
+    evaluate(other, F);
+    EXPECT_EQ(evaluate(soft, next).stress, expected);
+  }
+}
+
 }  // namespace
 }  // namespace grainlaw::test

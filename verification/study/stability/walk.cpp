@@ -178,7 +178,7 @@ class Host {
     if (!found.stress.isZero(0) || !found.tangent.isZero(0))
       violate("a failed evaluation wrote P or the tangent");
     const double ratio = found.report.step_ratio;
-    if (!(ratio >= 0 && ratio < 1)) violate(fmt::format("step_ratio is {} after a failure", ratio));
+    if (!(ratio > 0 && ratio < 1)) violate(fmt::format("step_ratio is {} after a failure", ratio));
     if (grainlaw_commit(state_.get()) != GRAINLAW_NO_TRIAL)
       violate("a failed evaluation left a trial to commit");
   }
