@@ -5,7 +5,8 @@
  * granular representative volume (RVE) in equilibrium.
  *
  * Conventions, for every function below:
- *   - dim is 2 or 3 (grainlaw_material_dimension). Tensors are row-major: F[i*dim+J] = dx_i/dX_J.
+ *   - dim is grainlaw_material_dimension: 2 (3 is kept for spheres). Tensors are row-major:
+ *     F[i*dim+J] = dx_i/dX_J.
  *   - SI units throughout. Stress in Pa, tension positive. A 2D packing has an out-of-plane
  *     thickness; it is plane strain with F33 = 1 and P33 = 0.
  *   - Every function that can fail returns a grainlaw_status. 0: done. > 0: recoverable, the state
@@ -134,11 +135,12 @@ typedef struct grainlaw_report {
   size_t size;           /* bytes of this struct as the caller knows it */
   double residual;       /* max(|fx|, |fy|, |M|/R) over particles / mean contact normal force, or
                             solver.force_floor where that is larger [-] */
-  double step_ratio;     /* suggested factor on the step, 0..1; 1 after success [-] */
+  double step_ratio;     /* suggested factor on the step, 1 after success; 0: the step is not what
+                            is wrong (status < 0) [-] */
   long relaxation_steps; /* pseudo-time steps [-] */
   long servo_corrections; /* outer corrections of the servo method, 0 for direct [-] */
   int factorisations;     /* sparse factorisations, tangent included [-] */
-  int subincrements;      /* parts the increment was split into, >= 1 [-] */
+  int subincrements;      /* parts the increment was split into; 0: it was not begun [-] */
   int contacts;           /* touching contacts [-] */
   int sliding;            /* contacts at the friction limit [-] */
   int status_changes;     /* contacts that opened, closed, stuck or slid in this increment [-] */
@@ -161,9 +163,9 @@ GRAINLAW_API grainlaw_report grainlaw_report_default(void);
  * as they stick, slide or are open there, or the elastic one where the history was advanced or the
  * former would be the larger; tangent_exact is 0, and the message tells which. Errors: NULL_POINTER,
  * BAD_HANDLE, NOT_FINITE, BAD_REPORT, BAD_ARGUMENT, OUT_OF_MEMORY; recoverable: NOT_CONVERGED,
- * CONTACTS_LOST, INVERTED, STEP_TOO_LARGE, COLLAPSED (a boundary under uniform stress: next to no
- * force is left, or a particle of it has no contact). On any of them P and A are untouched and the
- * committed state keeps its bits. With solver.contacts_lost = "stress_free" F at which no contact
+ * CONTACTS_LOST, INVERTED, STEP_TOO_LARGE (a stretch of more than 30 %), COLLAPSED (a boundary
+ * under uniform stress: next to no force is left, or a particle of it has no contact). On any of
+ * them P and A are untouched and the committed state keeps its bits. With solver.contacts_lost = "stress_free" F at which no contact
  * carries is no error: P and A are zero, tangent_exact is 1, contacts 0, the message says so, and
  * the state may be committed; particles go where F carries them, and bear when they meet again. At
  * F where they just touch A is one of two derivatives, that of the free side. Forces that fade
@@ -257,7 +259,8 @@ GRAINLAW_API grainlaw_status grainlaw_state_write_vtk(const grainlaw_state*, con
 
 /* Write the same state as a packing: prefix_particles.csv, prefix_contacts.csv (forces, moments and
  * bonds included) and prefix_cell.csv, which a material file reads back to the same equilibrium.
- * Errors: NULL_POINTER, BAD_HANDLE, FILE_ERROR. */
+ * Errors: NULL_POINTER, BAD_HANDLE, FILE_ERROR, BAD_PACKING (the boundary of a frame has crossed
+ * itself, or its sides are copies no more). */
 GRAINLAW_API grainlaw_status grainlaw_state_write_packing(const grainlaw_state*,
                                                           const char* prefix);
 

@@ -81,9 +81,8 @@ void read_sides(TomlTable& table, BoundaryOptions& boundary) {
   if (!table.has("stress")) return;
   TomlTable stress = table.required_table("stress");
   constexpr std::array<std::string_view, 4> names{"P11", "P12", "P21", "P22"};
-  const double any = std::numeric_limits<double>::max();
   for (std::size_t k = 0; k < 4; ++k) {
-    boundary.stress[k] = stress.optional(names[k], number_between(-any, any));
+    boundary.stress[k] = stress.optional(names[k], any_number());
   }
   stress.finish();
   if (boundary.stress[0] && boundary.stress[1] && boundary.stress[2] && boundary.stress[3]) {

@@ -92,8 +92,8 @@ void check_thickness(const TomlTable& top, double given, double of_cell, const s
 
 MaterialDescription read_description(TomlTable& top, const std::filesystem::path& directory) {
   MaterialDescription description;
-  if (const long dimension = top.required("dimension", integer_between(2, 3)); dimension != 2)
-    top.fail("dimension", "3, which is not supported yet", "2");
+  if (const long dimension = top.required("dimension", integer_between(1)); dimension != 2)
+    top.fail("dimension", fmt::format("{}, which is not supported", dimension), "2");
   const auto thickness = top.optional("thickness", number_above(0));
   TomlTable packing = top.required_table("packing");
   description.law = read_contact(top.required_table("contact"));

@@ -22,7 +22,22 @@ Expectation<double> number(std::string text, Accept accept) {
           }};
 }
 
+// Whether one may be a slip of the pen for the other: they differ by two letters in one place.
+bool resembles(std::string_view a, std::string_view b) {
+  constexpr std::size_t slip = 2, in_common = 3;
+  if (a.size() > b.size()) std::swap(a, b);
+  std::size_t same = 0;
+  while (same < a.size() && a[same] == b[same]) ++same;
+  std::size_t end = 0;
+  while (same + end < a.size() && a[a.size() - 1 - end] == b[b.size() - 1 - end]) ++end;
+  return same + end >= in_common && b.size() - same - end <= slip;
+}
+
 }  // namespace
+
+Expectation<double> any_number() {
+  return number("a number", [](double) { return true; });
+}
 
 Expectation<double> number_above(double low) {
   return number(fmt::format("a number > {}", low), [=](double x) { return x > low; });
@@ -104,8 +119,14 @@ void TomlTable::finish() const {
 
 void TomlTable::fail(std::string_view key, std::string_view found,
                      std::string_view expected) const {
-  throw Error(GRAINLAW_BAD_MATERIAL, fmt::format("{}:{}: {}: found {}, expected {}", file_,
-                                                 line(key), path(key), found, expected));
+  std::string perhaps;
+  for (const auto& [other, value] : *table_) {
+    const bool asked = std::ranges::find(asked_, other.str()) != asked_.end();
+    if (!has(key) && !asked && resembles(key, other.str()))
+      perhaps = fmt::format(" ({} in line {}?)", other.str(), value.source().begin.line);
+  }
+  throw Error(GRAINLAW_BAD_MATERIAL, fmt::format("{}:{}: {}: found {}, expected {}{}", file_,
+                                                 line(key), path(key), found, expected, perhaps));
 }
 
 const toml::node* TomlTable::find(std::string_view key) {

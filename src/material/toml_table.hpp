@@ -25,6 +25,7 @@ struct Expectation {
 };
 
 // Finite numbers; integers are numbers too.
+Expectation<double> any_number();
 Expectation<double> number_above(double low);
 Expectation<double> number_at_least(double low);
 Expectation<double> number_between(double low, double high);      // both included
@@ -94,6 +95,7 @@ class TomlTable {
   void finish() const;
 
   [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
+  // At the line of the key; of its table where it is missing, with the key that may be meant for it.
   [[noreturn]] void fail(std::string_view key, std::string_view found,
                          std::string_view expected) const;
 

@@ -3,6 +3,7 @@
 #include "error.hpp"
 #include "packing/csv_table.hpp"
 #include "packing/frame.hpp"
+#include "packing/neighbours.hpp"
 #include "packing/text_file.hpp"
 
 #include <fmt/format.h>
@@ -143,6 +144,26 @@ void build_frame(const std::string& path, const FrameRows& rows, const Ids& ids,
   }
 }
 
+// The neighbour search numbers cells: no particle is further from the first than half of what it
+// counts to, or so far from the origin that its digits are lost.
+template <class Table>
+void check_place(const Table& table, const Packing& packing, double y_first, double y_last) {
+  constexpr double furthest_apart = 16000, furthest = 1e8;  // [cells]
+  const auto& h = packing.cell;
+  const double area = h[0] * h[3] - h[1] * h[2];
+  const auto cells = [&](double dx, double dy) {
+    return std::max(std::abs(h[3] * dx - h[1] * dy), std::abs(h[0] * dy - h[2] * dx)) / area;
+  };
+  const double x_first = packing.position.front();
+  const double x_last = packing.position.back();
+  if (const double away = cells(x_last, y_last); !(away <= furthest))
+    table.fail(fmt::format("the centre is {:.3g} cells from the origin, expected at most {:g}",
+                           away, furthest));
+  if (const double away = cells(x_last - x_first, y_last - y_first); !(away <= furthest_apart))
+    table.fail(fmt::format("the centre is {:.3g} cells from the first, expected at most {:g}", away,
+                           furthest_apart));
+}
+
 Ids read_particles(const std::string& path, Packing& packing) {
   CsvTable<7> table(path, {"id", "x", "y", "r", "role", "partner", "frame_order"});
   const bool framed = table.has(role) || table.has(partner) || table.has(frame_order);
@@ -156,6 +177,7 @@ Ids read_particles(const std::string& path, Packing& packing) {
       table.complain(id, "an id that no other particle has");
     packing.position.push_back(table.real(x));
     ys.push_back(table.real(y));
+    check_place(table, packing, ys.front(), ys.back());
     packing.radius.push_back(table.positive(r));
     if (framed) read_frame_row(table, particle, frame);
   }
@@ -176,6 +198,37 @@ double branch_length(const Packing& packing, const InitialContact& contact) {
                     packing.position[n + b] - packing.position[n + a] + h[2] * s0 + h[3] * s1);
 }
 
+// Particles whose centres lie in one another are no packing, but lengths in different units.
+void check_sizes(const std::string& path, const Ids& ids, const Packing& packing) {
+  const auto id_of = [&](std::int32_t p) {
+    return std::ranges::find(ids, p, &Ids::value_type::second)->first;
+  };
+  const auto wrong = [&](const std::string& what) {
+    throw Error(GRAINLAW_BAD_PACKING, fmt::format("{}: {}; expected all lengths in m", path, what));
+  };
+  const auto& h = packing.cell;
+  const double area = h[0] * h[3] - h[1] * h[2];
+  const double height = area / std::max(std::hypot(h[0], h[2]), std::hypot(h[1], h[3]));
+  const auto largest = std::ranges::max_element(packing.radius);
+  if (!packing.frame && *largest > height)
+    wrong(fmt::format("particle {} of radius {:g} m is larger than the cell, {:g} m high",
+                      id_of(static_cast<std::int32_t>(largest - packing.radius.begin())), *largest,
+                      height));
+  std::vector<NeighbourPair> pairs;
+  const std::size_t n = packing.size();
+  NeighbourSearch().find(n, packing.position.data(), packing.radius.data(),
+                         packing.frame ? nullptr : h.data(), 0, pairs);
+  for (const NeighbourPair& pair : pairs) {
+    const InitialContact contact{pair.i, pair.j, {pair.shift[0], pair.shift[1]}};
+    const double length = branch_length(packing, contact);
+    const double r = packing.radius[static_cast<std::size_t>(pair.i)];
+    const double s = packing.radius[static_cast<std::size_t>(pair.j)];
+    if (length < std::max(r, s))
+      wrong(fmt::format("particles {} and {} of radii {:g} and {:g} m are {:g} m apart",
+                        id_of(pair.i), id_of(pair.j), r, s, length));
+  }
+}
+
 void read_contacts(const std::string& path, const Ids& ids, Packing& packing) {
   CsvTable<10> table(path, {"i", "j", "shift_x", "shift_y", "fn", "ftx_on_j", "fty_on_j", "moment",
                             "bonded", "bond_gap"});
@@ -187,7 +240,7 @@ void read_contacts(const std::string& path, const Ids& ids, Packing& packing) {
   };
   const auto shift = [&](std::size_t column) {
     const std::int64_t value = table.integer(column);
-    if (std::abs(value) > largest_shift) table.complain(column, "at most 32767 cells");
+    if (value > largest_shift || value < -largest_shift) table.complain(column, "at most 32767 cells");
     if (value != 0 && packing.frame) table.complain(column, "0, since a frame has no images");
     return static_cast<int>(value);
   };
@@ -250,6 +303,7 @@ Packing read_packing(const PackingPaths& paths) {
   Packing packing;
   read_cell(paths.cell, packing);
   const Ids ids = read_particles(paths.particles, packing);
+  check_sizes(paths.particles, ids, packing);
   if (!paths.contacts.empty()) read_contacts(paths.contacts, ids, packing);
   return packing;
 }

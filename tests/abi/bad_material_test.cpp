@@ -77,12 +77,13 @@ void expect_told(const std::string& file, const Mistake& mistake) {
 
 TEST(bad_material, any_mistake_is_told_with_file_line_key_and_expectation) {
   const Mistake mistakes[] = {
-      {1, "dimension = 3", 1, "dimension", "not supported yet, expected 2"},
-      {1, "dimension = 4", 1, "dimension", "expected an integer from 2 to 3"},
+      {1, "dimension = 3", 1, "dimension", "not supported, expected 2"},
+      {1, "dimension = 4", 1, "dimension", "found 4, which is not supported, expected 2"},
       {1, "dimension = 2.0", 1, "dimension", "found 2.0, expected an integer"},
       {1, "dimension = \"2\"", 1, "dimension", "expected an integer"},
       {1, "", 1, "dimension", "found nothing, expected an integer"},
-      {1, "dimention = 2", 1, "dimension", "found nothing"},
+      {1, "dimention = 2", 1, "dimension",
+       "found nothing, expected an integer >= 1 (dimention in line 1?)"},
       {2, "thickness = 0", 2, "thickness", "found 0, expected a number > 0"},
       {2, "thickness = -0.1", 2, "thickness", "expected a number > 0"},
       {2, "thickness = true", 2, "thickness", "found true, expected a number > 0"},
@@ -206,7 +207,7 @@ TEST(bad_material, a_file_that_cannot_be_read_is_told) {
 }
 
 TEST(bad_material, a_message_is_truncated_to_its_buffer) {
-  const std::string expected = "here:1: dimension: found nothing, expected an integer from 2 to 3";
+  const std::string expected = "here:1: dimension: found nothing, expected an integer >= 1";
   for (std::size_t size = 0; size < 80; ++size) {
     std::string buffer(100, 'x');
     grainlaw_material* made = nullptr;

@@ -195,6 +195,8 @@ TEST_F(packing_file, with_wrong_particles_is_refused) {
   expect_particles_refused("expected a number > 0", "id,x,y,r\n7,0,0,-1\n");
   expect_particles_refused("expected an integer", "id,x,y,r\n7.5,0,0,1\n");
   expect_particles_refused("p.csv:3: column 'id': found '7'", "id,x,y,r\n7,0,0,1\n7,3,0,1\n");
+  expect_particles_refused("p.csv:2: the centre is", "id,x,y,r\n7,1e20,0,1\n");
+  expect_particles_refused("cells from the first", "id,x,y,r\n7,0,0,1\n8,0,1e5,1\n");
   expect_particles_refused("p.csv:2: fewer fields", "id,x,y,r\n7,0,0\n");
   expect_particles_refused("p.csv:2: more fields", "id,x,y,r\n7,0,0,1,5\n");
   expect_particles_refused("uplicate", "id,x,y,r,x\n7,0,0,1,5\n");
@@ -208,9 +210,20 @@ TEST_F(packing_file, with_wrong_contacts_is_refused) {
   expect_contacts_refused("contact of line 2 again", "7,-3,0,0,1,0,0\n7,-3,0,0,1,0,0\n");
   expect_contacts_refused("contact of line 2 again", "7,-3,0,0,1,0,0\n-3,7,0,0,1,0,0\n");
   expect_contacts_refused("32767", "7,-3,40000,0,1,0,0\n");
+  expect_contacts_refused("32767", "7,-3,0,-9223372036854775808,1,0,0\n");
   expect_contacts_refused("found '0.5', expected an integer", "7,-3,0.5,0,1,0,0\n");
   expect_contacts_refused("expected a finite number", "7,-3,0,0,-nan,0,0\n");
   expect_refused("no column 'fn'", good_particles, "i,j,shift_x,shift_y\n7,-3,0,0\n", good_cell);
+}
+
+TEST_F(packing_file, with_lengths_in_different_units_is_refused) {
+  // Radii, then places, then the cell in mm.
+  expect_particles_refused("p.csv: particle 7 of radius 100 m is larger than the cell, 0.3 m high",
+                           "id,x,y,r\n7,0.1,0.1,100\n-3,0.29,0.1,100\n");
+  expect_particles_refused("particles 7 and -3 of radii 0.1 and 0.1 m are 0.05 m apart",
+                           "id,x,y,r\n7,0.1,0.1,0.1\n-3,390.15,0.1,0.1\n");
+  expect_cell_refused("p.csv: particle 7 of radius 0.1 m is larger than the cell",
+                      "H00,H01,H10,H11,thickness\n0.00039,0,0,0.0003,0.1\n");
 }
 
 TEST_F(packing_file, with_a_wrong_cell_is_refused) {
