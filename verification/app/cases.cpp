@@ -9,11 +9,14 @@ namespace verification {
 std::vector<toml::table> scene_cases(const SceneFile& file) {
   SceneTable root = file.root();
   const std::string name = root.text_or("name", file.path.stem().string());
+  if (root.has("seeds")) root.fail("seeds", "a key of the scene", "one of a [[case]]");
   std::vector<toml::table> scenes;
   for (SceneTable& one : root.tables("case")) {
     const std::string case_name = one.text("name");
     toml::table content = file.content;
     content.erase("case");
+    if (const auto path = content["material"].value<std::string>())
+      content.insert_or_assign("material", toml::table{{"file", *path}});
     merge(content, one.content());
     content.insert_or_assign("name", name + "_" + case_name);
     const int seeds = one.integer_or("seeds", 0, 0);

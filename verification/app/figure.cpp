@@ -84,6 +84,11 @@ std::string common_range(const Figure& figure) {
         low = std::min(low, x);
         high = std::max(high, x);
       }
+  if (low == high && !figure.logarithmic) {  // gnuplot would complain of it
+    const double around = low != 0 ? 0.1 * std::abs(low) : 1;
+    low -= around;
+    high += around;
+  }
   if (!(high > low)) return "";
   if (!figure.logarithmic) return fmt::format("set xrange [{}:{}]\n", low, high);
   return high > 0 ? fmt::format("set xrange [{}:{}]\n", low / room, high * room) : "";

@@ -5,6 +5,7 @@
 #include <array>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 namespace verification {
 
@@ -18,10 +19,29 @@ void merge(toml::table& target, const toml::table& changes) {
   }
 }
 
+namespace {
+
+// "scene: material file", what of it there is.
+std::string named(const MaterialSource& source) {
+  std::string name = source.scene.empty() ? "" : source.scene.string() + ": ";
+  name += "material";
+  return source.file.empty() ? name : name + " " + source.file.string();
+}
+
+// A message about a text parsed at `base`, without "base:line: " in front.
+std::string_view without_line(std::string_view message, const std::string& base) {
+  if (!message.starts_with(base + ":")) return message;
+  const auto end = message.find(": ");
+  return end == std::string_view::npos ? message : message.substr(end + 2);
+}
+
+}  // namespace
+
 MaterialSource read_material_source(SceneTable& scene) {
   const std::filesystem::path directory = scene.file().parent_path();
   const toml::node* node = scene.node("material");
   MaterialSource source;
+  source.scene = scene.file();
   source.base = directory;
   if (node != nullptr && node->is_string()) {
     source.file = directory / *node->value<std::string>();
@@ -35,17 +55,20 @@ MaterialSource read_material_source(SceneTable& scene) {
     scene.fail("material", node == nullptr ? "nothing" : "another type",
                "the path of a material file, or a table");
   }
-  if (!source.file.empty()) source.base = source.file.parent_path();
+  if (!source.file.empty()) {
+    source.base = source.file.parent_path();
+    if (!std::filesystem::is_regular_file(source.file))
+      scene.fail("material", source.file.string(), "a file that is there");
+  }
   return source;
 }
 
 MaterialText material_text(const MaterialSource& source) {
   toml::table description;
-  std::string origin = "material";
+  std::string origin = named(source);
   if (!source.file.empty()) {
     description = SceneFile(source.file).content;
-    origin = source.file.string();
-    if (!source.changes.empty()) origin += " as changed by the scene";
+    if (!source.changes.empty()) origin += ", as changed";
   }
   merge(description, source.changes);
   std::ostringstream text;
@@ -57,19 +80,22 @@ Material make_material(const MaterialSource& source) {
   std::array<char, 1024> message{};
   grainlaw_material* material = nullptr;
   grainlaw_status status = GRAINLAW_OK;
-  std::string origin = "material";
+  std::string origin = named(source);
+  std::string_view found;
   if (source.changes.empty() && !source.file.empty()) {
     const std::string file = source.file.string();
     status = grainlaw_material_load(file.c_str(), &material, message.data(), message.size());
+    found = message.data();
   } else {
     const MaterialText description = material_text(source);
     origin = description.origin;
     status = grainlaw_material_parse(description.text.c_str(), description.base.c_str(), &material,
                                      message.data(), message.size());
+    found = without_line(message.data(), description.base);
   }
   if (status != GRAINLAW_OK) {
     const std::string text =
-        fmt::format("{}: {} ({})", origin, message.data(), grainlaw_status_text(status));
+        fmt::format("{}: {} ({})", origin, found, grainlaw_status_text(status));
     if (status > 0) throw ComputationError(text);
     throw InputError(text);
   }

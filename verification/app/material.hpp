@@ -11,8 +11,9 @@ namespace verification {
 // A material description; `changes` are laid over the file key by key. With an empty `file` the
 // changes are the whole description.
 struct MaterialSource {
-  std::filesystem::path file;  // "" : no file
-  std::filesystem::path base;  // where relative paths of the description start
+  std::filesystem::path scene;  // that names it
+  std::filesystem::path file;   // "" : no file
+  std::filesystem::path base;   // where relative paths of the description start
   toml::table changes;
 };
 
@@ -30,7 +31,8 @@ void change(MaterialSource& source, std::string_view table, std::string_view key
 // names a material file that the other keys change; its relative paths are then those of that file.
 MaterialSource read_material_source(SceneTable& scene);
 
-// The whole description as text, where its relative paths start, and what messages call it.
+// The whole description as text, where its relative paths start, and what messages call it. Its
+// lines are in no file.
 struct MaterialText {
   std::string text;
   std::string base;

@@ -21,6 +21,17 @@ std::string shown(const toml::node& node) {
   return text.size() > 60 ? text.substr(0, 57) + "..." : text;
 }
 
+// Whether one may be a slip of the pen for the other: they differ by two letters in one place.
+bool resembles(std::string_view a, std::string_view b) {
+  constexpr std::size_t slip = 2, in_common = 3;
+  if (a.size() > b.size()) std::swap(a, b);
+  std::size_t same = 0;
+  while (same < a.size() && a[same] == b[same]) ++same;
+  std::size_t end = 0;
+  while (same + end < a.size() && a[a.size() - 1 - end] == b[b.size() - 1 - end]) ++end;
+  return same + end >= in_common && b.size() - same - end <= slip;
+}
+
 bool inside(double value, const Range& range) {
   return std::isfinite(value) && value >= range.low && value <= range.high &&
          !(range.open_low && value == range.low);
@@ -42,10 +53,16 @@ void SceneTable::fail(std::string_view key, std::string_view found,
                       std::string_view expected) const {
   const toml::node* node = table_->get(key);
   const auto line = (node != nullptr ? node->source() : table_->source()).begin.line;
+  std::string perhaps;
+  for (const auto& [other, value] : *table_) {
+    const bool known = std::find(known_.begin(), known_.end(), other.str()) != known_.end();
+    if (node == nullptr && !known && resembles(key, other.str()))
+      perhaps = fmt::format(" ({} in line {}?)", other.str(), value.source().begin.line);
+  }
   // What was merged from several places has no line of its own.
-  throw InputError(fmt::format("{}{}: {}{}{}: found {}, expected {}", file_.string(),
+  throw InputError(fmt::format("{}{}: {}{}{}: found {}, expected {}{}", file_.string(),
                                line > 0 ? fmt::format(":{}", line) : "", name_,
-                               name_.empty() ? "" : ".", key, found, expected));
+                               name_.empty() ? "" : ".", key, found, expected, perhaps));
 }
 
 std::string SceneTable::place() const {

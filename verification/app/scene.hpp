@@ -31,7 +31,7 @@ class SceneTable {
  public:
   SceneTable(const toml::table& table, std::filesystem::path file, std::string name);
 
-  [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
+  bool has(std::string_view key) { return find(key) != nullptr; }
 
   double number(std::string_view key, const Range& range = any_number);
   double number_or(std::string_view key, double fallback, const Range& range = any_number);
@@ -53,7 +53,8 @@ class SceneTable {
   // To be called when everything was asked for. Throws for the first key that nobody knows.
   void close() const;
 
-  // Throws InputError at the line of the key, or of the table when the key is absent.
+  // Throws InputError at the line of the key, or of the table when the key is absent; then with the
+  // key that may have been meant for it.
   [[noreturn]] void fail(std::string_view key, std::string_view found,
                          std::string_view expected) const;
   // "file:line: name", for messages about what the table as a whole says.

@@ -1,5 +1,6 @@
 // `grainlaw dns SCENE.toml`: direct simulation of a specimen of repeated frames.
 
+#include "app/bounds.hpp"
 #include "app/commands.hpp"
 #include "app/output.hpp"
 #include "dns/run.hpp"
@@ -71,7 +72,7 @@ void add_dns_command(CLI::App& app) {
   command->add_option("--output", *output, "directory for the results")->capture_default_str();
   auto jobs = std::make_shared<int>(1);
   command->add_option("--jobs", *jobs, "cases at a time")
-      ->check(CLI::PositiveNumber)
+      ->check(at_least(1))
       ->capture_default_str();
   command->callback([scene, output, jobs] { run_dns(*scene, *output, *jobs); });
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace verification {
@@ -96,6 +97,7 @@ SpecimenScene read_scene(SceneTable table, const std::string& name) {
   if (const toml::node* node = table.node("pictures")) {
     const toml::array* list = node->as_array();
     scene.pictures = table.numbers("pictures", list != nullptr ? list->size() : 1, any_number);
+    std::sort(scene.pictures.begin(), scene.pictures.end());
   }
   table.close();
   return scene;

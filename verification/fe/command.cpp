@@ -1,5 +1,6 @@
 // `grainlaw solve SCENE.toml`: finite elements whose integration points are representative volumes.
 
+#include "app/bounds.hpp"
 #include "app/commands.hpp"
 #include "fe/run.hpp"
 
@@ -22,11 +23,11 @@ void add_solve_command(CLI::App& app) {
       ->add_option("--checkpoint-every", options->checkpoint_every,
                    "write NAME.checkpoint every so many load steps (0: when interrupted only); "
                    "the scene's key checkpoint_every otherwise")
-      ->check(CLI::NonNegativeNumber);
+      ->check(at_least(0));
   command
       ->add_option("--stop-after", options->stop_after,
                    "end after this load step and leave NAME.checkpoint")
-      ->check(CLI::NonNegativeNumber);
+      ->check(at_least(0));
   command->callback([scene, options] { run_fe_scene(SceneFile(*scene), *options); });
 }
 

@@ -22,7 +22,6 @@ struct Model {
   std::vector<Resultant> resultants;
   Loads loads;
   double hourglass = 0.05;  // of the modulus at the start; elements with one point only [-]
-  double thickness = 1;     // out of plane; forces are per metre of it [m]
 };
 
 // The integration points of a model, numbered element by element.

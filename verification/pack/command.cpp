@@ -1,5 +1,6 @@
 // `grainlaw pack RECIPE.toml`: make a packing, say what it is, and write it.
 
+#include "app/bounds.hpp"
 #include "app/commands.hpp"
 #include "app/history.hpp"
 #include "app/material.hpp"
@@ -90,12 +91,16 @@ void print_packing(const Made& made) {
   line("CPU time to make it", made.seconds, "s");
 }
 
-// One line for each seed, to choose one.
-void compare_seeds(const PackArguments& arguments, long first) {
+// One line for each seed, to choose one; each is written as NAME_sSEED.
+void compare_seeds(PackArguments arguments, long first) {
+  const std::string name = arguments.name.empty()
+                               ? std::filesystem::path(arguments.recipe).stem().string()
+                               : arguments.name;
   fmt::print("{:>6} {:>9} {:>9} {:>9} {:>9} {:>11} {:>9} {:>8}\n", "seed", "particles", "boundary",
              "fraction", "coordin.", "no rattlers", "anisotr.", "CPU [s]");
   for (long seed = first; seed < first + arguments.seeds; ++seed) {
     try {
+      arguments.name = fmt::format("{}_s{}", name, seed);
       const Made made = make(arguments, seed);
       fmt::print("{:>6} {:>9} {:>9} {:>9.4f} {:>9.3f} {:>11.3f} {:>9.4f} {:>8.2f}\n", seed,
                  made.written.radius.size(), made.written.boundary.size(), made.volume_fraction(),
@@ -139,7 +144,10 @@ void add_pack_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--name", arguments->name, "name of the results; default: of the recipe");
   command->add_option("--seed", arguments->seed, "seed of the generator, instead of the recipe's");
-  command->add_option("--seeds", arguments->seeds, "only compare so many seeds, one line each");
+  command
+      ->add_option("--seeds", arguments->seeds,
+                   "compare so many seeds, one line each, written as NAME_sSEED")
+      ->check(at_least(1));
   command->add_flag("--vtk", arguments->vtk, "also write the particles for ParaView (.vtp)");
   command->callback([arguments] { run_pack(*arguments); });
 }

@@ -1,5 +1,6 @@
 // `grainlaw point SCENE.toml`: representative volumes along paths of strain and stress.
 
+#include "app/bounds.hpp"
 #include "app/commands.hpp"
 #include "app/output.hpp"
 #include "point/run.hpp"
@@ -109,10 +110,10 @@ void add_point_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--case", arguments->cases, "only this case of the scene; may be repeated");
   command->add_option("--steps", arguments->steps, "leave every path after so many; 0: none")
-      ->check(CLI::NonNegativeNumber)
+      ->check(at_least(0))
       ->capture_default_str();
   command->add_option("--jobs", arguments->jobs, "cases at a time")
-      ->check(CLI::PositiveNumber)
+      ->check(at_least(1))
       ->capture_default_str();
   command->callback([arguments] { run_command(*arguments); });
 }

@@ -38,6 +38,8 @@ std::vector<Segment> read_segments(SceneTable& scene) {
     Segment segment;
     segment.steps = table.integer("steps", 1);
     for (std::size_t k = 0; k < 4; ++k) segment.target[k] = read_target(table, indices[k]);
+    for (const char* stretch : {"F11", "F22"})
+      if (table.has(stretch)) table.number(stretch, positive);
     table.close();
     segments.push_back(segment);
   }

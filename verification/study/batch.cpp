@@ -4,6 +4,8 @@
 #include "study/statistics.hpp"
 #include "study/study.hpp"
 
+#include "app/bounds.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -170,13 +172,13 @@ void add_batch_study(CLI::App& study, const std::shared_ptr<StudyOptions>& optio
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = study.add_subcommand("batch", "speed-up of a batch by threads");
   command->add_option("--points", arguments->points, "integration points [-]")
-      ->check(CLI::PositiveNumber)
+      ->check(at_least(1))
       ->capture_default_str();
   command->add_option("--threads", arguments->threads, "against one [-]")
-      ->check(CLI::PositiveNumber)
+      ->check(at_least(1))
       ->capture_default_str();
   command->add_option("--rounds", arguments->rounds, "of which the fastest counts [-]")
-      ->check(CLI::PositiveNumber)
+      ->check(at_least(1))
       ->capture_default_str();
   command->add_option("--tolerance", arguments->tolerance, "of the equilibria [-]")
       ->capture_default_str();

@@ -4,6 +4,7 @@
 #include "study/study.hpp"
 #include "study/statistics.hpp"
 
+#include "app/bounds.hpp"
 #include "app/csv.hpp"
 
 #include <fmt/format.h>
@@ -148,13 +149,13 @@ void add_ensemble_study(CLI::App& study, const std::shared_ptr<StudyOptions>& op
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = study.add_subcommand("ensemble", "drained tests of several packings");
   command->add_option("--packings", arguments->packings, "seeds 1 to this number [-]")
-      ->check(CLI::PositiveNumber)
+      ->check(at_least(1))
       ->capture_default_str();
   command->add_option("--steps", arguments->steps, "increments to 10 % axial strain [-]")
-      ->check(CLI::PositiveNumber)
+      ->check(at_least(1))
       ->capture_default_str();
   command->add_option("--threads", arguments->threads, "packings run at once [-]")
-      ->check(CLI::PositiveNumber)
+      ->check(at_least(1))
       ->capture_default_str();
   command->callback([arguments, options] {
     run_study(*options, arguments->packings, arguments->steps, arguments->threads);

@@ -3,6 +3,7 @@
 #include "study/statistics.hpp"
 #include "study/study.hpp"
 
+#include "app/bounds.hpp"
 #include "app/progress.hpp"
 #include "fe/scene.hpp"
 
@@ -108,10 +109,10 @@ void add_newton_study(CLI::App& study, const std::shared_ptr<StudyOptions>& opti
   CLI::App* command =
       study.add_subcommand("newton", "finite element iterations with exact and elastic tangent");
   command->add_option("--steps", arguments->steps, "load steps of drained.toml [-]")
-      ->check(CLI::PositiveNumber)
+      ->check(at_least(1))
       ->capture_default_str();
   command->add_option("--max-iterations", arguments->max_iterations, "before a step is cut [-]")
-      ->check(CLI::PositiveNumber)
+      ->check(at_least(1))
       ->capture_default_str();
   command->callback(
       [arguments, options] { run_study(*options, arguments->steps, arguments->max_iterations); });

@@ -176,6 +176,10 @@ Dofs number_dofs(const Model& model) {
       dofs.turn[dof(tie.nodes[k], tie.component)] = {dofs.unknowns, tie.arms[k]};
     ++dofs.unknowns;
   }
+  if (dofs.prescribed_at(0).any())
+    throw InputError(
+        "found a displacement or jump that is not 0 at time 0, expected 0 there: a run starts at "
+        "F = I");
   return dofs;
 }
 

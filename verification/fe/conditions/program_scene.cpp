@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 
 namespace verification {
@@ -16,8 +17,10 @@ std::vector<std::array<double, 2>> read_path(SceneTable& table) {
   std::vector<std::array<double, 2>> points;
   for (const toml::node& entry : *node->as_array()) {
     const toml::array* pair = entry.as_array();
-    if (pair == nullptr || pair->size() != 2 || !(*pair)[0].value<double>() ||
-        !(*pair)[1].value<double>())
+    const auto number = [&](std::size_t k) {
+      return std::isfinite((*pair)[k].value<double>().value_or(NAN));
+    };
+    if (pair == nullptr || pair->size() != 2 || !number(0) || !number(1))
       table.fail("path", fmt::format("another entry at place {}", points.size() + 1),
                  expected_path);
     points.push_back({*(*pair)[0].value<double>(), *(*pair)[1].value<double>()});

@@ -49,7 +49,7 @@ std::vector<std::string> read_fields(SceneTable& table, std::string_view key) {
   for (const toml::node& entry : *list) {
     const auto name = entry.value<std::string>().value_or("another type");
     if (std::find(names.begin(), names.end(), name) == names.end()) table.fail(key, name, expected);
-    result.push_back(name);
+    if (std::find(result.begin(), result.end(), name) == result.end()) result.push_back(name);
   }
   return result;
 }

@@ -53,10 +53,6 @@ class DynamicsSolver final : public Solver {
       throw InputError(
           "dynamics: found a platen that turns about a hinge away from the centre of the mass on "
           "it, expected the hinge there, or the motion of the platen prescribed");
-    if (dofs_.prescribed_at(0).any())
-      throw InputError(
-          "dynamics: the run starts at F = I, but a displacement is prescribed that is "
-          "not 0 at time 0");
     check(points_.evaluate(motion_.displacement, tangent(), threads_),
           "evaluating the integration points at F = I");
     motion_.internal_force = points_.internal_force();

@@ -183,7 +183,9 @@ class NewtonSolver final : public Solver {
       if (stalled) break;
     }
     return {.reason =
-                fmt::format("Newton did not converge (best relative residual {:.1e} [-])", best)};
+                fmt::format("Newton did not converge: best relative residual {:.1e}, expected "
+                            "{:.1e} [-]",
+                            best, tolerance)};
   }
 
   // Goes the way of the correction. With halvings left, a way that a point refuses or that ends at a

@@ -51,8 +51,8 @@ Parts solve_in_parts(double from, double to, int number, int max_cuts, bool loos
     part = (next - done) * std::clamp(result.ratio, 0.1, 0.5);
     if (part >= smallest && to > from) continue;
     if (loose || !loose_allowed)
-      throw ComputationError(
-          fmt::format("load step {} failed at {:.1e} of the run: {}", number, part, result.reason));
+      throw ComputationError(fmt::format("load step {} failed, in parts of {:.1e} of it too: {}",
+                                         number, part / (to - from), result.reason));
     loose = true;
     ++parts.loose;
     part = to - done;

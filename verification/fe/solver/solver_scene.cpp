@@ -1,5 +1,7 @@
 #include "fe/solver/solver_scene.hpp"
 
+#include <fmt/format.h>
+
 namespace verification {
 namespace {
 
@@ -55,6 +57,9 @@ SolverOptions read_solver(SceneTable& scene) {
   SolverOptions options;
   const std::string kind =
       scene.choice_or("solver", "newton", {"newton", "relaxation", "dynamics"});
+  for (const char* other : {"newton", "relaxation", "dynamics"})
+    if (other != kind && scene.has(other))
+      scene.fail(other, "a table", fmt::format("none with solver = \"{}\"", kind));
   if (kind == "dynamics") {
     options.kind = SolverKind::dynamics;
     read_dynamics(scene.table("dynamics"), options);

@@ -3,6 +3,8 @@
 
 #include "study/error/error.hpp"
 
+#include "app/bounds.hpp"
+
 #include <algorithm>
 
 namespace verification {
@@ -60,7 +62,7 @@ void add_error_study(CLI::App& study, const std::shared_ptr<StudyOptions>& optio
       ->add_option("--yade-step", arguments->yade_step,
                    "CPU time of a step of YADE on this machine, per particle [ns]; 0: its times "
                    "as they were recorded on another")
-      ->check(CLI::NonNegativeNumber);
+      ->check(at_least(0));
   command->callback([arguments, options] { run_study(*options, *arguments); });
 }
 

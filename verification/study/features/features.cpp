@@ -4,6 +4,7 @@
 #include "study/features/cost.hpp"
 #include "study/study.hpp"
 
+#include "app/bounds.hpp"
 #include "app/output.hpp"
 #include "app/progress.hpp"
 
@@ -259,7 +260,7 @@ void add_features_study(CLI::App& study, const std::shared_ptr<StudyOptions>& op
   CLI::App* command =
       study.add_subcommand("features", "time and memory of every feature, on and off");
   command->add_option("--count", arguments->count, "discs [-]")
-      ->check(CLI::PositiveNumber)
+      ->check(at_least(1))
       ->capture_default_str();
   command->add_option("--tolerance", arguments->tolerance, "of the equilibria [-]")
       ->capture_default_str();

@@ -5,6 +5,7 @@
 #include "study/reach/tables.hpp"
 #include "study/study.hpp"
 
+#include "app/bounds.hpp"
 #include "app/progress.hpp"
 
 #include <fmt/format.h>
@@ -154,21 +155,21 @@ void add_reach_study(CLI::App& study, const std::shared_ptr<StudyOptions>& optio
       ->check(CLI::IsMember({"all", "drained", "shear", "grid"}))
       ->capture_default_str();
   command->add_option("--count", arguments->count, "discs of a packing of the grid [-]")
-      ->check(CLI::PositiveNumber)
+      ->check(at_least(1))
       ->capture_default_str();
   command->add_option("--seed", arguments->seed, "of the packings of the grid [-]")
       ->capture_default_str();
   command->add_option("--increments", arguments->small.most, "of a path of the grid, at most [-]")
-      ->check(CLI::PositiveNumber)
+      ->check(at_least(1))
       ->capture_default_str();
   command
       ->add_option(
           "--repeats", arguments->repeats,
           "of every path, with stiffnesses apart by 1e-6 of it: what is left to chance [-]")
-      ->check(CLI::PositiveNumber)
+      ->check(at_least(1))
       ->capture_default_str();
   command->add_option("--threads", arguments->threads, "paths led at once [-]")
-      ->check(CLI::PositiveNumber)
+      ->check(at_least(1))
       ->capture_default_str();
   command->callback([arguments, options] { run_study(*options, *arguments); });
 }

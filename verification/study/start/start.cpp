@@ -5,6 +5,7 @@
 #include "study/statistics.hpp"
 #include "study/study.hpp"
 
+#include "app/bounds.hpp"
 #include "app/progress.hpp"
 
 #include <fmt/format.h>
@@ -155,15 +156,15 @@ void add_start_study(CLI::App& study, const std::shared_ptr<StudyOptions>& optio
   CLI::App* command =
       study.add_subcommand("start", "convergence of stress control by solver.start");
   command->add_option("--packings", arguments->packings, "seeds of pack400.toml beside yade400 [-]")
-      ->check(CLI::NonNegativeNumber)
+      ->check(at_least(0))
       ->capture_default_str();
   command->add_option("--steps", arguments->newton.steps, "to the end of the path [-]")
-      ->check(CLI::PositiveNumber)
+      ->check(at_least(1))
       ->capture_default_str();
   command->add_option("--axial", arguments->newton.axial, "axial strain at the end [-]")
       ->capture_default_str();
   command->add_option("--iterations", arguments->newton.max_iterations, "of a step, at most [-]")
-      ->check(CLI::PositiveNumber)
+      ->check(at_least(1))
       ->capture_default_str();
   command->add_option("--residual", arguments->newton.tolerance, "of the lateral stress [-]")
       ->capture_default_str();

@@ -1,0 +1,21 @@
+// Bounds of numbers on the command line, in words.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <string>
+
+namespace verification {
+
+inline CLI::Validator at_least(int low) {
+  return {[low](std::string& text) {
+            double value = 0;
+            return CLI::detail::lexical_cast(text, value) && value >= low
+                       ? std::string()
+                       : fmt::format("found {}, expected a number >= {}", text, low);
+          },
+          fmt::format(">= {}", low)};
+}
+
+}  // namespace verification
