@@ -88,5 +88,17 @@ TEST_F(biaxial_scene, before_the_peak_takes_at_most_five_iterations_a_step) {
   }
 }
 
+TEST_F(biaxial_scene, with_the_table_of_another_solver_is_refused) {
+  try {
+    run(1, "solver = \"relaxation\"\n");
+    ADD_FAILURE() << "nothing was refused";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("newton: found a table, expected none with solver = "
+                                             "\"relaxation\""),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace verification

@@ -108,6 +108,17 @@ TEST(conditions, an_unknown_set_is_refused_with_those_there_are) {
                  {"scene.toml:12", "bottom_left", "left, right, top"});
 }
 
+TEST(conditions, a_missing_key_is_told_with_the_one_that_may_be_meant_for_it) {
+  expect_refusal("[[displacement]]\non = 'top'\ncomponnt = 'y'\nvalue = 0.0",
+                 {"displacement[1].component: found nothing", "(componnt in line "});
+}
+
+TEST(conditions, a_displacement_that_is_not_zero_at_the_start_is_refused) {
+  expect_refusal(held_bottom + "[[displacement]]\non = 'top'\ncomponent = 'y'\nvalue = -2e-4\n" +
+                     "start = -1e-4",
+                 {"not 0 at time 0"});
+}
+
 TEST(conditions, a_component_prescribed_twice_is_refused) {
   expect_refusal(held_bottom + held("bottom", "x"),
                  {"scene.toml:12", "bottom_x once more", "scene.toml:3"});
