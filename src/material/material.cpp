@@ -209,7 +209,8 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
   if (outcome.status != GRAINLAW_OK) {
     throw Error(outcome.status,
                 fmt::format("the packing found no equilibrium at F = I: residual "
-                            "{:.3g} after {} relaxation steps, expected {:.3g}",
+                            "{:.3g} after {} relaxation steps, expected {:.3g} in a packing that "
+                            "fills its cell or frame and bears",
                             workspace.increment.residual_norm(),
                             workspace.increment.relaxation_steps, request.tolerance));
   }

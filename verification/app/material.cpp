@@ -93,12 +93,9 @@ Material make_material(const MaterialSource& source) {
                                      message.data(), message.size());
     found = without_line(message.data(), description.base);
   }
-  if (status != GRAINLAW_OK) {
-    const std::string text =
-        fmt::format("{}: {} ({})", origin, found, grainlaw_status_text(status));
-    if (status > 0) throw ComputationError(text);
-    throw InputError(text);
-  }
+  if (status > 0) throw ComputationError(fmt::format("{}: {}", origin, found));
+  if (status < 0)
+    throw InputError(fmt::format("{}: {} ({})", origin, found, grainlaw_status_text(status)));
   Material result(material);
   if (grainlaw_material_dimension(material) != 2)
     throw InputError(origin + ": the drivers are two-dimensional, the material is not");

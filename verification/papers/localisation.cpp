@@ -184,6 +184,23 @@ void draw_hexagonal(HierarchicalStudy& study) {
                     !beyond                             ? "ended before"
                     : std::abs(r.strain[k] - 2.8) < 0.3 ? "agrees"
                                                         : "differs");
+    const auto field = load_every(study.results, name, "deviatoric_strain");
+    if (!beyond || !field) continue;
+    const auto range = [&](std::size_t step) {
+      double least = std::numeric_limits<double>::infinity(), largest = 0;
+      for (std::size_t point = 1; point < field->columns.size(); ++point) {
+        least = std::min(least, field->columns[point][step]);
+        largest = std::max(largest, field->columns[point][step]);
+      }
+      return fmt::format("{:.4f} to {:.4f}", least, largest);
+    };
+    const CsvTable newton = read_csv(study.results / (name + std::string("_newton.csv")));
+    study.facts.add("13",
+                    r.title + ": deviatoric strain of the points at the peak, and in the next step",
+                    "0.0303 to 0.0305, then a slip line",
+                    fmt::format("{}, then {}, balanced to {:.1e}", range(k), range(k + 1),
+                                newton["relative_residual"].back()),
+                    "differs");
   }
   if (panel.curves.empty()) return;
   panel.legend = "top left";

@@ -116,7 +116,7 @@ void RunOutput::draw(const LoadStep& step) const {
     const std::string unit = shown.unit == "-" ? "" : fmt::format(" {}", shown.unit);
     const std::vector<double> all = values(shown, points);
     const auto [least, largest] = std::minmax_element(all.begin(), all.end());
-    for (const auto& [end, word] : {std::pair{least, "least"}, std::pair{largest, "largest"}}) {
+    for (const auto& [end, word] : {std::pair{least, "min"}, std::pair{largest, "max"}}) {
       const auto point = static_cast<std::size_t>(end - all.begin());
       const double value = *end + 0.0;  // no -0
       packings.push_back({fmt::format("{} {}\npoint {}: {:.3g}{}", word, name, point, value, unit),
