@@ -172,9 +172,10 @@ void draw_hexagonal(HierarchicalStudy& study) {
   for (const char* name : {"biaxial_2x4_hexagonal", "biaxial_6x10_hexagonal"}) {
     const auto run = load_mesh_run(study.results, name);
     if (!run || run->steps() < 3) continue;
-    const Response r = response(*run, name[8] == '2' ? "2 x 4" : "6 x 10");
-    panel.curves.push_back({r.title, r.strain, r.stress,
-                            name[8] == '2' ? colour::amber : colour::blue, Stroke::solid});
+    const bool coarse = name[8] == '2';
+    const Response r = response(*run, coarse ? "2 x 4" : "6 x 10");
+    panel.curves.push_back({r.title, r.strain, r.stress, coarse ? colour::amber : colour::blue,
+                            coarse ? Stroke::solid : Stroke::dashed});  // they lie on each other
     const std::size_t k = r.peak();
     const bool beyond = k + 1 < r.stress.size();  // else it ended there, or before the peak
     study.facts.add("13", r.title + ": peak, and the next step", "near 2.8 %, then a sudden drop",
