@@ -2,6 +2,7 @@
 #include "law_support.hpp"
 #include "tangent_support.hpp"
 
+#include "simd.hpp"
 #include "state/serialise.hpp"
 
 #include <numbers>
@@ -274,24 +275,25 @@ TEST(stress_free, force_floor_spares_the_search_for_forces_that_fade) {
 // Packings that are just too wide to be held: what is left of their forces fades over tens of
 // thousands of relaxation steps and never settles.
 // Evaluates and commits F, in halves where an increment is refused, as a host does.
-Evaluation advance_in_halves(State& state, const Tensor& F, int halvings) {
+Evaluation advance_in_halves(State& state, const Tensor& F, int& refused) {
   const Evaluation at = evaluate(state, F);
   if (at.status == GRAINLAW_OK) {
     state.commit();
     return at;
   }
   EXPECT_EQ(at.status, GRAINLAW_NOT_CONVERGED);
-  EXPECT_GT(halvings, 0);
-  if (halvings == 0) return at;
+  constexpr int hopeless = 20;
+  if (++refused == hopeless) return at;
   const auto& f = state.committed().deformation;
   const Tensor from{f[0], f[1], f[2], f[3]};
-  advance_in_halves(state, sum(from, 0.5, sum(F, -1, from)), halvings - 1);
-  return advance_in_halves(state, F, halvings - 1);
+  advance_in_halves(state, sum(from, 0.5, sum(F, -1, from)), refused);
+  return refused < hopeless ? advance_in_halves(state, F, refused) : at;
 }
 
-// Where rounding decides, one increment in dozens needs halves.
+// Rounding decides whether one of the increments needs halves; with these packings none does where it
+// is that of wide registers, and two do without what is tested.
 TEST(stress_free, forces_that_fade_without_end_count_for_nothing) {
-  constexpr int halvings = 3;
+  int refused = 0;
   int faded = 0;
   for (const std::uint64_t seed : {1, 3}) {
     GeneratorOptions options;
@@ -304,7 +306,7 @@ TEST(stress_free, forces_that_fade_without_end_count_for_nothing) {
     State state(make_material(description));
     advance(state, {1.005, 0, 0, 1.005}, 4);
     for (int k = 1; k <= 12; ++k) {
-      const Evaluation at = advance_in_halves(state, {1.005, 1e-3 * k, 0, 1.005}, halvings);
+      const Evaluation at = advance_in_halves(state, {1.005, 1e-3 * k, 0, 1.005}, refused);
       if (at.report.contacts > 0 || at.report.history_advanced == 0) continue;
       ++faded;
       EXPECT_EQ(at.stress, Tensor{});
@@ -313,6 +315,7 @@ TEST(stress_free, forces_that_fade_without_end_count_for_nothing) {
     EXPECT_GT(pressure(advance(state, {0.999, 0.012, 0, 0.999})), 1e4);
   }
   EXPECT_GT(faded, 0);
+  EXPECT_LE(refused, simd::four_lanes() ? 0 : 2);
 }
 
 TEST(stress_free, force_floor_below_the_forces_changes_nothing) {
