@@ -130,6 +130,15 @@ TEST(conditions, a_component_prescribed_twice_is_refused) {
       read_model(held_bottom + held("left", "x")));
 }
 
+TEST(conditions, sines_that_end_at_other_times_contradict_each_other) {
+  const auto on = [](const std::string& set, const std::string& periods) {
+    return "[[displacement]]\non = '" + set +
+           "'\ncomponent = 'x'\nsine = { amplitude = 1e-3, period = 0.1" + periods + " }\n";
+  };
+  expect_refusal(on("left", ", periods = 2") + on("bottom", "") + held("bottom", "y"),
+                 {"component x of node 1"});
+}
+
 TEST(conditions, a_tie_that_is_prescribed_or_tied_again_is_refused) {
   expect_refusal(held_bottom + "[[tie]]\non = 'bottom'\ncomponent = 'y'",
                  {"scene.toml:11: tie[1]", "both bound and prescribed by scene.toml:7"});

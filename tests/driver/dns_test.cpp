@@ -189,6 +189,8 @@ TEST(dns, bad_scenes_are_refused_with_what_was_expected) {
                  {"at least one component of the stress"});
   expect_refusal(one + "speed = 1\n" + biaxial + material, {"scene.toml:2", "speed"});
   expect_refusal(one + "[[segment]]\nsteps = 1\n", {"material", "found nothing"});
+  expect_refusal(one + biaxial + material + "[[case]]\nname = 'a'\n[[case]]\nname = 'a'\n",
+                 {"case[2].name", "no other case has"});
   expect_refusal("seeds = 2\n" + biaxial + material, {"seeds", "one of a [[case]]"});
   expect_refusal(one + "material = 'none.toml'\n[[segment]]\nsteps = 1\n",
                  {"material", "none.toml", "a file that is there"});

@@ -4,20 +4,35 @@
 
 #include <fmt/format.h>
 
+#include <set>
+#include <string>
+
 namespace verification {
+namespace {
+
+// The path of a material file becomes a table, over which keys can be laid.
+void as_table(toml::table& scene) {
+  if (const auto path = scene["material"].value<std::string>())
+    scene.insert_or_assign("material", toml::table{{"file", *path}});
+}
+
+}  // namespace
 
 std::vector<toml::table> scene_cases(const SceneFile& file) {
   SceneTable root = file.root();
   const std::string name = root.text_or("name", file.path.stem().string());
   if (root.has("seeds")) root.fail("seeds", "a key of the scene", "one of a [[case]]");
+  std::set<std::string> names;
   std::vector<toml::table> scenes;
   for (SceneTable& one : root.tables("case")) {
     const std::string case_name = one.text("name");
+    if (!names.insert(case_name).second)
+      one.fail("name", '"' + case_name + '"', "a name that no other case has");
     toml::table content = file.content;
     content.erase("case");
-    if (const auto path = content["material"].value<std::string>())
-      content.insert_or_assign("material", toml::table{{"file", *path}});
+    as_table(content);
     merge(content, one.content());
+    as_table(content);
     content.insert_or_assign("name", name + "_" + case_name);
     const int seeds = one.integer_or("seeds", 0, 0);
     content.erase("seeds");

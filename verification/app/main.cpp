@@ -4,11 +4,11 @@
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/library.hpp"
+#include "app/progress.hpp"
 
 #include <fmt/format.h>
 
 #include <csignal>
-#include <cstdio>
 #include <exception>
 #include <string>
 
@@ -30,10 +30,10 @@ int main(int argc, char** argv) {
   } catch (const verification::Interrupted& interrupted) {
     return 128 + interrupted.signal;
   } catch (const verification::InputError& error) {
-    fmt::print(stderr, "grainlaw: {}\n", error.what());
+    verification::tell(fmt::format("grainlaw: {}\n", error.what()));
     return 2;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "grainlaw: {}\n", error.what());
+    verification::tell(fmt::format("grainlaw: {}\n", error.what()));
     return 1;
   }
   return 0;

@@ -27,14 +27,18 @@ std::string duration(double seconds) {
 
 }  // namespace
 
+void tell(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
 Progress::Progress(std::string what)
     : what_(std::move(what)), terminal_(isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() { clear(); }
 
 void Progress::clear() {
-  if (terminal_ && shown_) fmt::print(stderr, "\r\033[K");
-  std::fflush(stderr);
+  if (terminal_ && shown_) tell("\r\033[K");
   shown_ = false;
 }
 
@@ -55,11 +59,7 @@ void Progress::update(double fraction, const std::string& text) {
   const std::string line =
       fmt::format("{}: {:3.0f} %, {}{}{}{}", what_, 100 * fraction, duration(seconds(now - start_)),
                   left, text.empty() ? "" : ", ", text);
-  if (terminal_)
-    fmt::print(stderr, "\r\033[K{}", line);
-  else
-    fmt::print(stderr, "{}\n", line);
-  std::fflush(stderr);
+  tell(terminal_ ? "\r\033[K" + line : line + "\n");
 }
 
 }  // namespace verification

@@ -6,6 +6,9 @@
 
 namespace verification {
 
+// Writes to stderr; that it cannot be written to ends no run.
+void tell(const std::string& text);
+
 // On a terminal the line is rewritten in place; elsewhere a line is printed every few seconds.
 class Progress {
  public:

@@ -2,17 +2,14 @@
 
 #include "app/bounds.hpp"
 #include "app/commands.hpp"
+#include "app/jobs.hpp"
 #include "app/output.hpp"
 #include "dns/run.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <atomic>
-#include <exception>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace verification {
@@ -36,27 +33,11 @@ bool run_one(const SpecimenScene& scene, const std::string& directory) {
 
 void run_dns(const std::string& path, const std::string& directory, int jobs) {
   const std::vector<SpecimenScene> scenes = read_specimen_scenes(SceneFile(path));
-  std::vector<std::exception_ptr> errors(scenes.size());
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t k = next++; k < scenes.size(); k = next++) {
-      try {
-        if (!run_one(scenes[k], directory))
-          throw ComputationError(
-              fmt::format("{}: {} ended before its last step", path, scenes[k].name));
-      } catch (...) {
-        errors[k] = std::current_exception();
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (int k = 1; k < std::min(jobs, static_cast<int>(scenes.size())); ++k)
-      others.emplace_back(work);
-    work();
-  }
-  for (const std::exception_ptr& error : errors)
-    if (error) std::rethrow_exception(error);
+  run_jobs(scenes.size(), jobs, [&](std::size_t k) {
+    if (!run_one(scenes[k], directory))
+      throw ComputationError(
+          fmt::format("{}: {} ended before its last step", path, scenes[k].name));
+  });
 }
 
 }  // namespace

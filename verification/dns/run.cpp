@@ -44,7 +44,8 @@ SpecimenEnd run_specimen(const SpecimenScene& scene, const std::filesystem::path
       write_vtk(state, stem, record.step);
     const double strain = axial_strain(record, *start);
     constexpr double rounding = 1e-9;
-    if (panels.size() < scene.pictures.size() && strain > scene.pictures[panels.size()] - rounding)
+    while (panels.size() < scene.pictures.size() &&
+           strain > scene.pictures[panels.size()] - rounding)
       panels.push_back({fmt::format("axial strain {:.3g}", strain), take_snapshot(state, prefix)});
     progress.update(static_cast<double>(record.step) / steps,
                     fmt::format("axial strain {:.2f} %, sigma22 {:.1f} kPa", 100 * strain,

@@ -118,27 +118,27 @@ SpecimenEnd Specimen::run(const Observer& observe) {
     cpu = cpu_seconds();
   };
   show();
-  try {
+  const auto lead = [&] {
     for (const SpecimenSegment& segment : scene_.segments) {
       const Tensor F = deformation_, P = evaluation_.stress;
       for (int k = 1; k <= segment.steps; ++k) {
         std::string reason;
         const int number = record_.step + 1;
         record_.effort = {};
-        if (!step(segment, F, P, static_cast<double>(k - 1) / segment.steps,
-                  static_cast<double>(k) / segment.steps, reason)) {
-          end_.effort.add(record_.effort);
-          throw ComputationError(
-              fmt::format("step {} failed (F22 = {:.6f}): {}", number, deformation_(1, 1), reason));
+        const bool reached = step(segment, F, P, static_cast<double>(k - 1) / segment.steps,
+                                  static_cast<double>(k) / segment.steps, reason);
+        end_.effort.add(record_.effort);
+        if (!reached) {
+          end_.text =
+              fmt::format("step {} failed (F22 = {:.6f}): {}", number, deformation_(1, 1), reason);
+          return;
         }
         record_.step = end_.steps = number;
-        end_.effort.add(record_.effort);
         show();
       }
     }
-  } catch (const ComputationError& error) {
-    end_.text = error.what();
-  }
+  };
+  lead();
   end_.cpu += cpu_seconds() - cpu;
   end_.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
   return end_;

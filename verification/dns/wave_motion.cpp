@@ -157,7 +157,6 @@ void WaveMotion::break_bonds() {
                                    law_.rolling_ratio(specimen_->radius[i], specimen_->radius[j]);
       if (list_.bending_stiffness[c] == 0) list_.start_moment[c] = 0;
     }
-    broken_ += list_.weight_of(c);
   }
   grainlaw::advance_contacts(particles_, law_, list_, forces_);
   dissipated_ += before - grainlaw::stored_energy(list_, z, particles_.size(), law_);

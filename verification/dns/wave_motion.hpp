@@ -54,10 +54,7 @@ class WaveMotion {
   [[nodiscard]] std::vector<double> vertical_forces() const;
   // Cross-sections are `slice` wide [m].
   [[nodiscard]] WaveEnergy energy(double slice) const;
-  [[nodiscard]] double broken_bonds() const { return broken_; }
   [[nodiscard]] int touching() const;
-  // A bound of the largest stable time step [s]: 2 / the largest of the frequencies by Gershgorin.
-  [[nodiscard]] double largest_time_step() const { return largest_time_step_; }
 
  private:
   // Mean velocities of cross-sections, and which one a particle is in.
@@ -76,6 +73,7 @@ class WaveMotion {
   [[nodiscard]] std::size_t node(std::size_t p) const {
     return static_cast<std::size_t>(specimen_->node[p]);
   }
+  // A bound of the largest stable time step [s]: 2 / the largest of the frequencies by Gershgorin.
   void find_largest_time_step();
   void find_slices(double width, Slices& slices) const;
   void add_to_slices(double half_step, Slices& slices) const;
@@ -88,7 +86,7 @@ class WaveMotion {
   Slices slices_;  // of the damping
   double gap_;     // neighbours are listed within it [m]
   double end_ = 0;
-  double work_ = 0, dissipated_ = 0, broken_ = 0, largest_time_step_ = 0;
+  double work_ = 0, dissipated_ = 0, largest_time_step_ = 0;
   std::vector<grainlaw::ParticleRecord> particles_;
   // Of the nodes; roll: R theta.
   std::vector<grainlaw::ForceRecord> forces_, velocity_, inverse_mass_;

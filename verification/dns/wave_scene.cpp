@@ -1,5 +1,7 @@
 #include "dns/wave_scene.hpp"
 
+#include "app/cases.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,11 +18,12 @@ std::size_t length_of(SceneTable& table, std::string_view key, std::string_view 
 }
 
 std::vector<int> read_divisions(SceneTable& table) {
-  constexpr const char* expected = "numbers of elements >= 1";
+  constexpr const char* expected = "whole numbers of elements, 1 to 10000";
   std::vector<int> divisions;
   for (const double value :
        table.numbers("divisions", length_of(table, "divisions", expected), positive)) {
-    if (value != std::floor(value)) table.fail("divisions", fmt::format("{}", value), expected);
+    if (value != std::floor(value) || value > 1e4)
+      table.fail("divisions", fmt::format("{}", value), expected);
     divisions.push_back(static_cast<int>(value));
   }
   return divisions;
@@ -28,7 +31,7 @@ std::vector<int> read_divisions(SceneTable& table) {
 
 WaveCase read_case(SceneTable table, const std::string& name) {
   WaveCase one;
-  one.name = name;
+  one.name = table.text_or("name", name);
   one.material = read_material_source(table);
   one.repeat = static_cast<std::size_t>(table.integer("repeat", 1));
   one.duration = table.number("duration", positive);
@@ -69,19 +72,10 @@ WaveScene read_wave_scene(const SceneFile& file) {
   SceneTable root = file.root();
   WaveScene scene;
   scene.name = root.text_or("name", file.path.stem().string());
-  toml::table common = file.content;
-  common.erase("name");
-  common.erase("case");
-  std::vector<SceneTable> cases = root.tables("case");
-  if (cases.empty()) scene.cases.push_back(read_case({common, file.path, ""}, scene.name));
-  for (SceneTable& one : cases) {
-    const std::string name = one.text("name");
-    toml::table description = common;
-    toml::table changes = one.content();
-    changes.erase("name");
-    merge(description, changes);
-    scene.cases.push_back(read_case({description, file.path, ""}, scene.name + "_" + name));
-  }
+  const std::vector<toml::table> cases = scene_cases(file);
+  if (cases.empty()) scene.cases.push_back(read_case(root, scene.name));
+  for (const toml::table& one : cases)
+    scene.cases.push_back(read_case({one, file.path, ""}, scene.name));
   return scene;
 }
 

@@ -41,11 +41,4 @@ void Hourglass::add_stiffness(Triplets& triplets) const {
                                 spring.stiffness * spring.gamma[a] * spring.gamma[b]);
 }
 
-double Hourglass::energy(const Eigen::VectorXd& displacement) const {
-  double sum = 0;
-  for (const Spring& spring : springs_)
-    sum += 0.5 * spring.stiffness * spring.stretch(displacement).squaredNorm();
-  return sum;
-}
-
 }  // namespace verification

@@ -23,8 +23,6 @@ class Hourglass {
 
   void add_force(const Eigen::VectorXd& displacement, Eigen::VectorXd& force) const;  // [N/m]
   void add_stiffness(Triplets& triplets) const;
-  // What the springs hold: 0 where the displacement is affine in every element [J/m].
-  [[nodiscard]] double energy(const Eigen::VectorXd& displacement) const;
 
  private:
   struct Spring {

@@ -31,6 +31,14 @@ Identity identity(const SceneFile& file, const Mesh& mesh) {
   CheckpointWriter bytes;
   for (const auto& node : mesh.nodes) bytes.write(node);
   bytes.write(mesh.elements);
+  for (const auto& [name, nodes] : mesh.node_sets) {
+    bytes.write(name);
+    bytes.write(nodes);
+  }
+  for (const auto& [name, sides] : mesh.side_sets) {
+    bytes.write(name);
+    bytes.write(sides);
+  }
   return {scene.str(), bytes.bytes()};
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/bounds.hpp"
 #include "app/commands.hpp"
+#include "app/jobs.hpp"
 #include "app/output.hpp"
 #include "point/run.hpp"
 #include "point/scene.hpp"
@@ -9,12 +10,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <fstream>
 #include <memory>
 #include <string>
-#include <thread>
 
 namespace verification {
 namespace {
@@ -62,6 +60,7 @@ void write_ends(const std::vector<PointScene>& scenes, const std::vector<PointEn
                         end.effort.evaluations, end.effort.history_advanced, end.cpu,
                         static_cast<int>(end.status), text);
   }
+  file.close();
   if (!file) throw ComputationError(fmt::format("{}: cannot be written", path.string()));
 }
 
@@ -71,25 +70,9 @@ void run_command(const PointArguments& arguments) {
   std::vector<PointScene> scenes = chosen(read_point_scenes(file), prefix, arguments.cases);
   for (PointScene& scene : scenes) scene.options.max_steps = arguments.steps;
   std::vector<PointEnd> ends(scenes.size());
-  std::vector<std::exception_ptr> errors(scenes.size());
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t k = next++; k < scenes.size(); k = next++) {
-      try {
-        ends[k] = run_point(scenes[k], output_stem(arguments.output, scenes[k].name));
-      } catch (...) {
-        errors[k] = std::current_exception();
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    const int jobs = std::min(arguments.jobs, static_cast<int>(scenes.size()));
-    for (int k = 1; k < jobs; ++k) others.emplace_back(work);
-    work();
-  }
-  for (const std::exception_ptr& error : errors)
-    if (error) std::rethrow_exception(error);
+  run_jobs(scenes.size(), arguments.jobs, [&](std::size_t k) {
+    ends[k] = run_point(scenes[k], output_stem(arguments.output, scenes[k].name));
+  });
   if (file.content.contains("case"))
     write_ends(scenes, ends, output_stem(arguments.output, prefix + "_cases.csv"));
   std::string failed;

@@ -6,14 +6,13 @@
 
 #include "app/bounds.hpp"
 #include "app/csv.hpp"
+#include "app/jobs.hpp"
+#include "app/progress.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <mutex>
-#include <thread>
 
 namespace verification {
 namespace {
@@ -63,22 +62,12 @@ Member run_member(const StudyOptions& options, long seed, int steps) {
 
 std::vector<Member> run_members(const StudyOptions& options, int count, int steps, int threads) {
   std::vector<Member> members(static_cast<std::size_t>(count));
-  std::atomic<int> next{0};
-  std::mutex printing;
-  const auto work = [&] {
-    for (int k = next++; k < count; k = next++) {
-      const Member member = run_member(options, k + 1, steps);
-      const std::lock_guard lock(printing);
-      fmt::print(
-          stderr, "packing {} of {}: {}\n", k + 1, count,
-          member.failure.empty() ? fmt::format("peak {:.1f} kPa", member.peak) : member.failure);
-      members[static_cast<std::size_t>(k)] = member;
-    }
-  };
-  std::vector<std::jthread> pool;
-  for (int t = 1; t < threads; ++t) pool.emplace_back(work);
-  work();
-  pool.clear();  // joins
+  run_jobs(members.size(), threads, [&](std::size_t k) {
+    const Member& member = members[k] = run_member(options, static_cast<long>(k) + 1, steps);
+    tell(fmt::format(
+        "packing {} of {}: {}\n", k + 1, count,
+        member.failure.empty() ? fmt::format("peak {:.1f} kPa", member.peak) : member.failure));
+  });
   return members;
 }
 

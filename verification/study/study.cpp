@@ -72,6 +72,7 @@ void Table::write(const std::filesystem::path& path) const {
     }
     stream << fmt::format("{}\n", fmt::join(fields, ","));
   }
+  stream.close();
   if (!stream) throw ComputationError(fmt::format("{}: cannot be written", path.string()));
 }
 

@@ -17,12 +17,14 @@ void add(Offset& sum, const Offset& offset, double factor) {
   }
 }
 
-// Times between which a program is smooth, and some more within a sine.
+// Times between which a program is smooth, and some more within a sine and behind its end.
 std::vector<double> sample_times(const Program& program) {
   std::vector<double> times;
   for (const auto& point : program.points) times.push_back(point[0]);
   if (program.sine.amplitude != 0)
     for (int k = 1; k < 8; ++k) times.push_back(program.sine.start + program.sine.period * k / 7);
+  if (program.sine.amplitude != 0 && std::isfinite(program.sine.periods))
+    times.push_back(program.sine.start + program.sine.period * (program.sine.periods + 0.3));
   return times;
 }
 

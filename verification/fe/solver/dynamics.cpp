@@ -74,7 +74,7 @@ class DynamicsSolver final : public Solver {
     const double limit = longest_step();
     while (motion_.time < to) {
       const double left = to - motion_.time;
-      const double parts = std::ceil(left / limit * (1 - 1e-12));
+      const double parts = std::max(1.0, std::ceil(left / limit * (1 - 1e-12)));
       double length = left / parts;
       const bool last = parts == 1;
       int halvings = 0;
@@ -92,7 +92,10 @@ class DynamicsSolver final : public Solver {
       cuts += halvings;
       ++time_steps;
     }
-    if (tangent() != 0 && time_steps > 0) motion_.critical_step = critical_step();
+    if (tangent() != 0 && time_steps > 0) {
+      const double found = critical_step();
+      if (std::isfinite(found)) motion_.critical_step = found;  // else nothing bears any more
+    }
     report(step);
     step.time = to;
     step.record = points_.record();

@@ -37,7 +37,7 @@ Parts solve_in_parts(double from, double to, int number, int max_cuts, bool loos
   double part = to - from;
   bool loose = false;
   Parts parts;
-  do {
+  for (;;) {
     const double next = done + part > to - 1e-9 * (to - from) ? to : done + part;
     const Attempt result = attempt(next, loose);
     if (result.converged) {
@@ -45,19 +45,22 @@ Parts solve_in_parts(double from, double to, int number, int max_cuts, bool loos
       done = next;
       loose = false;
       parts.loose += result.loose ? 1 : 0;
-      continue;
+      if (done < to) continue;
+      return parts;
     }
     ++parts.cuts;
     part = (next - done) * std::clamp(result.ratio, 0.1, 0.5);
     if (part >= smallest && to > from) continue;
-    if (loose || !loose_allowed)
-      throw ComputationError(fmt::format("load step {} failed, in parts of {:.1e} of it too: {}",
-                                         number, part / (to - from), result.reason));
+    if (loose || !loose_allowed) {
+      const std::string where =
+          to > from ? fmt::format(", in parts of {:.1e} of it too", part / (to - from)) : "";
+      throw ComputationError(
+          fmt::format("load step {} failed{}: {}", number, where, result.reason));
+    }
     loose = true;
     ++parts.loose;
     part = to - done;
-  } while (done < to);
-  return parts;
+  }
 }
 
 }  // namespace verification

@@ -6,13 +6,12 @@
 #include "study/study.hpp"
 
 #include "app/bounds.hpp"
+#include "app/jobs.hpp"
 #include "app/progress.hpp"
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <mutex>
-#include <thread>
 
 namespace verification {
 namespace {
@@ -104,25 +103,18 @@ void lead_all(std::vector<Job>& jobs, int threads) {
   std::mutex showing;
   double done = 0;
   int not_direct = 0;
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t k = next++; k < jobs.size(); k = next++) {
-      Job& job = jobs[k];
-      job.lead(job.path, [&](const Increment& increment) {
-        const std::lock_guard lock(showing);
-        not_direct += increment.ending == Ending::direct ? 0 : 1;
-        progress.update(++done / planned,
-                        fmt::format("{} of {:.0f} increments not direct, {} {}", not_direct, done,
-                                    job.path.packing, job.path.kind));
-      });
-      const std::lock_guard lock(
-          showing);  // increments that a path did not come to are not awaited
-      planned -= job.steps - static_cast<double>(job.path.increments.size());
-    }
-  };
-  std::vector<std::jthread> pool;
-  for (int t = 1; t < threads; ++t) pool.emplace_back(work);
-  work();
+  run_jobs(jobs.size(), threads, [&](std::size_t k) {
+    Job& job = jobs[k];
+    job.lead(job.path, [&](const Increment& increment) {
+      const std::lock_guard lock(showing);
+      not_direct += increment.ending == Ending::direct ? 0 : 1;
+      progress.update(++done / planned,
+                      fmt::format("{} of {:.0f} increments not direct, {} {}", not_direct, done,
+                                  job.path.packing, job.path.kind));
+    });
+    const std::lock_guard lock(showing);  // increments that a path did not come to are not awaited
+    planned -= job.steps - static_cast<double>(job.path.increments.size());
+  });
 }
 
 void run_study(const StudyOptions& options, const Arguments& arguments) {

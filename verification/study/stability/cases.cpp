@@ -1,6 +1,7 @@
 #include "study/stability/cases.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace verification::stability {
@@ -17,9 +18,10 @@ void add(Cases& cases, std::string group, std::string setting, std::function<Mat
 }
 
 double stress_distance(const std::vector<Point>& points, const std::vector<Tensor>& other) {
+  if (other.size() < points.size()) return std::numeric_limits<double>::quiet_NaN();
   double distance = 0;
   double scale = 0;
-  for (std::size_t k = 0; k < std::min(points.size(), other.size()); ++k) {
+  for (std::size_t k = 0; k < points.size(); ++k) {
     distance = std::max(distance, (points[k].stress - other[k]).norm());
     scale = std::max(scale, other[k].norm());
   }
