@@ -113,6 +113,8 @@ BoundaryOptions read_boundary(TomlTable table) {
   boundary.servo = read_servo(table.optional_table("servo"));
   if (boundary.type == BoundaryType::mixed) read_sides(table, boundary);
   table.finish();
+  if (boundary.method == BoundaryMethod::direct && table.has("servo"))
+    table.fail("servo", "a table", "none with method = \"direct\"");
   if (boundary.method == BoundaryMethod::servo && boundary.type == BoundaryType::periodic_cell)
     table.fail("method", "\"servo\" on a periodic cell", "a frame or mixed type with it");
   return boundary;

@@ -69,6 +69,8 @@ SolverOptions read_solver(TomlTable table, const BoundaryOptions& boundary) {
         "contacts_lost", "\"stress_free\" with a boundary under a stress",
         "\"error\": without contacts nothing carries what \"T\" or boundary.stress asks for");
   solver.published = read_published(table.optional_table("published"));
+  if (solver.method != Method::published && table.has("published"))
+    table.fail("published", "a table", "none but with method = \"published\"");
   table.finish();
   return solver;
 }
