@@ -159,21 +159,22 @@ GRAINLAW_API grainlaw_report grainlaw_report_default(void);
  * want). The result becomes the trial state. With solver.start = "committed" it is a function of
  * (committed state, F) alone: same bits however often it is called. With solver.loose_tolerance > 0
  * an increment whose friction flutters may end at that residual instead of solver.tolerance: the
- * report's residual tells. Only an equilibrium has an exact tangent: A is then that of the contacts
- * as they stick, slide or are open there, or the elastic one where the history was advanced or the
- * former would be the larger; tangent_exact is 0, and the message tells which. Errors: NULL_POINTER,
- * BAD_HANDLE, NOT_FINITE, BAD_REPORT, BAD_ARGUMENT, OUT_OF_MEMORY; recoverable: NOT_CONVERGED,
- * CONTACTS_LOST, INVERTED, STEP_TOO_LARGE (a stretch of more than 30 %), COLLAPSED (a boundary
- * under uniform stress: next to no force is left, or a particle of it has no contact). On any of
- * them P and A are untouched and the committed state keeps its bits. With solver.contacts_lost = "stress_free" F at which no contact
- * carries is no error: P and A are zero, tangent_exact is 1, contacts 0, the message says so, and
- * the state may be committed; particles go where F carries them, and bear when they meet again. At
- * F where they just touch A is one of two derivatives, that of the free side. Forces that fade
- * without settling count for nothing from solver.tolerance of the mean one at F = I on (1e-6 of it
- * at most); history_advanced is 1 where that was how particles moved apart. Where stress
- * components are prescribed (boundary "mixed") the components of F that belong to them are ignored
- * and found instead (measure DEFORMATION_GRADIENT), P returns the prescribed ones to the tolerance,
- * and A has zero rows and columns there.
+ * report's residual tells. Only an equilibrium has an exact tangent: A is then that of the
+ * contacts as they stick, slide or are open there, or the elastic one where the history was
+ * advanced or the former would be the larger; tangent_exact is 0, and the message tells which.
+ * Errors: NULL_POINTER, BAD_HANDLE, NOT_FINITE, BAD_REPORT, BAD_ARGUMENT, OUT_OF_MEMORY;
+ * recoverable: NOT_CONVERGED, CONTACTS_LOST, INVERTED, STEP_TOO_LARGE (a stretch of more than 30
+ * %), COLLAPSED (a boundary under uniform stress: next to no force is left, or a particle of it
+ * has no contact). On any of them P and A are untouched and the committed state keeps its bits.
+ * With solver.contacts_lost = "stress_free" F at which no contact carries is no error: P and A are
+ * zero, tangent_exact is 1, contacts 0, the message says so, and the state may be committed;
+ * particles go where F carries them, and bear when they meet again. At F where they just touch A
+ * is one of two derivatives, that of the free side. Forces that fade without settling count for
+ * nothing from solver.tolerance of the mean one at F = I on (1e-6 of it at most); history_advanced
+ * is 1 where that was how particles moved apart. Where stress components are prescribed (boundary
+ * "mixed") the components of F that belong to them are ignored and found instead (measure
+ * DEFORMATION_GRADIENT), P returns the prescribed ones to the tolerance, and A has zero rows and
+ * columns there.
  * A rotation turns the answer, P(Q F) = Q P(F), unless the boundary is bound to the axes of space as
  * a test rig is: sides with different rules in x and y, rigid rows, prescribed stresses. There the
  * packing, the rules and the stresses have to turn too: then P(Q F Q^T) = Q P(F) Q^T.
