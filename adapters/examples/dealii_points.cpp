@@ -28,6 +28,8 @@ Points::Points(const Mapping<2>& mapping, const DoFHandler<2>& dofs,
   F_.resize(4 * n);
   P_.resize(4 * n);
   A_.resize(16 * n);
+  trial_P_ = committed_P_ = P_;
+  trial_A_ = committed_A_ = A_;
   status_.resize(n);
   reports_.resize(n);
 }
@@ -45,8 +47,6 @@ bool Points::evaluate(const Vector<double>& displacement) {
               gradients[q][i][J] + (i == J ? 1 : 0);
   }
   std::fill(reports_.begin(), reports_.end(), grainlaw_report_default());
-  trial_P_.resize(P_.size());
-  trial_A_.resize(A_.size());
   const grainlaw_status status = grainlaw_evaluate_batch(
       handles_.size(), handles_.data(), F_.data(), GRAINLAW_WANT_TANGENT_EXACT, trial_P_.data(),
       trial_A_.data(), status_.data(), reports_.data(), 0);
