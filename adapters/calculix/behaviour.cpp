@@ -124,8 +124,8 @@ void evaluate(ElementPoint& point, const Tensor2& F0, const Tensor2& F1, bool st
       point.started = true;
       point.has_stress = point.has_stiffness = false;
       Response response;
-      const Answer answer =
-          point.evaluate(F1, stress_only ? 0u : unsigned{GRAINLAW_WANT_TANGENT_EXACT}, response);
+      const Answer answer = point.evaluate_symmetric(
+          F1, stress_only ? 0u : unsigned{GRAINLAW_WANT_TANGENT_EXACT}, response);
       if (answer.status != GRAINLAW_OK) {
         give_start(point, stress, stiffness);
         const double ratio = answer.report.step_ratio;

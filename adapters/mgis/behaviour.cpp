@@ -31,6 +31,11 @@ struct Request {
   unsigned want = 0;
   int stress = 0;   // 0 Cauchy, 1 second, 2 first Piola-Kirchhoff
   int tangent = 0;  // 0 dsigma/dF, 1 dS/dE, 2 dP/dF, 3 dtau/d(dF)
+
+  // Whether anything asked for exists for a symmetric stress alone.
+  [[nodiscard]] bool symmetric() const {
+    return (!prediction && stress != 2) || (want != 0 && tangent != 2);
+  }
 };
 
 int option(double value, int most, const char* what) {
@@ -177,7 +182,8 @@ int integrate(PointTable& table, int dimension, grainlaw_mgis_data& data) {
   const Tensor2 F =
       request.prediction ? point.committed() : read_gradient(data.s1.gradients, dimension);
   Response response;
-  const Answer answer = point.evaluate(F, request.want, response);
+  const Answer answer = request.symmetric() ? point.evaluate_symmetric(F, request.want, response)
+                                            : point.evaluate(F, request.want, response);
   if (answer.status != GRAINLAW_OK) {
     const double ratio = answer.report.step_ratio;
     if (data.rdt != nullptr && ratio > 0) *data.rdt = std::min(*data.rdt, ratio);

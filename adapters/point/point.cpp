@@ -66,6 +66,26 @@ Answer Point::evaluate(const Tensor2& F, unsigned want, Response& response) {
   return answer;
 }
 
+Answer Point::evaluate_symmetric(const Tensor2& F, unsigned want, Response& response) {
+  Answer answer = evaluate(F, want, response);
+  if (answer.status != GRAINLAW_OK || is_symmetric(response, answer.report.residual)) return answer;
+  if (want == 0) {  // against the stiffness, too
+    revert();
+    answer = evaluate(F, GRAINLAW_WANT_TANGENT_ELASTIC, response);
+    if (answer.status != GRAINLAW_OK || is_symmetric(response, answer.report.residual)) {
+      return answer;
+    }
+  }
+  revert();
+  char differ[32];
+  std::snprintf(differ, sizeof differ, "%.1g", response.asymmetry);
+  throw std::runtime_error(
+      std::string("the stress of this packing is not symmetric (S12 and S21 differ by ") + differ +
+      " of |S|): moments act on it, or components of F are found; a host of the second "
+      "Piola-Kirchhoff or Cauchy stress cannot be given it: use rotation = true and a periodic "
+      "cell or frame-p, or the first Piola-Kirchhoff stress");
+}
+
 void Point::accept(const Tensor2& F) {
   if (!is_trial(F)) {
     Response unused;

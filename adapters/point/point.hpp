@@ -31,6 +31,10 @@ class Point {
   // for the host when F is not finite or not plane strain, abi::StatusError for the library's own.
   Answer evaluate(const Tensor2& F, unsigned want, Response& response);
 
+  // The same for a host that takes S, Cauchy stress or a tangent of theirs: also throws, and forgets
+  // the trial, where F^-1 P is not symmetric.
+  Answer evaluate_symmetric(const Tensor2& F, unsigned want, Response& response);
+
   // The host went on from F: commit the trial there. The trial is a function of the committed state
   // and F, so when it is no longer at hand it is found again. Throws when no equilibrium is found.
   void accept(const Tensor2& F);

@@ -1,6 +1,8 @@
 #include "stress_tangent.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace grainlaw::adapters {
 namespace {
@@ -24,6 +26,18 @@ Tensor2 inverse(const Tensor2& F) {
           (F[0] * F[8] - F[2] * F[6]) / J, (F[2] * F[3] - F[0] * F[5]) / J,
           (F[3] * F[7] - F[4] * F[6]) / J, (F[1] * F[6] - F[0] * F[7]) / J,
           (F[0] * F[4] - F[1] * F[3]) / J};
+}
+
+double norm(std::span<const double> components) {
+  double sum = 0;
+  for (const double component : components) sum += component * component;
+  return std::sqrt(sum);
+}
+
+double relative_asymmetry(const Tensor2& tensor) {
+  const double most = std::max({std::abs(tensor[1] - tensor[3]), std::abs(tensor[2] - tensor[6]),
+                                std::abs(tensor[5] - tensor[7])});
+  return most == 0 ? 0 : most / norm(tensor);
 }
 
 void symmetrise(Tensor2& tensor) {
@@ -91,6 +105,7 @@ void complete(int dimension, const double* P, const double* A, Response& r) {
                       inv[at(I, 2)] * r.P[at(2, J)];
     }
   }
+  r.asymmetry = relative_asymmetry(r.S);
   symmetrise(r.S);
   if (A == nullptr) return;
   r.A = {};
@@ -106,6 +121,12 @@ void complete(int dimension, const double* P, const double* A, Response& r) {
       for (std::size_t L = 0; L < dim; ++L) r.A[at(i, J, i, L)] = r.S[at(L, J)];
     }
   }
+}
+
+bool is_symmetric(const Response& r, double residual) {
+  if (r.asymmetry <= std::max(1e-6, 10 * residual)) return true;
+  const double stiffness = std::max(1e-12, 1e-3 * residual) * norm(r.A);
+  return r.asymmetry * norm(r.P) <= stiffness;  // P, since what was averaged away counts
 }
 
 Tensor2 cauchy_stress(const Response& r) {

@@ -15,8 +15,9 @@ inline constexpr Tensor2 identity{1, 0, 0, 0, 1, 0, 0, 0, 1};
 struct Response {
   Tensor2 F = identity;  // deformation gradient [-]
   Tensor2 P{};           // first Piola-Kirchhoff stress [Pa], tension positive
-  Tensor2 S{};           // second Piola-Kirchhoff stress F^-1 P [Pa], symmetric
+  Tensor2 S{};           // second Piola-Kirchhoff stress F^-1 P [Pa], made symmetric
   Tensor4 A{};           // dP/dF [Pa]
+  double asymmetry = 0;  // of F^-1 P: largest |S_IJ - S_JI| / |S|, 0 where S is 0 [-]
 };
 
 // The components of F that a packing of this dimension is asked for: F[dim*dim], row-major.
@@ -28,6 +29,10 @@ int reduce(int dimension, const Tensor2& F, double* reduced);
 // of discs S is zero and does not depend on the strain, so that P = F S turns with F and
 // dP_3J/dF_3L = S_LJ is all that the tangent has there.
 void complete(int dimension, const double* P, const double* A, Response& response);
+
+// Whether F^-1 P is symmetric to what a residual of the packing's equilibrium [-] leaves: of the
+// stress, or, where the forces of a packing all but cancel in it, of the stiffness A.
+bool is_symmetric(const Response&, double residual);
 
 // Cauchy stress P F^T / det F [Pa].
 Tensor2 cauchy_stress(const Response&);

@@ -178,6 +178,17 @@ TEST_F(calculix_bad_input, a_start_elsewhere_is_told) {
   refused(point, columns(path[2]), "cannot be restarted without its states");
 }
 
+// Discs that do not turn carry moments: in shear S12 and S21 differ.
+TEST_F(calculix_bad_input, a_stress_that_is_not_symmetric) {
+  Host point(library.function("LOCKED"), 1, 1);
+  constexpr F2 sheared{1, 1e-3, 0, 1};
+  refused(point, columns(sheared), "the stress of this packing is not symmetric (S12 and S21");
+  testing::internal::CaptureStdout();
+  EXPECT_FALSE(point.call(columns(sheared), true));
+  EXPECT_FALSE(point.call(columns(sheared)));  // still
+  testing::internal::GetCapturedStdout();
+}
+
 TEST_F(calculix_bad_input, a_missing_material_file_is_told_once) {
   const MaterialLibrary by_hand(materials + "/libBYHAND.so");
   Host point(by_hand.function("MISSING"), 1, 1);

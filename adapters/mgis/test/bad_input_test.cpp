@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <limits>
@@ -120,6 +121,82 @@ TEST_F(mgis_bad_input, null_pointers) {
 TEST_F(mgis_bad_input, a_host_without_message_buffer_and_rdt) {
   host.set_F(0, {1.6, 0, 0, 1});
   EXPECT_EQ(host.call(0, consistent, nullptr, nullptr), -1);
+}
+
+// Discs that do not turn carry moments: in shear S12 and S21 differ.
+class mgis_moments : public testing::Test {
+ protected:
+  static constexpr F2 sheared{1, 1e-3, 0, 1};
+  static constexpr F2 sheared_on{1, 2e-3, 0, 1};
+  BehaviourLibrary library{std::string(GRAINLAW_BEHAVIOURS) + "/libLocked.so"};
+
+  Manager manager(Stress stress, Tangent tangent) const {
+    return {library, "Locked", "PlaneStrain", 1, stress, tangent};
+  }
+  static std::vector<double> evaluate(Manager& host, const F2& F) {
+    host.set_F(0, F);
+    EXPECT_EQ(host.integrate(0), 1) << host.message;
+    return host.s1.forces;
+  }
+};
+
+TEST_F(mgis_moments, leave_the_first_piola_kirchhoff_stress) {
+  Manager host = manager(first_piola, dP_dF);
+  const std::vector<double> P = evaluate(host, sheared);
+  EXPECT_GT(std::abs(P[3] - P[4]), 1e-2 * std::abs(P[0]));
+  host.set_F(0, sheared);
+  EXPECT_EQ(host.integrate(0, no_tangent), 1) << host.message;
+}
+
+TEST_F(mgis_moments, are_refused_where_a_symmetric_stress_or_tangent_is_asked_for) {
+  const auto refuses = [](Manager host, double request) {
+    host.set_F(0, sheared_on);
+    const Manager::State before = host.s1;
+    EXPECT_EQ(host.integrate(0, request), -1);
+    EXPECT_NE(host.message.find("the stress of this packing is not symmetric (S12 and S21 differ"),
+              std::string::npos)
+        << host.message;
+    EXPECT_NE(host.message.find("or the first Piola-Kirchhoff stress"), std::string::npos);
+    EXPECT_EQ(host.s1.forces, before.forces);
+    EXPECT_EQ(host.s1.internal, before.internal);
+  };
+  for (const Stress stress : {cauchy, second_piola}) {
+    refuses(manager(stress, dP_dF), no_tangent);
+    refuses(manager(stress, dP_dF), elastic);
+    refuses(manager(stress, dP_dF), consistent);
+  }
+  for (const Tangent tangent : {dsigma_dF, dS_dE, dtau_ddF}) {
+    refuses(manager(first_piola, tangent), consistent);
+  }
+}
+
+TEST_F(mgis_moments, refused_leave_the_state_as_it_was) {
+  Manager host = manager(first_piola, dP_dF), plain = manager(first_piola, dP_dF);
+  evaluate(host, sheared);
+  evaluate(plain, sheared);
+  host.update();
+  plain.update();
+  Manager wrong = manager(second_piola, dS_dE);
+  wrong.s0.gradients = host.s0.gradients;
+  wrong.s0.internal = host.s0.internal;
+  wrong.set_F(0, sheared_on);
+  for (const double request : {consistent, no_tangent, -1.0}) {
+    EXPECT_EQ(wrong.integrate(0, request), -1);
+    EXPECT_NE(wrong.message.find("not symmetric"), std::string::npos) << wrong.message;
+  }
+  EXPECT_EQ(evaluate(host, sheared_on), evaluate(plain, sheared_on));
+}
+
+TEST(mgis_material, rounding_in_a_stress_of_nothing_is_no_moment) {
+  const BehaviourLibrary library(std::string(GRAINLAW_BEHAVIOURS) + "/libUnloaded.so");
+  for (const double request : {no_tangent, consistent}) {
+    Manager host(library, "Unloaded", "PlaneStrain", 1, second_piola, dS_dE);
+    EXPECT_EQ(host.integrate(0, request), 1) << host.message;
+    EXPECT_LE(std::abs(host.s1.forces[0]), 1e-6);  // Pa
+    host.update();
+    host.set_F(0, {1, 1e-6, 0, 1});
+    EXPECT_EQ(host.integrate(0, request), 1) << host.message;
+  }
 }
 
 TEST(mgis_material, a_missing_file_is_named_and_may_come_later) {

@@ -37,9 +37,9 @@ grainlaw_status grainlaw_state_clone(const grainlaw_state* state, grainlaw_state
   return GRAINLAW_OK;
 }
 void grainlaw_state_destroy(grainlaw_state* state) { delete state; }
-grainlaw_status grainlaw_evaluate(grainlaw_state* state, const double*, unsigned want, double* P,
+grainlaw_status grainlaw_evaluate(grainlaw_state* state, const double* F, unsigned want, double* P,
                                   double* A, grainlaw_report* report) {
-  std::fill_n(P, 4, -1e5);
+  for (int k = 0; k < 4; ++k) P[k] = -1e5 * F[k];  // S = -1e5 I, symmetric at any F
   if (want != 0) std::fill_n(A, 16, 1e8);
   report->step_ratio = 1;
   state->trial = true;
