@@ -11,6 +11,7 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
@@ -48,19 +49,24 @@ class PointMap {
     return *found;
   }
 
-  // Whether this text has not just been told.
-  bool is_new(const std::string& text) {
+  // Prints a text that has not been told yet.
+  void tell(const char* material, const std::string& text) {
     const std::lock_guard lock(mutex_);
-    if (text == told_) return false;
-    told_ = text;
-    return true;
+    if (told_.size() == most_told || !told_.insert(text).second) return;
+    std::printf("\n *ERROR in grainlaw, material %s: %s\n\n", material, text.c_str());
+    if (told_.size() == most_told) {
+      std::printf(" *ERROR in grainlaw, material %s: no more errors are printed\n\n", material);
+    }
+    std::fflush(stdout);
   }
 
  private:
+  static constexpr std::size_t most_told = 1000;
+
   MaterialFile file_;
   std::mutex mutex_;
   std::unordered_map<std::uint64_t, std::unique_ptr<ElementPoint>> points_;
-  std::string told_;
+  std::set<std::string> told_;
 };
 
 Tensor2 from_columns(const double* F) {
@@ -175,10 +181,7 @@ void grainlaw_calculix_evaluate(grainlaw_calculix_material* material, int elemen
       }
     }
     cut(pnewdt, default_cut);
-    if (points.is_new(text)) {
-      std::printf("\n *ERROR in grainlaw, material %s: %s\n\n", material->name, text.c_str());
-      std::fflush(stdout);
-    }
+    points.tell(material->name, text);
   } catch (...) {  // no memory for anything
     cut(pnewdt, default_cut);
   }

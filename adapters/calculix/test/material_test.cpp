@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <thread>
@@ -187,6 +188,55 @@ TEST_F(calculix_bad_input, a_stress_that_is_not_symmetric) {
   EXPECT_FALSE(point.call(columns(sheared), true));
   EXPECT_FALSE(point.call(columns(sheared)));  // still
   testing::internal::GetCapturedStdout();
+}
+
+TEST_F(calculix_bad_input, gives_stress_and_elastic_stiffness_of_the_start) {
+  Host point = host();
+  abi::State state = direct_state();
+  ASSERT_TRUE(point.increment({path[0]}));
+  const std::array<double, 6> accepted = point.stress;
+  reference(state, path[0], true);
+  const Reference expected = reference(state, path[0], false, GRAINLAW_WANT_TANGENT_ELASTIC);
+  auto nothing = columns(path[1]);
+  nothing[0] = std::numeric_limits<double>::infinity();
+  for (const auto& F : {nothing, columns({1.6, 0, 0, 1})}) {
+    point.stress = {};
+    point.stiffness = {};
+    testing::internal::CaptureStdout();
+    EXPECT_FALSE(point.call(F));
+    testing::internal::GetCapturedStdout();
+    for (std::size_t k = 0; k < 6; ++k) {  // found again, to the tolerance of the packing
+      EXPECT_NEAR(point.stress[k], accepted[k], 1e-6 * std::abs(accepted[0]));
+    }
+    expect_reference(point, expected);
+    EXPECT_GT(point.stiffness[0], 1e6);  // Pa
+  }
+}
+
+TEST_F(calculix_bad_input, of_two_points_in_turn_is_told_once_each) {
+  Host first = host(1, 1), second = host(1, 2);
+  auto F = columns(path[0]);
+  F[3] = std::numeric_limits<double>::quiet_NaN();
+  const auto told = [&](Host& point) {
+    testing::internal::CaptureStdout();
+    EXPECT_FALSE(point.call(F));
+    return testing::internal::GetCapturedStdout();
+  };
+  EXPECT_NE(told(first).find("point 1: F12"), std::string::npos);
+  EXPECT_NE(told(second).find("point 2: F12"), std::string::npos);
+  EXPECT_EQ(told(first), "");
+  EXPECT_EQ(told(second), "");
+}
+
+TEST_F(calculix_bad_input, of_very_many_points_is_told_for_the_first_thousand) {
+  auto F = columns(path[0]);
+  F[3] = std::numeric_limits<double>::quiet_NaN();
+  testing::internal::CaptureStdout();
+  for (int element = 1; element <= 1100; ++element) EXPECT_FALSE(host(element).call(F));
+  const std::string output = testing::internal::GetCapturedStdout();
+  EXPECT_NE(output.find("element 1000, "), std::string::npos);
+  EXPECT_EQ(output.find("element 1001, "), std::string::npos);
+  EXPECT_NE(output.find("no more errors are printed"), std::string::npos);
 }
 
 TEST_F(calculix_bad_input, a_missing_material_file_is_told_once) {

@@ -19,10 +19,11 @@ struct Reference {
 };
 
 // Evaluates, and commits when asked.
-inline Reference reference(abi::State& state, const std::array<double, 4>& F, bool commit) {
+inline Reference reference(abi::State& state, const std::array<double, 4>& F, bool commit,
+                           unsigned want = GRAINLAW_WANT_TANGENT_EXACT) {
   std::array<double, 4> P{};
   std::array<double, 16> A{};
-  if (!state.evaluate(F, P, GRAINLAW_WANT_TANGENT_EXACT, A)) {
+  if (!state.evaluate(F, P, want, A)) {
     throw std::runtime_error("no equilibrium");
   }
   if (commit) state.commit();

@@ -46,7 +46,7 @@ class mgis_bad_input : public testing::Test {
     EXPECT_NE(wrong.message.find(text), std::string::npos) << wrong.message;
     EXPECT_EQ(wrong.message.rfind("Rve400: ", 0), 0u) << wrong.message;
     EXPECT_EQ(wrong.s1.forces, before.forces);
-    EXPECT_EQ(wrong.s1.internal.size(), before.internal.size());
+    EXPECT_EQ(wrong.s1.internal, before.internal);
     EXPECT_TRUE(std::equal(K.begin() + 3, K.end(), wrong.K.begin() + 3));
     for (std::size_t p = 0; p < 2; ++p) {
       host.set_F(p, second);

@@ -104,6 +104,27 @@ TEST_F(mgis_state, a_failed_step_leaves_the_host_and_the_state_alone) {
   EXPECT_EQ(evaluate(host, path[1]), direct(state, path[1]));
 }
 
+TEST_F(mgis_state, an_approximate_answer_is_given_and_half_the_step_asked_for) {
+  const BehaviourLibrary advancing{behaviours + "/libAdvancing.so"};
+  Manager host(advancing, "Advancing", "PlaneStrain", 1, first_piola, dP_dF);
+  abi::State state(abi::Material::load(behaviours + "/../advancing.toml"));
+  for (const F2& F : {path[0], path[1]}) {
+    host.set_F(0, F);
+    EXPECT_EQ(host.integrate(0), 0);
+    EXPECT_EQ(host.rdt, 0.5);
+    EXPECT_EQ(host.message,
+              "the equilibrium was only found by advancing the friction history; approximate");
+    const double* P = host.s1.forces.data();
+    EXPECT_EQ((F2{P[0], P[3], P[4], P[1]}), direct(state, F));
+    state.commit();
+    host.update();
+  }
+  double step = 0.25;  // a shorter one that the host has in mind stays
+  host.set_F(0, path[2]);
+  EXPECT_EQ(host.call(0, consistent, nullptr, &step), 0);
+  EXPECT_EQ(step, 0.25);
+}
+
 TEST_F(mgis_state, a_step_that_was_cut_ends_like_the_same_steps_uncut) {
   constexpr double target = 0.7;  // simple shear; more than the library takes at once
   const BehaviourLibrary bonded{behaviours + "/libBonded.so"};
