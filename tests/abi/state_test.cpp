@@ -1,10 +1,12 @@
-// One integration point: what an evaluation, a commit, a revert, a copy and saved bytes keep.
+// One integration point: what an evaluation, a commit, a revert, a copy and saved bytes keep, and
+// what files tell of it.
 #include "continue_saved.hpp"
 #include "support.hpp"
 
 #include <cfenv>
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 
 namespace grainlaw::test {
 namespace {
@@ -223,11 +225,130 @@ TEST(state, a_written_packing_starts_at_the_stress_it_was_written_with) {
   }
 }
 
-TEST(state, a_vtk_file_is_written) {
-  State state(material());
+// What a file draws: discs, and from the centre of one of each contact's discs the branch.
+struct Drawing {
+  std::vector<double> x, y, radius, rotation;  // of points
+  std::vector<double> normal_force, tangential_force;
+  std::vector<std::size_t> first;  // disc of each contact
+  std::size_t discs = 0;
+};
+
+template <class Number>
+std::vector<Number> array_of(const std::string& text, const std::string& name,
+                             std::size_t from = 0) {
+  std::vector<Number> numbers;
+  const auto at = text.find("Name=\"" + name + "\"", from);
+  if (at == std::string::npos) return numbers;
+  const auto begin = text.find('>', at) + 1;
+  std::istringstream values(text.substr(begin, text.find('<', begin) - begin));
+  for (Number number; values >> number;) numbers.push_back(number);
+  return numbers;
+}
+
+Drawing drawing_of(const State& state) {
   const TemporaryDirectory directory;
   state.write_vtk((directory / "state.vtp").string());
-  EXPECT_NE(read_text(directory / "state.vtp").find("PolyData"), std::string::npos);
+  const std::string text = read_text(directory / "state.vtp");
+  Drawing drawing;
+  const auto points = array_of<double>(text, "points");
+  for (std::size_t k = 0; k < points.size(); k += 3) {
+    drawing.x.push_back(points[k]);
+    drawing.y.push_back(points[k + 1]);
+  }
+  drawing.radius = array_of<double>(text, "radius");
+  drawing.rotation = array_of<double>(text, "rotation");
+  drawing.normal_force = array_of<double>(text, "normal_force");
+  drawing.tangential_force = array_of<double>(text, "tangential_force");
+  const auto lines = array_of<std::size_t>(text, "connectivity", text.find("<Lines>"));
+  drawing.discs = drawing.x.size() - lines.size() / 2;
+  for (std::size_t k = 0; k < lines.size(); k += 2) {
+    drawing.first.push_back(lines[k]);
+    EXPECT_EQ(lines[k + 1], drawing.discs + k / 2);
+  }
+  return drawing;
+}
+
+// The disc at a point, or one of its images: F H (whole numbers) away.
+std::size_t disc_at(const Drawing& drawing, std::size_t point, const Tensor& cell) {
+  const double det = cell[0] * cell[3] - cell[1] * cell[2];
+  for (std::size_t p = 0; p < drawing.discs; ++p) {
+    const double dx = drawing.x[point] - drawing.x[p];
+    const double dy = drawing.y[point] - drawing.y[p];
+    const double a = (cell[3] * dx - cell[1] * dy) / det;
+    const double b = (cell[0] * dy - cell[2] * dx) / det;
+    if (std::hypot(a - std::round(a), b - std::round(b)) < 1e-9) return p;
+  }
+  ADD_FAILURE() << "no disc where contact " << point - drawing.discs << " ends";
+  return 0;
+}
+
+void expect_drawn(const State& state) {
+  const Drawing drawing = drawing_of(state);
+  ASSERT_EQ(static_cast<double>(drawing.discs), state.measure(GRAINLAW_PARTICLES)[0]);
+  ASSERT_EQ(static_cast<double>(drawing.first.size()), state.measure(GRAINLAW_CONTACTS)[0]);
+  const auto F = state.measure(GRAINLAW_DEFORMATION_GRADIENT);
+  constexpr double width = 0.19808721074789126, height = 0.19661172131892471;  // of the cell [m]
+  const Tensor cell{F[0] * width, F[1] * height, F[2] * width, F[3] * height};
+
+  const double volume = state.measure(GRAINLAW_VOLUME)[0];
+  double rotation = 0, overlap = 0, energy = 0;
+  Tensor stress{};
+  for (std::size_t p = 0; p < drawing.discs; ++p) {
+    rotation += drawing.rotation[p] / static_cast<double>(drawing.discs);
+  }
+  for (std::size_t k = 0; k < drawing.first.size(); ++k) {
+    const std::size_t i = drawing.first[k];
+    const std::size_t end = drawing.discs + k;
+    const double ri = drawing.radius[i], rj = drawing.radius[disc_at(drawing, end, cell)];
+    const double lx = drawing.x[end] - drawing.x[i];
+    const double ly = drawing.y[end] - drawing.y[i];
+    const double d = std::hypot(lx, ly);
+    const double kn = 6e8 * 2 * ri * rj / (ri + rj);  // tests/data/rve400.toml
+    const double fn = drawing.normal_force[end], ft = drawing.tangential_force[end];
+    EXPECT_NEAR(fn, kn * (ri + rj - d), 1e-7);  // of some 100 N
+    overlap += (ri + rj - d) / static_cast<double>(drawing.first.size());
+    energy += 0.5 * fn * fn / kn + 0.5 * ft * ft / (0.8 * kn);
+    const std::array<double, 2> force{(fn * lx - ft * ly) / d, (fn * ly + ft * lx) / d};
+    for (std::size_t m = 0; m < 4; ++m) {
+      stress[m] -= force[m / 2] * (m % 2 == 0 ? lx : ly) / volume;
+    }
+  }
+  EXPECT_NEAR(rotation, state.measure(GRAINLAW_MEAN_ROTATION)[0], 1e-12);
+  const auto expect_close = [](double found, double expected) {
+    EXPECT_NEAR(found, expected, 1e-9 * std::abs(expected));
+  };
+  expect_close(overlap, state.measure(GRAINLAW_MEAN_OVERLAP)[0]);
+  expect_close(energy, state.measure(GRAINLAW_ELASTIC_ENERGY)[0]);
+  const auto sigma = state.measure(GRAINLAW_CAUCHY_STRESS);
+  for (std::size_t m = 0; m < 4; ++m) EXPECT_NEAR(stress[m], sigma[m], 1e-9 * 1e5);
+}
+
+TEST(state, a_vtk_file_draws_the_trial_or_what_is_committed) {
+  State state(material());
+  stress(state, compressed);
+  state.commit();
+  const auto committed = state.measure(GRAINLAW_MEAN_OVERLAP);
+  stress(state, further);
+  EXPECT_GT(state.measure(GRAINLAW_MEAN_OVERLAP)[0], 1.01 * committed[0]);
+  expect_drawn(state);
+  const Drawing trial = drawing_of(state);
+  state.revert();
+  EXPECT_EQ(state.measure(GRAINLAW_MEAN_OVERLAP), committed);
+  expect_drawn(state);
+
+  // Discs follow F from one to the other, each with a fluctuation of its own.
+  const Drawing before = drawing_of(state);
+  double off = 0, moved = 0;
+  for (std::size_t p = 0; p < before.discs; ++p) {
+    const double dx = trial.x[p] - before.x[p] - (further[0] - compressed[0]) * before.x[p] -
+                      (further[1] - compressed[1]) * before.y[p];
+    const double dy = trial.y[p] - before.y[p] - (further[2] - compressed[2]) * before.x[p] -
+                      (further[3] - compressed[3]) * before.y[p];
+    off += std::hypot(dx, dy);
+    moved += std::hypot(trial.x[p] - before.x[p], trial.y[p] - before.y[p]);
+  }
+  EXPECT_GT(moved, 0);
+  EXPECT_LT(off, 0.5 * moved);
 }
 
 TEST(state, every_measure_can_be_asked) {
