@@ -1,6 +1,8 @@
 // What the tests through the C ABI share: the small packing, its material, and bits to compare.
 #pragma once
 
+#include "../temporary_directory.hpp"
+
 #include <grainlaw/grainlaw.hpp>
 
 #include <gtest/gtest.h>
@@ -54,26 +56,6 @@ inline std::string read_text(const std::filesystem::path& path) {
 inline void write_text(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
-
-// A directory of this process that is gone at the end.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory() {
-    std::string name = testing::TempDir() + "grainlaw-XXXXXX";
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
-    path_ = name;
-  }
-  ~TemporaryDirectory() { std::filesystem::remove_all(path_); }
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
-    return path_ / name;
-  }
-  [[nodiscard]] std::string string() const { return path_.string(); }
-
- private:
-  std::filesystem::path path_;
-};
 
 // Inputs that were wrong on purpose; printed at the end.
 inline long bad_inputs = 0;

@@ -1,8 +1,8 @@
 // A biaxial test past its peak in small: the whole way from the scene file to the tables.
+#include "../temporary_directory.hpp"
 #include "app/csv.hpp"
 #include "fe/run.hpp"
 #include "scene_text.hpp"
-#include "temporary_directory.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +14,8 @@
 
 namespace verification {
 namespace {
+
+using grainlaw::test::TemporaryDirectory;
 
 class biaxial_scene : public testing::Test {
  protected:

@@ -1,8 +1,8 @@
 // Checkpoints: values come back, damage is found, an older file survives a failed write.
 #include "fe/checkpoint.hpp"
 
+#include "../temporary_directory.hpp"
 #include "app/atomic_file.hpp"
-#include "temporary_directory.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +11,8 @@
 
 namespace verification {
 namespace {
+
+using grainlaw::test::TemporaryDirectory;
 
 std::string contents(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

@@ -1,4 +1,5 @@
 // Direct simulation: a repeated frame is the frame, one frame is a point, bad scenes are refused.
+#include "../temporary_directory.hpp"
 #include "app/csv.hpp"
 #include "app/packing_source.hpp"
 #include "dns/repeat.hpp"
@@ -7,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -24,23 +24,6 @@ packing = { generator = "lubachevsky-stillinger", count = 60, radii = [0.3e-3, 0
 contact = { law = "frictional", kn = 1e4, ratio = 0.2, friction = 0.4 }
 )";
 
-// Of this test alone: tests run beside each other.
-std::filesystem::path directory() {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const auto path =
-      std::filesystem::path(testing::TempDir()) / (std::string("grainlaw_dns_") + test->name());
-  std::filesystem::create_directories(path);
-  return path;
-}
-
-std::vector<SpecimenScene> scenes(const std::string& text) {
-  const auto path = directory() / "scene.toml";
-  std::ofstream(path) << text;
-  return read_specimen_scenes(SceneFile(path));
-}
-
-SpecimenScene scene(const std::string& keys) { return scenes(keys + material).front(); }
-
 const std::string biaxial = R"(
 [start]
 sigma11 = -120e3
@@ -53,21 +36,43 @@ P11 = "held"
 P12 = "held"
 )";
 
-MaterialSource frame_source() {
-  MaterialSource source = scene("repeat = [1, 1]\n" + biaxial).material;
-  source.changes.insert_or_assign("boundary", toml::table{{"type", "frame-p"}});
-  return source;
-}
+class dns : public testing::Test {
+ protected:
+  [[nodiscard]] std::vector<SpecimenScene> scenes(const std::string& text) const {
+    const auto path = directory_ / "scene.toml";
+    std::ofstream(path) << text;
+    return read_specimen_scenes(SceneFile(path));
+  }
+  [[nodiscard]] SpecimenScene scene(const std::string& keys) const {
+    return scenes(keys + material).front();
+  }
+  [[nodiscard]] MaterialSource frame_source() const {
+    MaterialSource source = scene("repeat = [1, 1]\n" + biaxial).material;
+    source.changes.insert_or_assign("boundary", toml::table{{"type", "frame-p"}});
+    return source;
+  }
+  [[nodiscard]] std::string write_packing(const Material& of, const std::string& name) const {
+    const std::string prefix = directory_ / name;
+    check(grainlaw_state_write_packing(make_state(of).get(), prefix.c_str()), "writing");
+    return prefix;
+  }
+  void expect_refusal(const std::string& text, const std::vector<std::string>& parts) {
+    try {
+      for (const SpecimenScene& one : scenes(text)) Specimen(one, directory_ / "refused");
+      ADD_FAILURE() << "nothing was refused in\n" << text;
+    } catch (const InputError& error) {
+      for (const std::string& part : parts)
+        EXPECT_NE(std::string(error.what()).find(part), std::string::npos)
+            << error.what() << "\nlacks: " << part;
+    }
+  }
 
-std::string write_packing(const Material& of, const std::string& name) {
-  const std::string prefix = (directory() / name).string();
-  check(grainlaw_state_write_packing(make_state(of).get(), prefix.c_str()), "writing");
-  return prefix;
-}
+  grainlaw::test::TemporaryDirectory directory_;
+};
 
 double difference(const Tensor& a, const Tensor& b) { return (a - b).norm() / b.norm(); }
 
-TEST(dns, a_repeated_frame_has_the_copies_and_shares_the_sides) {
+TEST_F(dns, a_repeated_frame_has_the_copies_and_shares_the_sides) {
   const FramePacking one = read_frame(write_packing(make_material(frame_source()), "one"));
   const FramePacking same = repeat(one, 1, 1);
   EXPECT_EQ(same.size(), one.size());
@@ -82,11 +87,11 @@ TEST(dns, a_repeated_frame_has_the_copies_and_shares_the_sides) {
             (std::array<std::size_t, 4>{0, 3 * across, 3 * across + 2 * up, 6 * across + 2 * up}));
 }
 
-TEST(dns, a_repeated_frame_carries_the_stress_of_the_frame) {
+TEST_F(dns, a_repeated_frame_carries_the_stress_of_the_frame) {
   const MaterialSource source = frame_source();
   const Material frame = make_material(source);
   const FramePacking one = read_frame(write_packing(frame, "one"));
-  const std::string prefix = (directory() / "many").string();
+  const std::string prefix = directory_ / "many";
   write_frame(repeat(one, 2, 3), prefix);
   const Material repeated = make_material(with_packing(source, prefix));
   const State a = make_state(frame), b = make_state(repeated);
@@ -101,9 +106,9 @@ TEST(dns, a_repeated_frame_carries_the_stress_of_the_frame) {
   }
 }
 
-TEST(dns, one_frame_is_the_point_under_the_same_conditions) {
+TEST_F(dns, one_frame_is_the_point_under_the_same_conditions) {
   const SpecimenScene one = scene("repeat = [1, 1]\n" + biaxial);
-  const auto stem = directory() / "specimen";
+  const auto stem = directory_ / "specimen";
   Specimen specimen(one, stem);
   std::vector<Record> records;
   const SpecimenEnd end =
@@ -145,8 +150,8 @@ TEST(dns, one_frame_is_the_point_under_the_same_conditions) {
   }
 }
 
-TEST(dns, flexible_sides_carry_the_stress_and_the_work_is_accounted_for) {
-  const auto stem = directory() / "specimen";
+TEST_F(dns, flexible_sides_carry_the_stress_and_the_work_is_accounted_for) {
+  const auto stem = directory_ / "specimen";
   const SpecimenEnd end = run_specimen(scene("repeat = [1, 2]\n" + biaxial), stem);
   ASSERT_EQ(end.steps, 4) << end.text;
   EXPECT_GT(end.effort.evaluations, 3);
@@ -163,18 +168,7 @@ TEST(dns, flexible_sides_carry_the_stress_and_the_work_is_accounted_for) {
   EXPECT_NEAR(kept, work, 0.05 * std::abs(work));
 }
 
-void expect_refusal(const std::string& text, const std::vector<std::string>& parts) {
-  try {
-    for (const SpecimenScene& one : scenes(text)) Specimen(one, directory() / "refused");
-    ADD_FAILURE() << "nothing was refused in\n" << text;
-  } catch (const InputError& error) {
-    for (const std::string& part : parts)
-      EXPECT_NE(std::string(error.what()).find(part), std::string::npos)
-          << error.what() << "\nlacks: " << part;
-  }
-}
-
-TEST(dns, bad_scenes_are_refused_with_what_was_expected) {
+TEST_F(dns, bad_scenes_are_refused_with_what_was_expected) {
   const std::string one = "repeat = [1, 1]\n";
   expect_refusal("repeat = [0, 1]\n" + biaxial + material, {"repeat", "an integer from 1 to 100"});
   expect_refusal("repeat = [1.5, 1]\n" + biaxial + material, {"repeat", "an integer"});
@@ -196,9 +190,9 @@ TEST(dns, bad_scenes_are_refused_with_what_was_expected) {
                  {"material", "none.toml", "a file that is there"});
 }
 
-TEST(dns, sides_the_library_does_not_know_are_refused) {
+TEST_F(dns, sides_the_library_does_not_know_are_refused) {
   const SpecimenScene wrong = scene("repeat = [1, 1]\nsides.left = { x = 'Q' }\n" + biaxial);
-  Specimen specimen(wrong, directory() / "refused");
+  Specimen specimen(wrong, directory_ / "refused");
   try {
     specimen.run({});
     ADD_FAILURE() << "nothing was refused";

@@ -1,4 +1,5 @@
 // What a run writes: fields at points, ParaView files, pictures of the mesh, tables, cost.
+#include "../temporary_directory.hpp"
 #include "app/csv.hpp"
 #include "app/snapshot.hpp"
 #include "fe/output/cost_report.hpp"
@@ -7,7 +8,6 @@
 #include "fe/output/vtk_series.hpp"
 #include "fe/solver/newton.hpp"
 #include "support.hpp"
-#include "temporary_directory.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,6 +18,8 @@
 
 namespace verification {
 namespace {
+
+using grainlaw::test::TemporaryDirectory;
 
 std::string contents(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

@@ -1,8 +1,8 @@
 // Runs that go on from a checkpoint, against runs that were never interrupted.
+#include "../temporary_directory.hpp"
 #include "app/interrupt.hpp"
 #include "fe/run.hpp"
 #include "scene_text.hpp"
-#include "temporary_directory.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +12,8 @@
 
 namespace verification {
 namespace {
+
+using grainlaw::test::TemporaryDirectory;
 
 // With a table of a point, series for ParaView of the mesh and of a packing.
 const std::string specimen = "steps = 4\nthreads = 1\nvtk_every = 2\npackings = [1]\npoints = [2]\n" + small_packing;

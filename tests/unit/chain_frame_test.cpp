@@ -1,11 +1,9 @@
 // Frames whose opposite sides are not copies: regular packings with a closed chain around them.
+#include "../temporary_directory.hpp"
 #include "boundary_support.hpp"
 #include "error.hpp"
 #include "packing/frame_geometry.hpp"
 #include "state/output.hpp"
-
-#include <cstdlib>
-#include <filesystem>
 
 namespace grainlaw::test {
 namespace {
@@ -53,13 +51,10 @@ ContactLaw paper_law() {  // Liu, Bosco & Suiker (2017), Table 4
 }
 
 Packing through_files(const Packing& packing) {
-  std::string directory = (std::filesystem::temp_directory_path() / "grainlaw_XXXXXX").string();
-  EXPECT_NE(mkdtemp(directory.data()), nullptr);
-  const std::string prefix = directory + "/chain";
+  const TemporaryDirectory directory;
+  const std::string prefix = directory / "chain";
   write_packing(prefix, packing);
-  Packing back = read_packing({prefix + "_particles.csv", "", prefix + "_cell.csv"});
-  std::filesystem::remove_all(directory);
-  return back;
+  return read_packing({prefix + "_particles.csv", "", prefix + "_cell.csv"});
 }
 
 TEST(chain_frame, averages_to_the_deformation) {

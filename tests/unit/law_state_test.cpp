@@ -1,10 +1,9 @@
 // Every contact law through a state: energy, objectivity, saving, files.
+#include "../temporary_directory.hpp"
 #include "law_support.hpp"
 
 #include "state/output.hpp"
 #include "state/serialise.hpp"
-
-#include <filesystem>
 
 namespace grainlaw::test {
 namespace {
@@ -103,7 +102,8 @@ TEST(law_state, goes_on_from_saved_bytes_with_the_same_bits) {
 }
 
 TEST(law_state, a_packing_written_starts_from_the_same_stress) {
-  const std::string prefix = std::filesystem::path(testing::TempDir()) / "grainlaw_law_state";
+  const TemporaryDirectory directory;
+  const std::string prefix = directory / "packing";
   ContactLaw across_gaps = bonded_law(1);
   across_gaps.bond.gap = 1e-4;
   auto laws = composite_laws();
@@ -126,9 +126,6 @@ TEST(law_state, a_packing_written_starts_from_the_same_stress) {
     EXPECT_LE(relative_difference(Tensor{found[0], found[1], found[2], found[3]}, cauchy), 1e-6)
         << name;
     EXPECT_EQ(made->initial.broken_bonds, 0) << name;
-  }
-  for (const char* what : {"_particles.csv", "_contacts.csv", "_cell.csv"}) {
-    std::filesystem::remove(prefix + what);
   }
 }
 

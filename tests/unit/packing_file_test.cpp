@@ -1,12 +1,12 @@
 #include "packing/packing_file.hpp"
 
+#include "../temporary_directory.hpp"
 #include "error.hpp"
 #include "packing/frame.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <string>
@@ -23,14 +23,6 @@ const char* const good_cell = "H00,H01,H10,H11,thickness\n0.39,0,0,0.3,0.1\n";
 
 class packing_file : public testing::Test {
  protected:
-  void SetUp() override {
-    directory_ =
-        std::filesystem::path(testing::TempDir()) /
-        ("grainlaw_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    std::filesystem::create_directories(directory_);
-  }
-  void TearDown() override { std::filesystem::remove_all(directory_); }
-
   [[nodiscard]] std::string path(const std::string& name) const { return directory_ / name; }
 
   Packing read(const std::string& particles, const std::string& contacts, const std::string& cell) {
@@ -63,7 +55,7 @@ class packing_file : public testing::Test {
     expect_refused(part, good_particles, good_contacts, cell);
   }
 
-  std::filesystem::path directory_;
+  test::TemporaryDirectory directory_;
 };
 
 void expect_equal(const Packing& a, const Packing& b) {
@@ -177,7 +169,7 @@ TEST_F(packing_file, that_is_missing_or_not_writable_is_a_file_error) {
     EXPECT_EQ(error.status, GRAINLAW_FILE_ERROR);
     EXPECT_NE(std::string(error.what()).find("none.csv"), std::string::npos);
   }
-  EXPECT_THROW(read_packing({directory_, "", data + "cell.csv"}), Error);
+  EXPECT_THROW(read_packing({directory_.string(), "", data + "cell.csv"}), Error);
   EXPECT_THROW(write_packing(path("no/such/directory"), Packing{}), Error);
 }
 

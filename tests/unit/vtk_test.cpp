@@ -1,11 +1,11 @@
 #include "packing/vtk.hpp"
 
+#include "../temporary_directory.hpp"
 #include "error.hpp"
 #include "packing/text_file.hpp"
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -21,7 +21,8 @@ std::string array_of(const std::string& text, const std::string& name) {
 }
 
 TEST(vtk, draws_particles_as_vertices_and_contacts_as_lines) {
-  const std::string path = std::filesystem::path(testing::TempDir()) / "grainlaw_vtk_test.vtp";
+  const test::TemporaryDirectory directory;
+  const std::string path = directory / "packing.vtp";
   const std::vector<double> position = {0, 1, 5, 6};
   const std::vector<double> radius = {0.5, 0.6};
   const std::vector<double> rotation = {0.1, -0.2};
@@ -40,14 +41,13 @@ TEST(vtk, draws_particles_as_vertices_and_contacts_as_lines) {
   EXPECT_EQ(array_of(text, "moment"), "0\n0\n0\n0.25\n");
   EXPECT_EQ(array_of(text, "bonded"), "0\n0\n0\n1\n");
   EXPECT_NE(text.find("0 2\n1 3\n"), std::string::npos);
-  std::filesystem::remove(path);
 }
 
 TEST(vtk, takes_spheres_and_no_rotation) {
-  const std::string path = std::filesystem::path(testing::TempDir()) / "grainlaw_vtk_test_3d.vtp";
+  const test::TemporaryDirectory directory;
+  const std::string path = directory / "spheres.vtp";
   write_vtk(path, std::vector<double>{1, 2, 3}, std::vector<double>{0.5}, {}, {});
   EXPECT_EQ(array_of(read_text(path), "points"), "1 2 3\n");
-  std::filesystem::remove(path);
 }
 
 TEST(vtk, that_cannot_be_written_is_an_error) {

@@ -1,4 +1,4 @@
-// A directory that goes with the test.
+// A directory of one test, gone with it: tests run beside each other.
 #pragma once
 
 #include <unistd.h>
@@ -7,8 +7,9 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
-namespace verification {
+namespace grainlaw::test {
 
 class TemporaryDirectory {
  public:
@@ -26,9 +27,13 @@ class TemporaryDirectory {
   TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
+    return path_ / name;
+  }
+  [[nodiscard]] std::string string() const { return path_.string(); }
 
  private:
   std::filesystem::path path_;
 };
 
-}  // namespace verification
+}  // namespace grainlaw::test
