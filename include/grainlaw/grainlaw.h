@@ -126,7 +126,8 @@ GRAINLAW_API void grainlaw_state_destroy(grainlaw_state*);
 /* Bits of `want`. Without one no tangent is computed. At most one bit may be set. */
 enum {
   GRAINLAW_WANT_TANGENT_EXACT = 1,    /* condensed: derivative of P along the branch of solutions */
-  GRAINLAW_WANT_TANGENT_ELASTIC = 2,  /* affine estimate, Guo & Zhao (2014) eq. 9, as dP/dF */
+  GRAINLAW_WANT_TANGENT_ELASTIC = 2,  /* affine estimate, Guo & Zhao (2014) eq. 9, as dP/dF: of all
+                                         contacts that overlap, and turning P with rotations */
   GRAINLAW_WANT_TANGENT_PERTURBED = 4 /* forward differences, Guo & Zhao (2014) eq. 8 */
 };
 
@@ -143,7 +144,7 @@ typedef struct grainlaw_report {
   int subincrements;      /* parts the increment was split into; 0: it was not begun [-] */
   int contacts;           /* touching contacts [-] */
   int sliding;            /* contacts at the friction limit [-] */
-  int status_changes;     /* contacts that opened, closed, stuck or slid in this increment [-] */
+  int status_changes;     /* contacts that opened, closed, stuck, slid or lost their bond [-] */
   int tangent_exact;      /* 1: the returned tangent is the derivative of the returned P */
   int history_advanced;   /* 1: fallback that advances the friction history was used; approximate */
   char message[256];      /* one line of text, "" after plain success */
