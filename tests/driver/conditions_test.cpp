@@ -22,7 +22,7 @@ Model read_model(const std::string& conditions, const std::string& element = "q4
   Model model;
   model.mesh = read_mesh(mesh);
   read_conditions(scene, 1, model);
-  number_dofs(model);
+  check_loads_act(model, number_dofs(model));
   check_held(model, "scene.toml");
   return model;
 }
@@ -111,6 +111,17 @@ TEST(conditions, an_unknown_set_is_refused_with_those_there_are) {
 TEST(conditions, a_missing_key_is_told_with_the_one_that_may_be_meant_for_it) {
   expect_refusal("[[displacement]]\non = 'top'\ncomponnt = 'y'\nvalue = 0.0",
                  {"displacement[1].component: found nothing", "(componnt in line "});
+}
+
+TEST(conditions, a_load_on_a_side_that_is_prescribed_in_its_direction_is_refused) {
+  const std::string pressure = "[[pressure]]\non = 'left'\nvalue = 1e5\n";
+  expect_refusal(smooth_supports + pressure,
+                 {"scene.toml:10: pressure[1]", "wherever the load acts"});
+  expect_refusal(smooth_supports + "[[traction]]\non = 'bottom'\ncomponent = 'y'\nvalue = 1e5\n",
+                 {"traction[1]"});
+  EXPECT_NO_THROW(read_model(held_bottom + pressure));
+  EXPECT_NO_THROW(read_model(smooth_supports +
+                             "[[traction]]\non = 'bottom'\ncomponent = 'x'\nvalue = 1e5\n"));
 }
 
 TEST(conditions, a_displacement_that_is_not_zero_at_the_start_is_refused) {

@@ -32,7 +32,7 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
   if (scene.solver.kind != SolverKind::dynamics && table.has("cycle"))
     scene.cycle = read_cycle(table.table("cycle"), model);
   read_conditions(table, duration, model);
-  number_dofs(model);  // conditions that contradict each other
+  check_loads_act(model, number_dofs(model));
   if (scene.solver.kind != SolverKind::dynamics) check_held(model, file.path.string());
   table.close();
   return scene;

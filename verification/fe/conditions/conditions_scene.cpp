@@ -178,6 +178,7 @@ void read_resultant(SceneTable& table, double duration, Model& model) {
 
 void read_pressure(SceneTable& table, double duration, Model& model) {
   Pressure pressure;
+  pressure.place = table.place();
   pressure.sides = model.mesh.side_sets[read_set(table, model.mesh.side_sets)];
   pressure.value = read_program(table, duration, Rise::none);
   pressure.follows = table.choice_or("kind", "follower", {"follower", "dead"}) == "follower";
@@ -187,6 +188,7 @@ void read_pressure(SceneTable& table, double duration, Model& model) {
 
 void read_traction(SceneTable& table, double duration, Model& model) {
   Traction traction;
+  traction.place = table.place();
   traction.sides = model.mesh.side_sets[read_set(table, model.mesh.side_sets)];
   traction.component = read_component(table);
   traction.value = read_program(table, duration, Rise::from_zero);

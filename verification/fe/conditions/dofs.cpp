@@ -183,4 +183,28 @@ Dofs number_dofs(const Model& model) {
   return dofs;
 }
 
+void check_loads_act(const Model& model, const Dofs& dofs) {
+  const Eigen::VectorXd at_rest =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(dofs.unknown.size()));
+  const auto check = [&](const Loads& one, const std::string& place) {
+    Eigen::VectorXd force = at_rest;
+    add_loads(one, 0, model.mesh, at_rest, force, nullptr);
+    constexpr double round_off = 1e-9;
+    if (dofs.reduce(force).norm() <= round_off * force.norm())
+      throw InputError(
+          place +
+          ": found displacements prescribed wherever the load acts, expected some that "
+          "it can move");
+  };
+  const Program unit = Program::linear(1, 1);
+  for (Pressure pressure : model.loads.pressures) {
+    pressure.value = unit;
+    check({{pressure}, {}}, pressure.place);
+  }
+  for (Traction traction : model.loads.tractions) {
+    traction.value = unit;
+    check({{}, {traction}}, traction.place);
+  }
+}
+
 }  // namespace verification

@@ -54,4 +54,8 @@ struct Dofs {
 // Throws InputError for conditions that contradict each other.
 Dofs number_dofs(const Model& model);
 
+// Throws InputError for a load on sides all of which are prescribed in its direction: it would do
+// nothing.
+void check_loads_act(const Model& model, const Dofs& dofs);
+
 }  // namespace verification

@@ -6,6 +6,7 @@
 
 #include <Eigen/Sparse>
 
+#include <string>
 #include <vector>
 
 namespace verification {
@@ -16,13 +17,15 @@ struct Pressure {
   std::vector<Side> sides;
   Program value;  // [Pa]
   bool follows = true;
+  std::string place = {};  // in the scene, for messages
 };
 
 // Dead load: force per reference area.
 struct Traction {
   std::vector<Side> sides;
   int component = 0;
-  Program value;  // [Pa]
+  Program value;           // [Pa]
+  std::string place = {};  // in the scene, for messages
 };
 
 struct Loads {
