@@ -80,11 +80,12 @@ Material make_material(const MaterialSource& source) {
   std::array<char, 1024> message{};
   grainlaw_material* material = nullptr;
   grainlaw_status status = GRAINLAW_OK;
-  std::string origin = named(source);
+  std::string origin;
   std::string_view found;
   if (source.changes.empty() && !source.file.empty()) {
     const std::string file = source.file.string();
     status = grainlaw_material_load(file.c_str(), &material, message.data(), message.size());
+    origin = named(source);
     found = message.data();
   } else {
     const MaterialText description = material_text(source);

@@ -57,8 +57,10 @@ struct Kind {
   void add(double steps, double cpu, double direct, double relaxed) {
     least_steps = std::fmin(least_steps, steps), most_steps = std::fmax(most_steps, steps);
     least_cpu = std::fmin(least_cpu, cpu), most_cpu = std::fmax(most_cpu, cpu);
-    if (!(direct <= distance)) distance = direct;  // NaN where there is nothing to compare
-    if (!(relaxed <= same_relaxation)) same_relaxation = relaxed;
+    // NaN, where there was nothing to compare, stays.
+    distance = std::isnan(distance) || direct <= distance ? distance : direct;
+    same_relaxation =
+        std::isnan(same_relaxation) || relaxed <= same_relaxation ? same_relaxation : relaxed;
   }
 };
 

@@ -89,7 +89,8 @@ void print_agreement(const Curves& a, const Curves& b) {
   for (int k = 1; k <= static_cast<int>(last * 10 + 0.5); ++k) {
     const double reference = b.stress_at(0.1 * k);
     const double error = std::abs(a.stress_at(0.1 * k) - reference) / reference;
-    if (!(error <= worst)) worst = error;  // a run that ended before has none
+    // NaN, of a run that ended before, stays.
+    worst = std::isnan(worst) || error <= worst ? worst : error;
   }
   fmt::print("  {:<24} against {:<24} {:.2e} [-]\n", a.name, b.name, worst);
 }
