@@ -163,7 +163,9 @@ bool solve_part(const Request& request, Workspace& w, Outcome& outcome) {
     const int factorisations = unsettled    ? unsettled_factorisations
                                : round == 0 ? effort.first_factorisations
                                             : effort.most_factorisations;
-    if (flow_newton(increment, target, factorisations, w.newton)) return true;
+    // What is fading away settles nowhere.
+    auto* const settling = may_fade(request, increment) ? nullptr : &w.relaxation;
+    if (flow_newton(increment, target, factorisations, w.newton, settling)) return true;
     const bool too_soon = round == 0 && !request.guess_loose;
     if (!too_soon && is_loose()) return outcome.loose = true;
     hand_over *= round < 2 ? tighter : much_tighter;

@@ -37,23 +37,28 @@ double largest_move(const Increment& increment, std::span<const double> step) {
 constexpr double first_shift = 1e-5;
 constexpr double least_shift = 1e-7;
 constexpr double largest_shift = 1e3;
-constexpr double acceptable = 0.9;  // of the residual after a step against before
+constexpr double acceptable = 0.9;    // of the residual after a step against before
+constexpr double good = 0.1;          // the same
+constexpr double largest_rise = 300;  // the same
 
 class FlowNewton {
  public:
-  FlowNewton(Increment& increment, NewtonMemory& memory) : increment_(increment), memory_(memory) {
+  FlowNewton(Increment& increment, double tolerance, NewtonMemory& memory,
+             RelaxationMemory* relaxation)
+      : increment_(increment), tolerance_(tolerance), memory_(memory), relaxation_(relaxation) {
     memory.step.assign(increment.unknowns(), 0.0);
     memory.coordinates.reserve(increment.coordinates.size());
+    memory.moved.reserve(increment.coordinates.size());
     memory.flow.reserve(increment.unknowns());
     memory.total.reserve(increment.unknowns());
     increment.refresh_masses();
     keep_best();
   }
 
-  bool run(double tolerance, int max_factorisations) {
+  bool run(int max_factorisations) {
     const int last = increment_.factorisations + max_factorisations;
     while (increment_.factorisations < last && std::isfinite(norm_)) {
-      if (increment_.residual_norm() < tolerance) return true;
+      if (increment_.residual_norm() < tolerance_) return true;
       const auto r = increment_.residual();
       memory_.residual.assign(r.begin(), r.end());
       if (!solve()) {
@@ -64,7 +69,7 @@ class FlowNewton {
         return false;
       }
     }
-    return increment_.residual_norm() < tolerance;
+    return increment_.residual_norm() < tolerance_;
   }
 
  private:
@@ -72,7 +77,7 @@ class FlowNewton {
 
   // For memory_.step, at the present coordinates.
   bool solve() {
-    auto& [stiffness, border, step, residual, coordinates, best, flow, total] = memory_;
+    auto& [stiffness, border, step, residual, coordinates, moved, best, flow, total] = memory_;
     stiffness.assemble(increment_, shift_);
     stiffness.factorise(increment_);
     if (Border::needed(*increment_.problem->space)) {
@@ -100,11 +105,21 @@ class FlowNewton {
     return shift_ <= largest_shift;
   }
 
+  // Whether a step that left so much of what there was before may be worth a relaxation.
+  [[nodiscard]] bool may_settle(double after, double before) const {
+    return relaxation_ != nullptr && after > good * before && after < largest_rise * before;
+  }
+
+  // Long enough for what a step leaves around single contacts.
+  void settle() {
+    constexpr long settling_steps = 60;
+    relax(increment_, tolerance_, settling_steps, History::committed, *relaxation_);
+  }
+
   // Moves of a few mean overlaps turn contacts over; what lies beyond is another packing.
   void full_step() {
     constexpr double move_limit = 3;  // mean overlaps
     constexpr int patience = 4;
-    constexpr double largest_rise = 300;
     constexpr double flow_shift = 1e-2;
     const double limit = move_limit * increment_.relative_scale() / increment_.mean_stiffness();
     increment_.move(memory_.step, std::min(1.0, limit / largest_move(increment_, memory_.step)));
@@ -112,6 +127,11 @@ class FlowNewton {
     increment_.update_forces();
     increment_.refresh_masses();
     norm_ = defect();
+    if (may_settle(norm_, best_)) {
+      settle();
+      increment_.refresh_masses();
+      norm_ = defect();
+    }
     if (norm_ < acceptable * best_) {
       keep_best();
       shift_ = shift_ / 16 < least_shift ? 0 : shift_ / 16;
@@ -138,10 +158,9 @@ class FlowNewton {
     increment_.update_forces();
   }
 
-  // An implicit Euler step of the overdamped flow, shift_ m dz = r(z + dz): corrected where contacts
-  // switch on the way, at last shortened.
+  // An implicit Euler step of the overdamped flow, shift_ m dz = r(z + dz): settled or corrected where
+  // contacts switch on the way, at last shortened.
   bool flow_step() {
-    constexpr double good = 0.1;
     constexpr double enough_gain = 0.5;
     memory_.coordinates = increment_.coordinates;
     memory_.flow = memory_.step;
@@ -158,7 +177,7 @@ class FlowNewton {
       const double error = defect_norm(increment_, memory_.step, fraction * shift_);
       // A shortened step promises only its share of the decrease.
       const bool found = error < (1 - fraction * (1 - acceptable)) * norm_;
-      if (!found && !(fraction == 1 && corrected(error))) continue;
+      if (!found && !(fraction == 1 && (settled(error) || corrected(error)))) continue;
       if (fraction == 1) shift_ /= error < good * norm_ ? 16 : 4;
       if (fraction < cap) shift_ *= 4;
       if (shift_ < least_shift) shift_ = 0;
@@ -172,6 +191,17 @@ class FlowNewton {
     }
     go_to(memory_.coordinates, deformation);
     return raise_shift();
+  }
+
+  // Whether a relaxation from where the step went leaves less than there was; else it is taken back.
+  bool settled(double error) {
+    if (!may_settle(error, norm_)) return false;
+    memory_.moved = increment_.coordinates;
+    const auto deformation = increment_.deformation;
+    settle();
+    if (defect() < acceptable * norm_) return true;
+    go_to(memory_.moved, deformation);
+    return false;
   }
 
   // Newton on the equation of a whole implicit step, from where the first iteration of it went.
@@ -195,7 +225,9 @@ class FlowNewton {
   }
 
   Increment& increment_;
+  double tolerance_;
   NewtonMemory& memory_;
+  RelaxationMemory* relaxation_;  // null: none
   double shift_ = first_shift;
   double norm_ = 0;  // of the residual at the present coordinates
   double best_ = 0;  // the least so far, at memory.best
@@ -207,8 +239,8 @@ class FlowNewton {
 }  // namespace
 
 bool flow_newton(Increment& increment, double tolerance, int max_factorisations,
-                 NewtonMemory& memory) {
-  return FlowNewton(increment, memory).run(tolerance, max_factorisations);
+                 NewtonMemory& memory, RelaxationMemory* relaxation) {
+  return FlowNewton(increment, tolerance, memory, relaxation).run(max_factorisations);
 }
 
 }  // namespace grainlaw

@@ -4,6 +4,7 @@
 
 #include "equilibrium/border.hpp"
 #include "equilibrium/increment.hpp"
+#include "equilibrium/relaxation.hpp"
 #include "equilibrium/stiffness.hpp"
 
 #include <vector>
@@ -13,17 +14,19 @@ namespace grainlaw {
 struct NewtonMemory {
   Stiffness stiffness;
   Border border;
-  std::vector<double> step, residual, coordinates, best, flow, total;
+  std::vector<double> step, residual, coordinates, moved, best, flow, total;
 };
 
 // Solve (K + s M) dz = r with the exact, non-symmetric K until residual_norm() < tolerance.
-// Full steps may pass through states of larger residual, since K is known only on this side of a
-// kink; when a few in a row gain nothing, they are taken back and the flow leads on until it gains.
-// The flow's s falls while the linear model is good and rises when it is not, and a step on which
-// contacts switch is corrected by Newton on its own equation; with s > 0 it is stable exactly where
-// the equilibrium is, flutter included. False after max_factorisations, or a few more to end a step,
-// or when the residual is no longer finite.
+// A step on which contacts switch leaves forces out of balance around them: with memory for a short
+// relaxation, that settles what the step did not foresee, and may end it all.
+// Full steps may pass through states of larger residual all the same; when a few in a row gain
+// nothing, they are taken back and the flow leads on until it gains.
+// The flow's s falls while the linear model is good and rises when it is not, and a step that no
+// relaxation settles is corrected by Newton on its own equation; with s > 0 it is stable exactly
+// where the equilibrium is, flutter included. False after max_factorisations, or a few more to end a
+// step, or when the residual is no longer finite.
 bool flow_newton(Increment& increment, double tolerance, int max_factorisations,
-                 NewtonMemory& memory);
+                 NewtonMemory& memory, RelaxationMemory* relaxation = nullptr);
 
 }  // namespace grainlaw

@@ -6,15 +6,20 @@
 namespace verification {
 
 // Thirty discs: tenths of a millisecond a point and step.
-inline const std::string small_packing = R"(
+inline std::string small_packing_of_seed(int seed) {
+  return R"(
 [material]
 dimension = 2
 thickness = 0.1
-packing = { generator = "compaction", count = 30, radii = [4e-3, 9e-3], seed = 3, pressure = 1e5, friction = 0.3 }
+packing = { generator = "compaction", count = 30, radii = [4e-3, 9e-3], seed = )" +
+         std::to_string(seed) + R"(, pressure = 1e5, friction = 0.3 }
 contact = { law = "frictional", young = 6e8, ratio = 0.8, friction = 0.5 }
 boundary = { type = "periodic-cell" }
 solver = { start = "trial", contacts_lost = "stress_free" }
 )";
+}
+
+inline const std::string small_packing = small_packing_of_seed(3);
 
 // One element wide and two high, 0.5 m x 1 m.
 inline const std::string narrow_mesh = R"(

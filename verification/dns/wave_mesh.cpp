@@ -40,6 +40,11 @@ class MeshGauges {
         throw InputError(
             fmt::format("{}: sections: found {} m, expected at most the length of {} m", one.name,
                         distance, domain.length));
+    for (const auto& [from, to] : one.windows)
+      if (to > domain.length)
+        throw InputError(
+            fmt::format("{}: window.to: found {} m, expected at most the length of {} m", one.name,
+                        to, domain.length));
   }
 
   void read(const Solver& solver, WaveRow& row) const {

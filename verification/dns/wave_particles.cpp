@@ -52,6 +52,10 @@ class Gauges {
                         one.name, distance, specimen.length));
     }
     for (const auto& [from, to] : one.windows) {
+      if (to > specimen.length)
+        throw InputError(
+            fmt::format("{}: window.to: found {} m, expected at most the length of {:.4g} m",
+                        one.name, to, specimen.length));
       std::vector<std::size_t> top;
       for (const std::size_t p : particles_in(specimen, from, to))
         if ((specimen.side[p] & 2) != 0) top.push_back(p);
