@@ -143,6 +143,7 @@ TEST(wave, a_wrong_scene_is_told) {
   refuses(string_scene(string_bonds, right + "mesh = { divisions = [2.5], time_step = 1e-6 }\n"),
           "divisions");
   refuses(string_scene(string_bonds, right + "[[window]]\nfrom = 1e-3\nto = 0.5e-3\n"), "window");
+  refuses(string_scene(string_bonds, right + "[[window]]\nfrom = 1e-3\nto = 1\n"), "window.to");
   refuses(string_scene("contact.kn = -1", right), "kn");
 }
 
