@@ -37,9 +37,10 @@ double largest_move(const Increment& increment, std::span<const double> step) {
 constexpr double first_shift = 1e-5;
 constexpr double least_shift = 1e-7;
 constexpr double largest_shift = 1e3;
-constexpr double acceptable = 0.9;    // of the residual after a step against before
-constexpr double good = 0.1;          // the same
-constexpr double largest_rise = 300;  // the same
+// Of the residual after a step against before.
+constexpr double good = 0.1;
+constexpr double acceptable = 0.9;
+constexpr double largest_rise = 300;
 
 class FlowNewton {
  public:
