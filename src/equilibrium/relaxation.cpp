@@ -85,6 +85,11 @@ Relaxation::Relaxation(Increment& increment, History history, RelaxationMemory& 
       history == History::committed && increment.problem->space->identity && law.plain();
   by_sides_ = direct && law.tangential();
   at_once_ = direct && !law.tangential();
+  leaps_ = history == History::committed && increment.problem->space->identity;
+  if (leaps_) {
+    memory.slow.reserve(increment.particles());
+    memory.slow.forget();
+  }
   if (by_sides_) return;
   for (auto* column : {&memory.velocity, &memory.gain}) {
     column->assign(width * increment.forces.size(), 0.0);
@@ -98,8 +103,9 @@ void Relaxation::refresh() {
   if (by_sides_) {
     if (relisted || !arranged_) {
       memory_.sides.arrange(increment_.contacts, *increment_.problem->packing,
-                            increment_.least_masses(), steps_ == 0);
+                            increment_.least_masses(), at_rest_);
       arranged_ = true;
+      at_rest_ = false;
     }
     return look();
   }
@@ -149,6 +155,41 @@ void Relaxation::review_floor() {
     floor_ = flutter ? std::min(2 * floor_, largest_floor) : 0.5 * floor_;
   }
   window_start_ = window_max_ = window_min_ = residual_;
+}
+
+// Where soft modes creep under the damping that flutter asks for, on with them at once; whether it
+// did. Less often every time: what a leap disturbs needs the relaxation.
+bool Relaxation::leap() {
+  constexpr long leap_interval = 30;  // from look to look [steps]
+  static_assert(leap_interval % mass_interval == 0);
+  constexpr double leap_residual = 2e-3;    // below it the contacts switch seldom
+  constexpr double restless = 6;            // largest / smallest residual since the last look
+  constexpr double longest_leap = 0.3;      // mean overlaps
+  constexpr double least_stiffness = 1e-6;  // of the mean one
+  constexpr double longer_pause = 1.5;
+  if (steps_ % leap_interval != 0) return false;
+  const bool creeps = residual_ < leap_residual && look_max_ < restless * look_min_;
+  look_max_ = look_min_ = residual_;
+  if (!creeps || steps_ < next_leap_) {
+    memory_.slow.forget();
+    return false;
+  }
+  increment_.update_forces();
+  memory_.slow.see(increment_.records, increment_.forces, residual_);
+  if (!memory_.slow.slow()) return false;
+  const double stiffness = increment_.mean_stiffness();
+  const double limit = longest_leap * increment_.relative_scale() / stiffness;
+  const bool leapt = memory_.slow.leap(increment_.records, limit, least_stiffness * stiffness);
+  memory_.slow.forget();
+  if (!leapt) return false;
+  pause_ = longer_pause * pause_ + leap_interval;
+  next_leap_ = steps_ + std::lround(pause_);
+  increment_.store_records();
+  std::fill(memory_.velocity.begin(), memory_.velocity.end(), 0.0);
+  arranged_ = false;
+  at_rest_ = true;
+  power_ = frequency_ = 0;
+  return true;
 }
 
 // With the damping that the last step measured.
@@ -212,6 +253,7 @@ bool Relaxation::run(double tolerance, long steps, double least_force) {
       if (by_sides_) memory_.sides.move(increment_.records);
       increment_.store_records();
       refresh();
+      if (leaps_ && !over && leap()) refresh();
     }
     update();
     if (over) {
@@ -219,6 +261,8 @@ bool Relaxation::run(double tolerance, long steps, double least_force) {
       if (increment_.residual_norm() < tolerance) return true;
       if (stop) return false;
     }
+    look_max_ = std::max(look_max_, residual_);
+    look_min_ = std::min(look_min_, residual_);
     window_max_ = std::max(window_max_, residual_);
     window_min_ = std::min(window_min_, residual_);
     if (steps_ % window == 0) review_floor();

@@ -4,6 +4,7 @@
 
 #include "contact/contact_sides.hpp"
 #include "equilibrium/increment.hpp"
+#include "equilibrium/slow_modes.hpp"
 
 #include <array>
 #include <limits>
@@ -18,6 +19,7 @@ enum class History { committed, advancing };
 struct RelaxationMemory {
   std::vector<double> velocity, gain, mass, correction;
   ContactSides sides;
+  SlowModes slow;
   // Of the servo: what the relaxations do not move, forces before reduction, areas and particles of
   // nodes under uniform stress.
   std::vector<unsigned char> frozen;
@@ -27,7 +29,7 @@ struct RelaxationMemory {
 };
 
 // Viscous relaxation: the damping follows the lowest active frequency, and its floor adapts to
-// flutter.
+// flutter. Where soft modes creep under it, the relaxation leaps along them.
 class Relaxation {
  public:
   // At rest at the present coordinates.
@@ -44,6 +46,7 @@ class Relaxation {
   ContactSides::Measured step_nodes(double keep, double gain);
   void update();
   void review_floor();
+  bool leap();
   void step();
   void step_deformation();
 
@@ -53,12 +56,18 @@ class Relaxation {
   bool by_sides_ = false;  // forces and steps by ContactSides
   bool at_once_ = false;   // nothing comes between the sums of forces and the step
   bool arranged_ = false;  // of the contacts listed at present
+  bool at_rest_ = true;    // no velocities to keep
+  bool leaps_ = false;     // along slow modes: forces are a function of where the nodes are
   double residual_ = 0;    // before the last step [-]; infinite: no contact, or not a finite number
   double power_ = 0;       // sum of the last step's velocity times the residual before it
   double frequency_ = 0;   // sqrt of the Rayleigh quotient of the velocity [1 / step]
   static constexpr double first_floor = 0.1;
   double floor_ = first_floor;  // of the damping
   long steps_ = 0;
+  static constexpr long first_leap = 200;
+  long next_leap_ = first_leap;  // not before this step
+  double pause_ = 0;             // after the last leap [steps]
+  double look_max_ = 0, look_min_ = std::numeric_limits<double>::infinity();  // residual since then
   double window_start_ = std::numeric_limits<double>::infinity();
   double window_max_ = 0, window_min_ = std::numeric_limits<double>::infinity();
 };

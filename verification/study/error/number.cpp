@@ -21,7 +21,7 @@ struct Count {
   int particles, packings;
 };
 constexpr std::array<Count, 7> counts{
-    {{100, 16}, {225, 16}, {400, 16}, {900, 8}, {1600, 8}, {3600, 4}, {6400, 2}}};
+    {{100, 16}, {225, 16}, {400, 16}, {900, 8}, {1600, 8}, {3600, 8}, {6400, 8}}};
 
 // The packing of pack400.toml with this many particles, made once and kept in the output directory.
 Material packing_of(const StudyOptions& options, int count, int seed) {
