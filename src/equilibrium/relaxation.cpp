@@ -85,7 +85,8 @@ Relaxation::Relaxation(Increment& increment, History history, RelaxationMemory& 
       history == History::committed && increment.problem->space->identity && law.plain();
   by_sides_ = direct && law.tangential();
   at_once_ = direct && !law.tangential();
-  leaps_ = history == History::committed && increment.problem->space->identity;
+  // Without friction nothing flutters, and the damping is that of the softest mode.
+  leaps_ = history == History::committed && increment.problem->space->identity && law.tangential();
   if (leaps_) {
     memory.slow.reserve(increment.particles());
     memory.slow.forget();

@@ -57,7 +57,7 @@ class Relaxation {
   bool at_once_ = false;   // nothing comes between the sums of forces and the step
   bool arranged_ = false;  // of the contacts listed at present
   bool at_rest_ = true;    // no velocities to keep
-  bool leaps_ = false;     // along slow modes: forces are a function of where the nodes are
+  bool leaps_ = false;     // along slow modes: with friction, forces a function of the places
   double residual_ = 0;    // before the last step [-]; infinite: no contact, or not a finite number
   double power_ = 0;       // sum of the last step's velocity times the residual before it
   double frequency_ = 0;   // sqrt of the Rayleigh quotient of the velocity [1 / step]
