@@ -154,7 +154,10 @@ bool solve_part(const Request& request, Workspace& w, Outcome& outcome) {
     last = whole && round >= enough_rounds && hand_over <= target;
     const double tolerance = std::max(hand_over, target);
     const long limit = (round < 5 ? 1 : 2) * steps;
-    const bool relaxed = relax(increment, tolerance, limit, History::committed, w.relaxation);
+    // From the last iterate of a step the next is found on the same branch.
+    const bool may_leap = request.guess == nullptr;
+    const bool relaxed =
+        relax(increment, tolerance, limit, History::committed, w.relaxation, 0, may_leap);
     if (increment.touching == 0 || increment.collapsed()) return is_free(request, increment);
     if (relaxed && tolerance == target) return true;
     const auto is_loose = [&] { return increment.residual_norm() < request.loose_tolerance; };

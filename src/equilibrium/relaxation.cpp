@@ -78,7 +78,8 @@ GRAINLAW_CLONES void find_gains(const double* mass, double* gain, std::size_t do
 
 }  // namespace
 
-Relaxation::Relaxation(Increment& increment, History history, RelaxationMemory& memory)
+Relaxation::Relaxation(Increment& increment, History history, RelaxationMemory& memory,
+                       bool may_leap)
     : increment_(increment), history_(history), memory_(memory) {
   const auto& law = *increment.problem->law;
   const bool direct =
@@ -86,7 +87,8 @@ Relaxation::Relaxation(Increment& increment, History history, RelaxationMemory& 
   by_sides_ = direct && law.tangential();
   at_once_ = direct && !law.tangential();
   // Without friction nothing flutters, and the damping is that of the softest mode.
-  leaps_ = history == History::committed && increment.problem->space->identity && law.tangential();
+  leaps_ = may_leap && history == History::committed && increment.problem->space->identity &&
+           law.tangential();
   if (leaps_) {
     memory.slow.reserve(increment.particles());
     memory.slow.forget();
@@ -271,8 +273,8 @@ bool Relaxation::run(double tolerance, long steps, double least_force) {
 }
 
 bool relax(Increment& increment, double tolerance, long max_steps, History history,
-           RelaxationMemory& memory, double least_force) {
-  return Relaxation(increment, history, memory).run(tolerance, max_steps, least_force);
+           RelaxationMemory& memory, double least_force, bool may_leap) {
+  return Relaxation(increment, history, memory, may_leap).run(tolerance, max_steps, least_force);
 }
 
 }  // namespace grainlaw

@@ -32,8 +32,8 @@ struct RelaxationMemory {
 // flutter. Where soft modes creep under it, the relaxation leaps along them.
 class Relaxation {
  public:
-  // At rest at the present coordinates.
-  Relaxation(Increment& increment, History history, RelaxationMemory& memory);
+  // At rest at the present coordinates. A leap may end on another branch of equilibria.
+  Relaxation(Increment& increment, History history, RelaxationMemory& memory, bool may_leap = true);
 
   // Go on until residual_norm() < tolerance, at most `steps` further steps. Returns whether it got
   // there. Ends too when no more than `least_force` is left of the mean contact force [N]. The
@@ -76,7 +76,7 @@ struct PublishedOptions;
 
 // A Relaxation from rest, run once.
 bool relax(Increment& increment, double tolerance, long max_steps, History history,
-           RelaxationMemory& memory, double least_force = 0);
+           RelaxationMemory& memory, double least_force = 0, bool may_leap = true);
 
 // The papers' dynamic relaxation: physical masses, local damping -alpha |f| sign(v) (Liu, Bosco &
 // Suiker 2017 eq. 10), explicit steps, history advanced at every step. Ends at the residual
