@@ -82,13 +82,11 @@ Relaxation::Relaxation(Increment& increment, History history, RelaxationMemory& 
                        bool may_leap)
     : increment_(increment), history_(history), memory_(memory) {
   const auto& law = *increment.problem->law;
-  const bool direct =
-      history == History::committed && increment.problem->space->identity && law.plain();
-  by_sides_ = direct && law.tangential();
-  at_once_ = direct && !law.tangential();
+  const bool by_places = history == History::committed && increment.problem->space->identity;
+  by_sides_ = by_places && law.plain() && law.tangential();
+  at_once_ = by_places && law.plain() && !law.tangential();
   // Without friction nothing flutters, and the damping is that of the softest mode.
-  leaps_ = may_leap && history == History::committed && increment.problem->space->identity &&
-           law.tangential();
+  leaps_ = may_leap && by_places && law.tangential();
   if (leaps_) {
     memory.slow.reserve(increment.particles());
     memory.slow.forget();

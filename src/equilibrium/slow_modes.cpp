@@ -3,7 +3,8 @@
 #include "room.hpp"
 #include "simd.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>

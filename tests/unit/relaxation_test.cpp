@@ -210,6 +210,29 @@ TEST(relaxation, energy_balances_over_a_cycle_to_first_order_of_the_increment) {
   EXPECT_LT(fine, 0.6 * medium);
 }
 
+// Of forty increments of shear, each from the equilibrium of the last.
+long steps_of_shear(bool may_leap) {
+  State state(
+      make_material(describe(reference_packing(), rough_law(), BoundaryType::periodic_cell)));
+  RelaxationMemory memory;
+  long steps = 0;
+  for (int k = 1; k <= 40; ++k) {
+    const Tensor F{1, 2e-4 * k, 0, 1};
+    const Problem problem = state.material().problem();
+    Increment increment;
+    increment.begin(problem, state.committed(), F);
+    increment.refresh_masses();
+    EXPECT_TRUE(relax(increment, 1e-9, step_limit, History::committed, memory, 0, may_leap)) << k;
+    steps += increment.relaxation_steps;
+    advance(state, F);
+  }
+  return steps;
+}
+
+TEST(relaxation, leaps_along_slow_modes_spare_steps) {
+  EXPECT_LT(steps_of_shear(true), 0.95 * static_cast<double>(steps_of_shear(false)));
+}
+
 TEST(relaxation, sliding_contacts_are_those_at_the_friction_limit) {
   for (const auto method : {Method::chain, Method::advancing}) {
     MaterialDescription description = describe(reference_packing(), rough_law());
