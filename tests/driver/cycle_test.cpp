@@ -66,6 +66,15 @@ TEST_F(cycle, displacement_turns_at_its_limit_and_ends_at_zero) {
   EXPECT_EQ(rows.size(), 1 + 4 + 7 + 7 + 7 + 4);
 }
 
+TEST_F(cycle, steps_that_miss_the_limit_by_rounding_leave_no_empty_one) {
+  ASSERT_LT(2.7e-5 + 2.7e-5 + 2.7e-5, 8.1e-5);
+  Test test("step = 2.7e-5\nlimit_displacement = 8.1e-5\ncycles = 1\n");
+  const auto rows = test.run();
+  EXPECT_DOUBLE_EQ(largest(rows, 0, 1), 8.1e-5);
+  EXPECT_NEAR(rows.back()[0], 0, 1e-15);
+  EXPECT_EQ(rows.size(), 1 + 3 + 6 + 3);
+}
+
 TEST_F(cycle, force_turns_at_its_limit_within_the_tolerance) {
   Test test("step = 3e-5\nlimit_force = 5e3\ntolerance = 0.002\ncycles = 2\n");
   const auto rows = test.run();

@@ -168,6 +168,28 @@ TEST_F(dns, flexible_sides_carry_the_stress_and_the_work_is_accounted_for) {
   EXPECT_NEAR(kept, work, 0.05 * std::abs(work));
 }
 
+TEST_F(dns, sides_replace_the_boundary_of_a_material_file_whatever_it_is) {
+  std::string file = material.substr(material.find('\n', material.find("[material]")) + 1);
+  std::ofstream(directory_ / "plates.toml") << file << R"(
+boundary.type = "mixed"
+boundary.left = { x = "P", y = "P" }
+boundary.right = { x = "P", y = "P" }
+boundary.bottom = { x = "D", y = "D" }
+boundary.top = { x = "D", y = "D" }
+)";
+  const SpecimenScene with_file =
+      scenes("repeat = [1, 1]\nmaterial = 'plates.toml'\n" + biaxial).front();
+  Specimen of_file(with_file, directory_ / "file");
+  Specimen of_scene(scene("repeat = [1, 1]\n" + biaxial), directory_ / "scene");
+  std::vector<Tensor> stress;
+  for (Specimen* specimen : {&of_file, &of_scene})
+    specimen->run([&](const grainlaw_state*, const Record& record) {
+      if (record.step == 4) stress.push_back(record.stress);
+    });
+  ASSERT_EQ(stress.size(), 2U);
+  EXPECT_EQ(stress[0], stress[1]);
+}
+
 TEST_F(dns, bad_scenes_are_refused_with_what_was_expected) {
   const std::string one = "repeat = [1, 1]\n";
   expect_refusal("repeat = [0, 1]\n" + biaxial + material, {"repeat", "an integer from 1 to 100"});
@@ -188,6 +210,12 @@ TEST_F(dns, bad_scenes_are_refused_with_what_was_expected) {
   expect_refusal("seeds = 2\n" + biaxial + material, {"seeds", "one of a [[case]]"});
   expect_refusal(one + "material = 'none.toml'\n[[segment]]\nsteps = 1\n",
                  {"material", "none.toml", "a file that is there"});
+}
+
+TEST_F(dns, a_wrong_material_file_is_named) {
+  std::ofstream(directory_ / "wrong.toml") << "dimension = 'two'\n";
+  expect_refusal("repeat = [1, 1]\nmaterial = 'wrong.toml'\n" + biaxial,
+                 {"scene.toml", "wrong.toml", "dimension"});
 }
 
 TEST_F(dns, sides_the_library_does_not_know_are_refused) {

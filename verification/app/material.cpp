@@ -63,11 +63,20 @@ MaterialSource read_material_source(SceneTable& scene) {
   return source;
 }
 
+MaterialSource unfold(const MaterialSource& source) {
+  MaterialSource result = source;
+  if (source.file.empty() || source.unfolded) return result;
+  result.changes = SceneFile(source.file).content;
+  merge(result.changes, source.changes);
+  result.unfolded = true;
+  return result;
+}
+
 MaterialText material_text(const MaterialSource& source) {
   toml::table description;
   std::string origin = named(source);
   if (!source.file.empty()) {
-    description = SceneFile(source.file).content;
+    if (!source.unfolded) description = SceneFile(source.file).content;
     if (!source.changes.empty()) origin += ", as changed";
   }
   merge(description, source.changes);

@@ -15,7 +15,11 @@ struct MaterialSource {
   std::filesystem::path file;   // "" : no file
   std::filesystem::path base;   // where relative paths of the description start
   toml::table changes;
+  bool unfolded = false;  // the changes have all that the file says
 };
+
+// The same with what its file says among the changes, where whole tables of it can be replaced.
+MaterialSource unfold(const MaterialSource& source);
 
 // Lays `changes` over `target`; tables are merged, everything else is replaced.
 void merge(toml::table& target, const toml::table& changes);

@@ -3,10 +3,7 @@
 namespace verification {
 
 MaterialSource with_packing(const MaterialSource& source, const std::filesystem::path& prefix) {
-  MaterialSource result;
-  result.base = source.base;
-  if (!source.file.empty()) result.changes = SceneFile(source.file).content;
-  merge(result.changes, source.changes);
+  MaterialSource result = unfold(source);
   const std::string stem = std::filesystem::absolute(prefix).string();
   result.changes.insert_or_assign("packing", toml::table{{"particles", stem + "_particles.csv"},
                                                          {"contacts", stem + "_contacts.csv"},

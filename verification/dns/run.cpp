@@ -34,11 +34,12 @@ SpecimenEnd run_specimen(const SpecimenScene& scene, const std::filesystem::path
   Progress progress(scene.name);
   std::optional<Record> start;
   std::vector<SnapshotPanel> panels;
-  int steps = 0;
+  int steps = 0, done = 0;
   for (const SpecimenSegment& segment : scene.segments) steps += segment.steps;
   const std::string prefix = stem.string() + "_state";
   const auto observe = [&](const grainlaw_state* state, const Record& record) {
     if (!start) start = record;
+    done = record.step;
     history.add(record);
     if (scene.vtk_every > 0 && record.step % scene.vtk_every == 0)
       write_vtk(state, stem, record.step);
@@ -51,7 +52,11 @@ SpecimenEnd run_specimen(const SpecimenScene& scene, const std::filesystem::path
                     fmt::format("axial strain {:.2f} %, sigma22 {:.1f} kPa", 100 * strain,
                                 record.cauchy(1, 1) / 1e3));
   };
-  const SpecimenEnd end = specimen.run(observe);
+  const auto observe_cut = [&](double part, const std::string& reason) {
+    progress.update(static_cast<double>(done) / steps,
+                    fmt::format("step {} in parts of {:.1e} of it: {}", done + 1, part, reason));
+  };
+  const SpecimenEnd end = specimen.run(observe, observe_cut);
   write_cost(end, stem.string() + "_cost.csv");
   history.draw_figure(axial_abscissa, scene.name);
   if (!panels.empty())

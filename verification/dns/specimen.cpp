@@ -46,7 +46,7 @@ Tensor piola_of(const grainlaw_state* state, const Tensor& deformation) {
 }  // namespace
 
 Specimen::Specimen(const SpecimenScene& scene, const std::filesystem::path& stem) : scene_(scene) {
-  MaterialSource frame = scene.material;
+  MaterialSource frame = unfold(scene.material);
   frame.changes.insert_or_assign("boundary", toml::table{{"type", "frame-p"}});
   const std::string prefix = stem.string() + "_specimen";
   {
@@ -102,7 +102,7 @@ void Specimen::bring_to_start() {
   }
 }
 
-SpecimenEnd Specimen::run(const Observer& observe) {
+SpecimenEnd Specimen::run(const Observer& observe, const CutObserver& observe_cut) {
   const auto clock = std::chrono::steady_clock::now();
   double cpu = cpu_seconds();
   for (const SpecimenSegment& segment : scene_.segments) end_.steps_wanted += segment.steps;
@@ -122,17 +122,17 @@ SpecimenEnd Specimen::run(const Observer& observe) {
     for (const SpecimenSegment& segment : scene_.segments) {
       const Tensor F = deformation_, P = evaluation_.stress;
       for (int k = 1; k <= segment.steps; ++k) {
-        std::string reason;
         const int number = record_.step + 1;
         record_.effort = {};
-        const bool reached = step(segment, F, P, static_cast<double>(k - 1) / segment.steps,
-                                  static_cast<double>(k) / segment.steps, reason);
-        end_.effort.add(record_.effort);
-        if (!reached) {
-          end_.text =
-              fmt::format("step {} failed (F22 = {:.6f}): {}", number, deformation_(1, 1), reason);
+        try {
+          step(segment, F, P, static_cast<double>(k - 1) / segment.steps,
+               static_cast<double>(k) / segment.steps, number, observe_cut);
+        } catch (const StepError& error) {
+          end_.text = error.what();
+          end_.effort.add(record_.effort);
           return;
         }
+        end_.effort.add(record_.effort);
         record_.step = end_.steps = number;
         show();
       }
@@ -163,31 +163,24 @@ Specimen::Goal Specimen::goal_at(const SpecimenSegment& segment, const Tensor& d
   return goal;
 }
 
-bool Specimen::step(const SpecimenSegment& segment, const Tensor& deformation, const Tensor& stress,
-                    double from, double to, std::string& reason) {
-  constexpr double smallest_cut = 0.1;  // in one go
-  constexpr double usual_cut = 0.5;
-  const double smallest = std::ldexp(to - from, -scene_.max_cuts);
-  double done = from, part = to - from;
-  while (done < to) {
-    const double next = done + part > to - 1e-9 * (to - from) ? to : done + part;
+void Specimen::step(const SpecimenSegment& segment, const Tensor& deformation, const Tensor& stress,
+                    double from, double to, int number, const CutObserver& observe_cut) {
+  const auto attempt = [&](double next, bool) {
     const Goal goal = goal_at(segment, deformation, stress, next);
     prescribe(goal.stress);
     const Evaluation evaluation = evaluate(state_.get(), goal.deformation, 0);
     record_.effort.add(evaluation.report);
-    if (evaluation.status == GRAINLAW_OK) {
-      record_.effort.history_advanced += evaluation.report.history_advanced;
-      accept(evaluation);
-      part = std::min(to - next, 2 * (next - done));
-      done = next;
-      continue;
+    if (evaluation.status != GRAINLAW_OK) {
+      ++record_.effort.cuts;
+      return Attempt{false, false, evaluation.report.step_ratio,
+                     grainlaw_status_text(evaluation.status), evaluation.status};
     }
-    ++record_.effort.cuts;
-    reason = grainlaw_status_text(evaluation.status);
-    part = (next - done) * std::clamp(evaluation.report.step_ratio, smallest_cut, usual_cut);
-    if (part < smallest) return false;
-  }
-  return true;
+    record_.effort.history_advanced += evaluation.report.history_advanced;
+    accept(evaluation);
+    return Attempt{.converged = true};
+  };
+  solve_in_parts(from, to, fmt::format("step {} (from F22 = {:.6f})", number, deformation_(1, 1)),
+                 scene_.max_cuts, false, attempt, observe_cut);
 }
 
 void Specimen::accept(const Evaluation& evaluation) {

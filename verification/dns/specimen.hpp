@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/library.hpp"
+#include "app/parts.hpp"
 #include "app/record.hpp"
 #include "dns/scene.hpp"
 
@@ -37,7 +38,7 @@ class Specimen {
   Specimen(const SpecimenScene& scene, const std::filesystem::path& stem);
 
   // All segments. A path that ends early is told in the result. Throws InputError.
-  SpecimenEnd run(const Observer& observe);
+  SpecimenEnd run(const Observer& observe, const CutObserver& observe_cut = {});
 
  private:
   using Stresses = std::array<std::optional<double>, 4>;  // P that is prescribed [Pa]
@@ -50,8 +51,8 @@ class Specimen {
   void bring_to_start();
   [[nodiscard]] Goal goal_at(const SpecimenSegment& segment, const Tensor& deformation,
                              const Tensor& stress, double fraction) const;
-  bool step(const SpecimenSegment& segment, const Tensor& deformation, const Tensor& stress,
-            double from, double to, std::string& reason);
+  void step(const SpecimenSegment& segment, const Tensor& deformation, const Tensor& stress,
+            double from, double to, int number, const CutObserver& observe_cut);
   void accept(const Evaluation& evaluation);
 
   SpecimenScene scene_;

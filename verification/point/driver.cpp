@@ -9,8 +9,6 @@
 namespace verification {
 namespace {
 
-constexpr double smallest_cut = 0.1;  // of a step in one go
-constexpr double usual_cut = 0.5;
 // An attempt ends when this many iterations in a row have not halved the residual: P(F) has jumps
 // after the peak, where contacts collapse, and Newton then goes to and fro across one. A smaller
 // step, or another one, usually passes beside it.
@@ -60,11 +58,11 @@ struct PointDriver::Goal {
   }
 };
 
-struct PointDriver::Attempt {
+struct PointDriver::Iterate {
   bool converged = false;
   Tensor deformation = Tensor::Identity();
   Evaluation evaluation;
-  double step_ratio = usual_cut;
+  double step_ratio = Attempt{}.ratio;
   std::string reason;
 };
 
@@ -100,8 +98,8 @@ PointDriver::Goal PointDriver::goal_at(const Segment& segment, const Vector4& st
 // prescribed increment over to the unknowns by the tangent of the last step. An exact tangent is
 // renewed at every iterate; any other serves as the start of Broyden's updates, which need no more
 // than a fair matrix.
-PointDriver::Attempt PointDriver::attempt(const Goal& goal, double tolerance, Effort& effort) {
-  Attempt result;
+PointDriver::Iterate PointDriver::iterate(const Goal& goal, double tolerance, Effort& effort) {
+  Iterate result;
   const unsigned want = goal.mixed ? options_.tangent : 0;
   const Controlled before = controlled(goal.control, deformation_, evaluation_);
   Tangent matrix = before.derivative;  // rows of prescribed components of F are rows of I
@@ -164,65 +162,54 @@ void PointDriver::renew_tangent() {
   has_tangent_ = true;
 }
 
-void PointDriver::accept(const Attempt& attempt, bool has_tangent) {
-  const Tensor change = attempt.deformation - deformation_;
+void PointDriver::accept(const Iterate& iterate, bool has_tangent) {
+  const Tensor change = iterate.deformation - deformation_;
   work_ +=
-      0.5 * volume_ * (evaluation_.stress + attempt.evaluation.stress).cwiseProduct(change).sum();
-  deformation_ = attempt.deformation;
-  evaluation_ = attempt.evaluation;
+      0.5 * volume_ * (evaluation_.stress + iterate.evaluation.stress).cwiseProduct(change).sum();
+  deformation_ = iterate.deformation;
+  evaluation_ = iterate.evaluation;
   has_tangent_ = has_tangent;
 }
 
-void PointDriver::run(const Segment& segment, const PointObserver& observe) {
+void PointDriver::run(const Segment& segment, const PointObserver& observe,
+                      const CutObserver& observe_cut) {
   std::array<Control, 4> control{};
   for (std::size_t k = 0; k < 4; ++k) control[k] = segment.target[k].control;
   const Vector4 start = controlled(control, deformation_, evaluation_).value;
-  const double smallest = std::ldexp(1.0, -options_.max_cuts);
   if (goal_at(segment, start, 0).mixed && !has_tangent_) renew_tangent();
   for (int step = 1; step <= segment.steps; ++step) {
     if (options_.max_steps > 0 && record_.step >= options_.max_steps) return;
+    const int number = record_.step + 1;
     Effort effort;
-    double done = 0;  // of this step
-    double part = 1;
-    bool loose = false;
-    while (done < 1) {
-      const double next = done + part > 1 - 1e-12 ? 1 : done + part;
-      const double fraction = (step - 1 + next) / segment.steps;
+    double fraction = 0;
+    Tensor committed;
+    const auto attempt = [&](double next, bool loose) {
+      fraction = (step - 1 + next) / segment.steps;
       const Goal goal = goal_at(segment, start, fraction);
-      const Attempt result =
-          attempt(goal, loose ? options_.loose_tolerance : options_.tolerance, effort);
-      if (!result.converged) {
+      const Iterate last =
+          iterate(goal, loose ? options_.loose_tolerance : options_.tolerance, effort);
+      if (last.converged) {
+        committed = deformation_;
+        accept(last, goal.mixed);
+        effort.history_advanced += last.evaluation.report.history_advanced;
+        if (next < 1) check(grainlaw_commit(state_.get()), "committing a part of a step");
+      } else {
         check(grainlaw_revert(state_.get()), "dropping a trial");
-        part = (next - done) * std::clamp(result.step_ratio, smallest_cut, usual_cut);
-        ++effort.cuts;
-        if (part >= smallest) continue;
-        if (loose || options_.loose_tolerance == 0)
-          throw StepError(
-              result.evaluation.status,
-              fmt::format("step {} (F22 = {:.6f}, F12 = {:.6f}) failed at 1/{:.0f} of its size: {}",
-                          record_.step + 1, deformation_(1, 1), deformation_(0, 1), 1 / smallest,
-                          result.reason));
-        loose = true;
-        ++effort.loose;
-        part = 1 - done;
-        continue;
       }
-      const Tensor committed = deformation_;
-      accept(result, goal.mixed);
-      effort.history_advanced += result.evaluation.report.history_advanced;
-      if (next == 1.0) {
-        const int number = record_.step + 1;
-        record_ = make_record(state_.get(), deformation_, evaluation_.stress, evaluation_.report);
-        record_.step = number;
-        record_.external_work = work_;
-        record_.effort = effort;
-        if (observe) observe({state_.get(), committed, evaluation_, record_, fraction});
-      }
-      check(grainlaw_commit(state_.get()), "committing a step");
-      loose = false;
-      part = std::min(1 - next, 2 * (next - done));
-      done = next;
-    }
+      return Attempt{last.converged, false, last.step_ratio, last.reason, last.evaluation.status};
+    };
+    const std::string name = fmt::format("step {} (from F22 = {:.6f}, F12 = {:.6f})", number,
+                                         deformation_(1, 1), deformation_(0, 1));
+    const Parts parts = solve_in_parts(0, 1, name, options_.max_cuts, options_.loose_tolerance > 0,
+                                       attempt, observe_cut);
+    effort.cuts = parts.cuts;
+    effort.loose = parts.loose;
+    record_ = make_record(state_.get(), deformation_, evaluation_.stress, evaluation_.report);
+    record_.step = number;
+    record_.external_work = work_;
+    record_.effort = effort;
+    if (observe) observe({state_.get(), committed, evaluation_, record_, fraction});
+    check(grainlaw_commit(state_.get()), "committing a step");
   }
 }
 

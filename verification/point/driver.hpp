@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/library.hpp"
+#include "app/parts.hpp"
 #include "app/record.hpp"
 #include "point/path.hpp"
 
@@ -30,32 +31,26 @@ struct PointStep {
 };
 using PointObserver = std::function<void(const PointStep&)>;
 
-// A step that failed at its smallest cut. `status` is of the evaluation that did not succeed, OK when
-// all did and the stress control did not converge.
-struct StepError : ComputationError {
-  StepError(grainlaw_status status_, const std::string& text)
-      : ComputationError(text), status(status_) {}
-  grainlaw_status status;
-};
-
 class PointDriver {
  public:
   // Starts at F = I. The material must outlive nothing: the state keeps it alive.
   PointDriver(const Material& material, const PointOptions& options);
 
   // Runs one segment. Throws StepError, saying where, when a step fails at its smallest cut;
-  // the steps before it stay done.
-  void run(const Segment& segment, const PointObserver& observe);
+  // the parts before it stay done. An evaluation that did not succeed is its status; OK when all did
+  // and the stress control did not converge.
+  void run(const Segment& segment, const PointObserver& observe,
+           const CutObserver& observe_cut = {});
 
   [[nodiscard]] const Record& record() const { return record_; }
   [[nodiscard]] grainlaw_state* state() const { return state_.get(); }
 
  private:
   struct Goal;
-  struct Attempt;
+  struct Iterate;
   Goal goal_at(const Segment& segment, const Vector4& start, double fraction) const;
-  Attempt attempt(const Goal& goal, double tolerance, Effort& effort);
-  void accept(const Attempt& attempt, bool has_tangent);
+  Iterate iterate(const Goal& goal, double tolerance, Effort& effort);
+  void accept(const Iterate& iterate, bool has_tangent);
   void renew_tangent();
 
   PointOptions options_;

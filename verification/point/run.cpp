@@ -112,9 +112,14 @@ PointEnd run_point(const PointScene& scene, const std::filesystem::path& stem) {
                     record.deformation(1, 1), record.deformation(0, 1)));
     start = cpu_seconds();
   };
+  const auto observe_cut = [&](double part, const std::string& reason) {
+    const int done = driver.record().step;
+    progress.update(static_cast<double>(done) / end.steps_wanted,
+                    fmt::format("step {} in parts of {:.1e} of it: {}", done + 1, part, reason));
+  };
   start = cpu_seconds();
   try {
-    for (const Segment& segment : scene.segments) driver.run(segment, observe);
+    for (const Segment& segment : scene.segments) driver.run(segment, observe, observe_cut);
   } catch (const StepError& error) {
     end.status = error.status;
     end.text = error.what();

@@ -91,11 +91,15 @@ LoadStep CycleControl::advance(Solver& solver, int number) {
 }
 
 double CycleControl::target() const {
+  constexpr double rounding = 1e-9;  // of a step, by which steps that add up miss an end
   const double goal = displacement_ + direction_ * cycle_.step;
+  const auto up_to = [&](double end) {
+    return direction_ * (end - goal) < rounding * cycle_.step ? end : goal;
+  };
   // The last way back ends at zero, where displacements turn at their limit.
-  if (reversals_ >= 2 * cycle_.cycles && std::isinf(cycle_.limit_force) && displacement_ < 0)
-    return std::min(goal, 0.0);
-  return std::clamp(goal, -cycle_.limit_displacement, cycle_.limit_displacement);
+  const bool last_way = reversals_ >= 2 * cycle_.cycles;
+  if (last_way && std::isinf(cycle_.limit_force) && displacement_ < 0) return up_to(0);
+  return up_to(direction_ * cycle_.limit_displacement);
 }
 
 // Turns or ends where the limits say so.

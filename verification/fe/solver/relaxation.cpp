@@ -1,9 +1,11 @@
 #include "fe/solver/relaxation.hpp"
 
+#include "app/parts.hpp"
 #include "fe/mesh/mass.hpp"
 #include "fe/solver/forces.hpp"
 #include "fe/solver/frequency.hpp"
-#include "fe/solver/parts.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +51,8 @@ class RelaxationSolver final : public Solver {
       if (!result.converged) points_.revert();
       return result;
     };
-    const Parts parts = solve_in_parts(rest_.time, to, number, options_.max_cuts, false, attempt);
+    const Parts parts = solve_in_parts(rest_.time, to, fmt::format("load step {}", number),
+                                       options_.max_cuts, false, attempt);
     step.time = to;
     step.record = points_.record();
     step.record.step = number;

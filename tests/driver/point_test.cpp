@@ -1,0 +1,60 @@
+// One integration point led along a path: steps in parts, and what is left of one that fails.
+#include "point/driver.hpp"
+#include "support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace verification {
+namespace {
+
+constexpr double pressure = 1e5;
+Segment compression() { return drained_segment(-2e-3, -pressure, 2); }
+
+// One iteration is too few for a whole step.
+PointOptions hurried(int max_cuts) { return {.max_iterations = 1, .max_cuts = max_cuts}; }
+
+TEST(point, a_step_that_fails_is_made_in_parts_and_ends_at_the_same_stress) {
+  PointDriver whole(lattice_material(), {});
+  PointDriver parts(lattice_material(), hurried(12));
+  int observed = 0;
+  const auto observe = [&](const PointStep& step) {
+    ++observed;
+    EXPECT_GT((step.record.deformation - step.committed_deformation).norm(), 0);
+  };
+  std::vector<double> cuts;
+  whole.run(compression(), observe);
+  parts.run(compression(), observe, [&](double part, const std::string& reason) {
+    cuts.push_back(part);
+    EXPECT_NE(reason.find("stress control did not converge"), std::string::npos) << reason;
+  });
+  EXPECT_EQ(observed, 4);
+  ASSERT_FALSE(cuts.empty());
+  EXPECT_EQ(cuts.front(), 0.5);
+  EXPECT_EQ(whole.record().effort.cuts, 0);
+  EXPECT_GT(parts.record().effort.cuts, 0);
+  EXPECT_EQ(parts.record().step, 2);
+  EXPECT_NEAR(parts.record().cauchy(0, 0), -pressure, 1e-6 * pressure);
+  const Tensor& stress = whole.record().stress;
+  EXPECT_LT((parts.record().stress - stress).norm(), 1e-4 * stress.norm());
+}
+
+TEST(point, a_step_that_fails_at_its_smallest_says_where_and_leaves_those_before) {
+  PointDriver point(lattice_material(), hurried(0));
+  try {
+    point.run(compression(), {});
+    ADD_FAILURE() << "nothing was told";
+  } catch (const StepError& error) {
+    const std::string text = error.what();
+    EXPECT_EQ(error.status, GRAINLAW_OK);
+    EXPECT_EQ(text.find("step 1 (from F22 = 1.000000, F12 = 0.000000) failed"), 0U) << text;
+  }
+  EXPECT_EQ(point.record().step, 0);
+  point.run(drained_segment(-1e-6, -pressure, 1), {});
+  EXPECT_EQ(point.record().step, 1);
+}
+
+}  // namespace
+}  // namespace verification
