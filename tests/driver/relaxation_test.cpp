@@ -45,9 +45,17 @@ TEST(relaxation, a_step_that_takes_too_many_iterations_is_cut_or_fails) {
   const Model model = biaxial(1, 1, 2e-3);
   const Material material = lattice_material();
   const auto cut = make_relaxation_solver(model, material, {.max_iterations = 12}, 1);
+  int told = 0;
+  cut->observe_cuts([&](double part, const std::string& reason) {
+    ++told;
+    EXPECT_LT(part, 1);
+    EXPECT_NE(reason.find("did not converge"), std::string::npos) << reason;
+  });
   cut->advance(0, 0);
+  EXPECT_EQ(told, 0);
   const LoadStep step = cut->advance(1, 1);
   EXPECT_GT(step.record.effort.cuts, 0);
+  EXPECT_EQ(told, step.record.effort.cuts);
   EXPECT_LE(step.residuals.back(), 1e-6);
   const auto failing =
       make_relaxation_solver(model, material, {.max_iterations = 2, .max_cuts = 1}, 1);

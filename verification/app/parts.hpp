@@ -31,6 +31,9 @@ struct StepError : ComputationError {
 
 // Is told of every cut: the part that comes next, of the step, and why.
 using CutObserver = std::function<void(double part, const std::string& reason)>;
+inline std::string describe_cut(int step, double part, const std::string& reason) {
+  return fmt::format("step {} in parts of {:.1e} of it: {}", step, part, reason);
+}
 
 struct Parts {
   int cuts = 0;

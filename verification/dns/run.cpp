@@ -53,8 +53,7 @@ SpecimenEnd run_specimen(const SpecimenScene& scene, const std::filesystem::path
                                 record.cauchy(1, 1) / 1e3));
   };
   const auto observe_cut = [&](double part, const std::string& reason) {
-    progress.update(static_cast<double>(done) / steps,
-                    fmt::format("step {} in parts of {:.1e} of it: {}", done + 1, part, reason));
+    progress.update(static_cast<double>(done) / steps, describe_cut(done + 1, part, reason));
   };
   const SpecimenEnd end = specimen.run(observe, observe_cut);
   write_cost(end, stem.string() + "_cost.csv");

@@ -102,6 +102,10 @@ class Run {
   void go() {
     const Interrupt interrupt;
     const auto observe = [&](const LoadStep& step, const Solver&) { after(step); };
+    solver_->observe_cuts([this](double part, const std::string& reason) {
+      progress_.update(static_cast<double>(std::max(done_, 0)) / scene_.steps,
+                       describe_cut(done_ + 1, part, reason));
+    });
     const int last = std::min(stop_after_, scene_.steps);
     try {
       if (cycle_)

@@ -115,7 +115,7 @@ PointEnd run_point(const PointScene& scene, const std::filesystem::path& stem) {
   const auto observe_cut = [&](double part, const std::string& reason) {
     const int done = driver.record().step;
     progress.update(static_cast<double>(done) / end.steps_wanted,
-                    fmt::format("step {} in parts of {:.1e} of it: {}", done + 1, part, reason));
+                    describe_cut(done + 1, part, reason));
   };
   start = cpu_seconds();
   try {

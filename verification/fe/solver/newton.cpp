@@ -1,6 +1,5 @@
 #include "fe/solver/newton.hpp"
 
-#include "app/parts.hpp"
 #include "fe/conditions/dofs.hpp"
 #include "fe/solver/elastic_share.hpp"
 #include "fe/solver/forces.hpp"
@@ -95,8 +94,9 @@ class NewtonSolver final : public Solver {
         points_.revert();
       return result;
     };
-    const Parts parts = solve_in_parts(time_, to, fmt::format("load step {}", number),
-                                       options_.max_cuts, options_.loose_tolerance > 0, attempt);
+    const Parts parts =
+        solve_in_parts(time_, to, fmt::format("load step {}", number), options_.max_cuts,
+                       options_.loose_tolerance > 0, attempt, observe_cut_);
     step.time = to;
     step.record = points_.record();
     step.record.step = number;

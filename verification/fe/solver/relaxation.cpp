@@ -1,6 +1,5 @@
 #include "fe/solver/relaxation.hpp"
 
-#include "app/parts.hpp"
 #include "fe/mesh/mass.hpp"
 #include "fe/solver/forces.hpp"
 #include "fe/solver/frequency.hpp"
@@ -52,7 +51,7 @@ class RelaxationSolver final : public Solver {
       return result;
     };
     const Parts parts = solve_in_parts(rest_.time, to, fmt::format("load step {}", number),
-                                       options_.max_cuts, false, attempt);
+                                       options_.max_cuts, false, attempt, observe_cut_);
     step.time = to;
     step.record = points_.record();
     step.record.step = number;

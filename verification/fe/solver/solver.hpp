@@ -1,12 +1,14 @@
 // What the three solvers of a finite element model have in common.
 #pragma once
 
+#include "app/parts.hpp"
 #include "fe/checkpoint.hpp"
 #include "fe/model.hpp"
 
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace verification {
 
@@ -46,6 +48,9 @@ class Solver {
   // as many parts as it takes. Throws ComputationError, saying where, when that is not possible.
   virtual LoadStep advance(double to, int number) = 0;
 
+  // Of the load steps that static solvers make in parts.
+  void observe_cuts(CutObserver observer) { observe_cut_ = std::move(observer); }
+
   // Everything that the next `advance` depends on, between two calls of it: a solver of the same
   // scene that restores it goes on to the same bits. Throws as CheckpointReader does.
   virtual void save(CheckpointWriter& out) const = 0;
@@ -53,6 +58,9 @@ class Solver {
 
   [[nodiscard]] virtual const PointField& points() const = 0;
   [[nodiscard]] virtual const Eigen::VectorXd& displacement() const = 0;  // committed [m]
+
+ protected:
+  CutObserver observe_cut_;
 };
 
 using LoadObserver = std::function<void(const LoadStep&, const Solver&)>;
