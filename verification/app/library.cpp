@@ -50,6 +50,11 @@ double measure_scalar(const grainlaw_state* state, grainlaw_measure what) {
   return value.empty() ? 0 : value.front();
 }
 
+Tensor deformation_of(const grainlaw_state* state) {
+  const std::vector<double> f = measure(state, GRAINLAW_DEFORMATION_GRADIENT);
+  return to_tensor({f[0], f[1], f[2], f[3]});
+}
+
 Tensor cauchy_stress(const Tensor& stress, const Tensor& deformation) {
   return stress * deformation.transpose() / deformation.determinant();
 }

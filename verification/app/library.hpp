@@ -61,6 +61,9 @@ unsigned tangent_bit(const std::string& name);
 std::vector<double> measure(const grainlaw_state* state, grainlaw_measure what);
 double measure_scalar(const grainlaw_state* state, grainlaw_measure what);
 
+// F of the trial: a boundary with prescribed stresses finds components of its own.
+Tensor deformation_of(const grainlaw_state* state);
+
 // sigma = P F^T / det F [Pa].
 Tensor cauchy_stress(const Tensor& stress, const Tensor& deformation);
 

@@ -1,5 +1,6 @@
 #include "dns/specimen.hpp"
 
+#include "app/cpu_time.hpp"
 #include "app/packing_source.hpp"
 #include "dns/repeat.hpp"
 
@@ -9,24 +10,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <ctime>
 #include <vector>
 
 namespace verification {
 namespace {
 
-double cpu_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 constexpr std::array<const char*, 4> stress_keys{"P11", "P12", "P21", "P22"};
-
-Tensor deformation_of(const grainlaw_state* state) {
-  const std::vector<double> f = measure(state, GRAINLAW_DEFORMATION_GRADIENT);
-  return to_tensor({f[0], f[1], f[2], f[3]});
-}
 
 // What is committed in `from` becomes committed in `to`, whose material prescribes other stresses.
 void carry_over(const grainlaw_state* from, grainlaw_state* to) {

@@ -2,6 +2,7 @@
 
 #include "app/bounds.hpp"
 #include "app/commands.hpp"
+#include "app/cpu_time.hpp"
 #include "app/history.hpp"
 #include "app/material.hpp"
 #include "app/output.hpp"
@@ -12,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -44,10 +44,6 @@ struct Made {
   }
   [[nodiscard]] double volume_fraction() const { return 1 / (1 + scalar(GRAINLAW_VOID_RATIO)); }
 };
-
-double cpu_seconds() {
-  return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
-}
 
 Made make(const PackArguments& arguments, std::optional<long> seed) {
   MaterialSource source;

@@ -14,12 +14,6 @@ namespace {
 // step, or another one, usually passes beside it.
 constexpr int patience = 4;
 
-// F of the trial: a boundary with prescribed stresses finds components of its own.
-Tensor deformation_of(const grainlaw_state* state) {
-  const std::vector<double> f = measure(state, GRAINLAW_DEFORMATION_GRADIENT);
-  return to_tensor({f[0], f[1], f[2], f[3]});
-}
-
 // The prescribed measure (F, P or sigma) by component, and its derivative with respect to F.
 struct Controlled {
   Vector4 value;

@@ -1,5 +1,6 @@
 #include "point/run.hpp"
 
+#include "app/cpu_time.hpp"
 #include "app/history.hpp"
 #include "app/progress.hpp"
 #include "app/snapshot.hpp"
@@ -7,17 +8,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <optional>
 
 namespace verification {
 namespace {
-
-double cpu_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 double abscissa(const PointScene& scene, const Record& record) {
   return scene.abscissa == shear_abscissa ? record.deformation(0, 1) : record.axial_strain();

@@ -1,18 +1,14 @@
 // CPU time of the calling thread, and of one evaluation.
 #pragma once
 
+#include "app/cpu_time.hpp"
 #include "app/library.hpp"
 
 #include <algorithm>
-#include <ctime>
 
 namespace verification {
 
-inline double cpu_milliseconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
+inline double cpu_milliseconds() { return 1e3 * cpu_seconds(); }
 
 struct TimedEvaluation {
   Evaluation evaluation;

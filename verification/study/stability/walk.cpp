@@ -1,10 +1,11 @@
 #include "study/stability/walk.hpp"
 
+#include "app/cpu_time.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <utility>
 
@@ -20,12 +21,6 @@ constexpr double dissipation_rounding = 1e-9;  // of the total work [-]
 // What an increment leaves unaccounted counts as a jump beyond this share of the mean work: without
 // a jump it is of second order in the increment, and the mean work of first.
 constexpr double jump = 0.1;
-
-double cpu_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 std::vector<unsigned char> saved(const grainlaw_state* state) {
   std::size_t size = 0;
