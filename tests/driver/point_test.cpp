@@ -43,17 +43,32 @@ TEST(point, a_step_that_fails_is_made_in_parts_and_ends_at_the_same_stress) {
 
 TEST(point, a_step_that_fails_at_its_smallest_says_where_and_leaves_those_before) {
   PointDriver point(lattice_material(), hurried(0));
+  const Segment small = drained_segment(-1e-6, -pressure, 1);
+  point.run(small, {});
+  const Tensor before = point.record().deformation;
   try {
     point.run(compression(), {});
     ADD_FAILURE() << "nothing was told";
   } catch (const StepError& error) {
     const std::string text = error.what();
     EXPECT_EQ(error.status, GRAINLAW_OK);
-    EXPECT_EQ(text.find("step 1 (from F22 = 1.000000, F12 = 0.000000) failed"), 0U) << text;
+    EXPECT_EQ(text.find("step 2 (from F22 = 0.999999, F12 = 0.000000) failed"), 0U) << text;
   }
-  EXPECT_EQ(point.record().step, 0);
-  point.run(drained_segment(-1e-6, -pressure, 1), {});
   EXPECT_EQ(point.record().step, 1);
+  EXPECT_EQ(point.record().deformation, before);
+  point.run(small, {});
+  EXPECT_EQ(point.record().step, 2);
+  EXPECT_NEAR(point.record().deformation(1, 1), before(1, 1) - 1e-6, 1e-12);
+}
+
+TEST(point, an_evaluation_that_is_refused_is_the_status_of_the_failure) {
+  PointDriver point(lattice_material(), {.max_cuts = 0});
+  try {
+    point.run(shear_segment(1, 1), {});
+    ADD_FAILURE() << "nothing was told";
+  } catch (const StepError& error) {
+    EXPECT_EQ(error.status, GRAINLAW_STEP_TOO_LARGE) << error.what();
+  }
 }
 
 }  // namespace

@@ -52,12 +52,9 @@ struct PointDriver::Goal {
   }
 };
 
-struct PointDriver::Iterate {
-  bool converged = false;
+struct PointDriver::Iterate : Attempt {
   Tensor deformation = Tensor::Identity();
   Evaluation evaluation;
-  double step_ratio = Attempt{}.ratio;
-  std::string reason;
 };
 
 PointDriver::PointDriver(const Material& material, const PointOptions& options)
@@ -110,7 +107,8 @@ PointDriver::Iterate PointDriver::iterate(const Goal& goal, double tolerance, Ef
     effort.add(result.evaluation.report);
     if (goal.mixed) ++effort.iterations;
     if (result.evaluation.status != GRAINLAW_OK) {
-      result.step_ratio = result.evaluation.report.step_ratio;
+      result.status = result.evaluation.status;
+      result.ratio = result.evaluation.report.step_ratio;
       const std::string text = grainlaw_status_text(result.evaluation.status);
       const std::string message = result.evaluation.report.message;
       result.reason = message.empty() || message == text ? text : text + ": " + message;
@@ -190,7 +188,7 @@ void PointDriver::run(const Segment& segment, const PointObserver& observe,
       } else {
         check(grainlaw_revert(state_.get()), "dropping a trial");
       }
-      return Attempt{last.converged, false, last.step_ratio, last.reason, last.evaluation.status};
+      return Attempt(last);
     };
     const std::string name = fmt::format("step {} (from F22 = {:.6f}, F12 = {:.6f})", number,
                                          deformation_(1, 1), deformation_(0, 1));

@@ -37,8 +37,7 @@ class PointDriver {
   PointDriver(const Material& material, const PointOptions& options);
 
   // Runs one segment. Throws StepError, saying where, when a step fails at its smallest cut;
-  // the parts before it stay done. An evaluation that did not succeed is its status; OK when all did
-  // and the stress control did not converge.
+  // the parts before it stay done.
   void run(const Segment& segment, const PointObserver& observe,
            const CutObserver& observe_cut = {});
 
