@@ -36,6 +36,7 @@
 #define GRAINLAW_OF_FOUR
 #endif
 #define GRAINLAW_INLINE inline __attribute__((always_inline))
+#define GRAINLAW_INLINED __attribute__((always_inline))  // of a lambda
 
 namespace grainlaw::simd {
 
@@ -58,6 +59,20 @@ inline bool four_lanes() {
   return false;
 #endif
 }
+
+// function(parameters) for as many lanes as there are: of<lanes, ...>(arguments).
+#define GRAINLAW_BY_LANES(Result, function, of, parameters, arguments, ...)                   \
+  Result function##_of_two parameters { return of<2 __VA_OPT__(, ) __VA_ARGS__> arguments; }  \
+  GRAINLAW_OF_FOUR Result function##_of_four parameters {                                     \
+    return of<4 __VA_OPT__(, ) __VA_ARGS__> arguments;                                        \
+  }                                                                                           \
+  GRAINLAW_OF_EIGHT Result function##_of_eight parameters {                                   \
+    return of<8 __VA_OPT__(, ) __VA_ARGS__> arguments;                                        \
+  }                                                                                           \
+  Result function parameters {                                                                \
+    if (simd::eight_lanes()) return function##_of_eight arguments;                            \
+    return simd::four_lanes() ? function##_of_four arguments : function##_of_two arguments;   \
+  }
 
 template <std::size_t width>
 struct Vector {

@@ -1,165 +1,345 @@
-// The symbolic analysis: elimination order, rows of the factor, and where the matrix goes.
-#include "equilibrium/block_matrix.hpp"
+// The symbolic analysis: elimination order, tree, fronts, and where the matrix goes.
+#include "equilibrium/block_lu.hpp"
 
+#include "equilibrium/dense_panels.hpp"
 #include "room.hpp"
 
 #include <amd.h>
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 
 namespace grainlaw {
 
-void BlockLU::order(std::size_t nodes, std::span<const Edge> edges) {
-  const std::size_t entries = 2 * edges.size();
-  const std::size_t slack = entries + entries / 2 + nodes + 1;
-  resize_with_room(amd_, 9 * nodes + slack);
+namespace {
+
+std::size_t at(std::int32_t place) { return static_cast<std::size_t>(place); }
+
+}  // namespace
+
+void BlockLU::list_neighbours() {
+  resize_with_room(neighbours_begin_, nodes_ + 1);
+  std::fill(neighbours_begin_.begin(), neighbours_begin_.end(), 0);
+  for (const auto& [p, q] : edges_) {
+    ++neighbours_begin_[at(p) + 1];
+    ++neighbours_begin_[at(q) + 1];
+  }
+  std::partial_sum(neighbours_begin_.begin(), neighbours_begin_.end(), neighbours_begin_.begin());
+  resize_with_room(neighbours_, 2 * edges_.size());
+  resize_with_room(next_, nodes_);
+  std::copy_n(neighbours_begin_.begin(), nodes_, next_.begin());
+  for (const auto& [p, q] : edges_) {
+    neighbours_[next_[at(p)]++] = q;
+    neighbours_[next_[at(q)]++] = p;
+  }
+}
+
+void BlockLU::order() {
+  const std::size_t entries = neighbours_.size();
+  const std::size_t slack = entries + entries / 2 + nodes_ + 1;
+  resize_with_room(amd_, 9 * nodes_ + slack);
   std::fill(amd_.begin(), amd_.end(), 0);
   std::int32_t* begin = amd_.data();
-  std::int32_t* length = begin + nodes;
-  std::int32_t* size = length + nodes;
-  std::int32_t* next = size + nodes;
-  std::int32_t* last = next + nodes;
-  std::int32_t* head = last + nodes;
-  std::int32_t* elements = head + nodes;
-  std::int32_t* degree = elements + nodes;
-  std::int32_t* flags = degree + nodes;
-  std::int32_t* neighbours = flags + nodes;
-  for (const auto& [p, q] : edges) {
-    ++length[p];
-    ++length[q];
+  std::int32_t* length = begin + nodes_;
+  std::int32_t* size = length + nodes_;
+  std::int32_t* next = size + nodes_;
+  std::int32_t* last = next + nodes_;
+  std::int32_t* head = last + nodes_;
+  std::int32_t* elements = head + nodes_;
+  std::int32_t* degree = elements + nodes_;
+  std::int32_t* flags = degree + nodes_;
+  std::int32_t* neighbours = flags + nodes_;
+  for (std::size_t q = 0; q < nodes_; ++q) {
+    begin[q] = static_cast<std::int32_t>(neighbours_begin_[q]);
+    length[q] = static_cast<std::int32_t>(neighbours_begin_[q + 1] - neighbours_begin_[q]);
   }
-  std::int32_t free = 0;
-  for (std::size_t q = 0; q < nodes; ++q) {
-    begin[q] = free;
-    free += length[q];
-    length[q] = 0;
-  }
-  for (const auto& [p, q] : edges) {
-    neighbours[begin[p] + length[p]++] = q;
-    neighbours[begin[q] + length[q]++] = p;
-  }
+  std::copy(neighbours_.begin(), neighbours_.end(), neighbours);
   double control[AMD_CONTROL];
   double info[AMD_INFO];
   amd_defaults(control);
-  amd_2(static_cast<std::int32_t>(nodes), begin, neighbours, length,
-        static_cast<std::int32_t>(slack), free, size, next, last, head, elements, degree, flags,
-        control, info);
-  position_.assign(next, next + nodes);
-  resize_with_room(node_, nodes);
-  for (std::size_t q = 0; q < nodes; ++q) {
-    node_[static_cast<std::size_t>(position_[q])] = static_cast<std::int32_t>(q);
-  }
+  amd_2(static_cast<std::int32_t>(nodes_), begin, neighbours, length,
+        static_cast<std::int32_t>(slack), static_cast<std::int32_t>(entries), size, next, last, head,
+        elements, degree, flags, control, info);
+  position_.assign(next, next + nodes_);
+  resize_with_room(node_, nodes_);
+  for (std::size_t q = 0; q < nodes_; ++q) node_[at(position_[q])] = static_cast<std::int32_t>(q);
 }
 
-// For every row of the factor the columns left of the diagonal that it reaches (Davis 2006, chapter
-// 4: paths in the elimination tree), sorted; and how many rows every column has below the diagonal.
-void BlockLU::find_reach() {
-  resize_with_room(adjacency_begin_, nodes_ + 1);
-  std::fill(adjacency_begin_.begin(), adjacency_begin_.end(), 0);
-  const auto places = [&](const Edge& edge) {
-    return std::minmax(position_[static_cast<std::size_t>(edge.first)],
-                       position_[static_cast<std::size_t>(edge.second)]);
-  };
-  for (const auto& edge : edges_) {
-    ++adjacency_begin_[static_cast<std::size_t>(std::get<1>(places(edge))) + 1];
-  }
-  for (std::size_t j = 0; j < nodes_; ++j) adjacency_begin_[j + 1] += adjacency_begin_[j];
-  resize_with_room(adjacency_, edges_.size());
-  resize_with_room(below_, nodes_);
-  std::copy_n(adjacency_begin_.begin(), nodes_, below_.begin());
-  for (const auto& edge : edges_) {
-    const auto [low, high] = places(edge);
-    adjacency_[below_[static_cast<std::size_t>(high)]++] = low;
-  }
-
+// The elimination tree (Liu 1986): parent_ of every place, -1 at a root.
+void BlockLU::find_tree() {
   resize_with_room(parent_, nodes_);
   resize_with_room(ancestor_, nodes_);
-  resize_with_room(where_, nodes_);
-  resize_with_room(reach_begin_, nodes_ + 1);
-  std::fill(below_.begin(), below_.end(), 0);
-  reach_.clear();
   for (std::size_t j = 0; j < nodes_; ++j) {
-    const auto row = static_cast<std::int32_t>(j);
+    const auto place = static_cast<std::int32_t>(j);
     parent_[j] = ancestor_[j] = -1;
-    where_[j] = row;  // visited by this row
-    reach_begin_[j] = reach_.size();
-    for (std::size_t k = adjacency_begin_[j]; k < adjacency_begin_[j + 1]; ++k) {
-      for (std::int32_t r = adjacency_[k]; r != -1 && r < row;) {
-        const auto at = static_cast<std::size_t>(r);
-        const std::int32_t next = ancestor_[at];
-        ancestor_[at] = row;
-        if (next == -1) parent_[at] = row;
+    const std::size_t node = at(node_[j]);
+    for (std::size_t k = neighbours_begin_[node]; k < neighbours_begin_[node + 1]; ++k) {
+      for (std::int32_t r = position_[at(neighbours_[k])]; r != -1 && r < place;) {
+        const std::int32_t next = ancestor_[at(r)];
+        ancestor_[at(r)] = place;
+        if (next == -1) parent_[at(r)] = place;
         r = next;
       }
     }
-    for (std::size_t k = adjacency_begin_[j]; k < adjacency_begin_[j + 1]; ++k) {
-      for (std::int32_t r = adjacency_[k]; where_[static_cast<std::size_t>(r)] != row;
-           r = parent_[static_cast<std::size_t>(r)]) {
-        where_[static_cast<std::size_t>(r)] = row;
-        ++below_[static_cast<std::size_t>(r)];
-        reach_.push_back(r);
+  }
+}
+
+// Children right before their parents, the order of siblings kept: the same elimination otherwise.
+void BlockLU::sort_by_tree() {
+  resize_with_room(child_, nodes_);
+  resize_with_room(sibling_, nodes_);
+  resize_with_room(order_, nodes_);
+  std::fill(child_.begin(), child_.end(), -1);
+  std::int32_t roots = -1;
+  for (std::size_t j = nodes_; j-- > 0;) {
+    std::int32_t& head = parent_[j] == -1 ? roots : child_[at(parent_[j])];
+    sibling_[j] = head;
+    head = static_cast<std::int32_t>(j);
+  }
+  std::int32_t place = 0;
+  for (std::int32_t root = roots; root != -1; root = sibling_[at(root)]) {
+    for (std::int32_t j = root;;) {
+      while (child_[at(j)] != -1) {  // down, forgetting the way
+        const std::int32_t child = child_[at(j)];
+        child_[at(j)] = -1;
+        j = child;
       }
+      order_[at(j)] = place++;
+      if (j == root) break;
+      j = sibling_[at(j)] != -1 ? sibling_[at(j)] : parent_[at(j)];
     }
-    std::sort(reach_.begin() + static_cast<std::ptrdiff_t>(reach_begin_[j]), reach_.end());
   }
-  reach_begin_[nodes_] = reach_.size();
-  keep_room(reach_);
-}
-
-// Column j: its reach above the diagonal, and below it the rows whose reach holds j.
-void BlockLU::find_columns() {
-  resize_with_room(begin_, nodes_ + 1);
-  resize_with_room(diagonal_, nodes_);
-  resize_with_room(paired_, nodes_);
-  resize_with_room(rows_, nodes_ + 2 * reach_.size());
-  std::size_t slot = 0;
+  for (std::size_t q = 0; q < nodes_; ++q) position_[q] = order_[at(position_[q])];
+  for (std::size_t q = 0; q < nodes_; ++q) node_[at(position_[q])] = static_cast<std::int32_t>(q);
   for (std::size_t j = 0; j < nodes_; ++j) {
-    paired_[j] = j + 1 < nodes_ && parent_[j] == static_cast<std::int32_t>(j + 1) &&
-                 below_[j] == below_[j + 1] + 1;
-    begin_[j] = slot;
-    for (std::size_t k = reach_begin_[j]; k < reach_begin_[j + 1]; ++k) rows_[slot++] = reach_[k];
-    diagonal_[j] = slot;
-    rows_[slot++] = static_cast<std::int32_t>(j);
-    slot += below_[j];
+    const std::int32_t parent = parent_[j];
+    ancestor_[at(order_[j])] = parent == -1 ? -1 : order_[at(parent)];
   }
-  begin_[nodes_] = slot;
-  for (std::size_t j = 0; j < nodes_; ++j) below_[j] = diagonal_[j] + 1;  // where the next row goes
-  for (std::size_t row = 0; row < nodes_; ++row) {
-    for (std::size_t k = reach_begin_[row]; k < reach_begin_[row + 1]; ++k) {
-      rows_[below_[static_cast<std::size_t>(reach_[k])]++] = static_cast<std::int32_t>(row);
+  parent_.swap(ancestor_);
+}
+
+// For every place the later ones that its column of the factor reaches, in any order; a column that has those
+// of the one before it but for itself shares its list. below_ counts them.
+void BlockLU::find_structure() {
+  find_tree();
+  sort_by_tree();
+  resize_with_room(structure_begin_, nodes_);
+  resize_with_room(below_, nodes_);
+  resize_with_room(mark_, nodes_);
+  std::fill(mark_.begin(), mark_.end(), -1);
+  std::fill(child_.begin(), child_.end(), -1);
+  structure_.clear();
+  fill_ = 0;
+  for (std::size_t j = 0; j < nodes_; ++j) {
+    const auto place = static_cast<std::int32_t>(j);
+    const std::size_t begin = structure_.size();
+    const auto add = [&](std::int32_t row) {
+      if (row <= place || mark_[at(row)] == place) return;
+      mark_[at(row)] = place;
+      structure_.push_back(row);
+    };
+    for (std::int32_t child = child_[j]; child != -1; child = sibling_[at(child)]) {
+      const std::size_t first = structure_begin_[at(child)];
+      for (std::size_t k = 0; k < at(below_[at(child)]); ++k) add(structure_[first + k]);
+    }
+    const std::size_t node = at(node_[j]);
+    for (std::size_t k = neighbours_begin_[node]; k < neighbours_begin_[node + 1]; ++k) {
+      add(position_[at(neighbours_[k])]);
+    }
+    below_[j] = static_cast<std::int32_t>(structure_.size() - begin);
+    structure_begin_[j] = begin;
+    fill_ += below_[j];
+    if (j > 0 && parent_[j - 1] == place && below_[j - 1] == below_[j] + 1) {
+      structure_.resize(begin);
+      const std::size_t first = structure_begin_[j - 1];
+      const auto list = structure_.begin() + static_cast<std::ptrdiff_t>(first);
+      std::iter_swap(list, std::find(list, list + below_[j - 1], place));
+      structure_begin_[j] = first + 1;
+    }
+    if (parent_[j] == -1) continue;
+    sibling_[j] = child_[at(parent_[j])];
+    child_[at(parent_[j])] = place;
+  }
+  keep_room(structure_);
+}
+
+// Columns of one list make a front; so do those of a front and of the one it is left to, right after
+// it, where the zeros that this brings cost less than another front.
+void BlockLU::find_fronts() {
+  struct Share {
+    std::size_t pivots;
+    double zeros;
+  };
+  constexpr std::array<Share, 2> worth_merging{{{4, 0.3}, {12, 0.12}}};
+  constexpr double always = 0.05;
+  merged_.clear();  // first places of fronts
+  for (std::size_t j = 0; j < nodes_; ++j) {
+    const bool goes_on = j > 0 && parent_[j - 1] == static_cast<std::int32_t>(j) &&
+                         below_[j - 1] == below_[j] + 1;
+    if (!goes_on) merged_.push_back(static_cast<std::int32_t>(j));
+  }
+  keep_room(merged_);
+  fronts_.clear();
+  resize_with_room(zeros_, merged_.size());
+  // From the last: every front is first merged with what comes after it.
+  std::size_t end = nodes_;
+  for (std::size_t s = merged_.size(); s-- > 0;) {
+    Front front{};
+    front.first = at(merged_[s]);
+    front.pivots = end - front.first;
+    front.others = at(below_[end - 1]);
+    front.rows = structure_begin_[end - 1];
+    end = front.first;
+    double zeros = 0;
+    while (!fronts_.empty()) {
+      const Front& next = fronts_.back();
+      const std::size_t last = front.first + front.pivots - 1;
+      const std::int32_t parent = parent_[last];
+      if (parent == -1 || at(parent) >= next.first + next.pivots) break;
+      const std::size_t pivots = front.pivots + next.pivots;
+      const auto missing = static_cast<double>(front.pivots) *
+                           static_cast<double>(next.pivots + next.others - front.others);
+      const double all = zeros + zeros_[fronts_.size() - 1] + missing;
+      const auto size = static_cast<double>(pivots) *
+                        (0.5 * static_cast<double>(pivots) + static_cast<double>(next.others));
+      const auto* share = std::find_if(worth_merging.begin(), worth_merging.end(),
+                                       [=](const Share& s) { return pivots <= s.pivots; });
+      if (all > (share == worth_merging.end() ? always : share->zeros) * size) break;
+      front.pivots = pivots;
+      front.others = next.others;
+      front.rows = next.rows;
+      zeros = all;
+      fronts_.pop_back();
+    }
+    zeros_[fronts_.size()] = zeros;
+    fronts_.push_back(front);
+  }
+  keep_room(fronts_);
+  std::reverse(fronts_.begin(), fronts_.end());
+}
+
+// The others of every front, sorted, and where they are in the front they are left to.
+void BlockLU::link_fronts() {
+  resize_with_room(front_of_, nodes_);
+  rows_.clear();
+  for (std::size_t f = 0; f < fronts_.size(); ++f) {
+    Front& front = fronts_[f];
+    std::fill_n(front_of_.begin() + static_cast<std::ptrdiff_t>(front.first), front.pivots,
+                static_cast<std::int32_t>(f));
+    const auto begin = structure_.begin() + static_cast<std::ptrdiff_t>(front.rows);
+    front.rows = rows_.size();
+    rows_.insert(rows_.end(), begin, begin + static_cast<std::ptrdiff_t>(front.others));
+    std::sort(rows_.begin() + static_cast<std::ptrdiff_t>(front.rows), rows_.end());
+    front.is_leaf = true;
+  }
+  keep_room(rows_);
+  resize_with_room(within_, rows_.size());
+  for (std::size_t f = 0; f < fronts_.size(); ++f) {
+    Front& front = fronts_[f];
+    front.parent = front.others == 0 ? -1 : front_of_[at(rows_[front.rows])];
+    if (front.parent == -1) continue;
+    Front& parent = fronts_[at(front.parent)];
+    front.opens = parent.is_leaf;
+    parent.is_leaf = false;
+    const std::size_t end = parent.first + parent.pivots;
+    std::size_t place = parent.rows;
+    for (std::size_t k = front.rows; k < front.rows + front.others; ++k) {
+      if (at(rows_[k]) < end) {
+        within_[k] = static_cast<std::int32_t>(at(rows_[k]) - parent.first);
+        ++front.passed;
+        continue;
+      }
+      while (rows_[place] != rows_[k]) ++place;
+      within_[k] = static_cast<std::int32_t>(parent.pivots + place - parent.rows);
     }
   }
 }
 
-// Where the blocks of the matrix go, column by column.
+// In memory. What fronts leave lies on two stacks, by their depth in the tree: while a parent takes
+// over what its child leaves, it is on top of the one, the child on top of the other.
+void BlockLU::place_fronts() {
+  const auto b = static_cast<std::size_t>(components_);
+  resize_with_room(mark_, std::max(nodes_, fronts_.size()));
+  std::array<std::size_t, 2> top{}, highest{};
+  for (std::size_t f = fronts_.size(); f-- > 0;) {
+    const std::int32_t parent = fronts_[f].parent;
+    mark_[f] = parent == -1 ? 0 : 1 - mark_[at(parent)];
+  }
+  std::size_t slot = 0;
+  std::size_t most = 0;  // others
+  const auto open = [&](std::size_t f) {
+    Front& front = fronts_[f];
+    const dense::Shape shape(front.pivots, front.others, b);
+    front.values = slot;
+    slot += shape.panel_size();
+    most = std::max(most, front.others);
+    const std::size_t stack = at(mark_[f]);
+    front.left = top[stack];
+    top[stack] += shape.left_size();
+    highest[stack] = std::max(highest[stack], top[stack]);
+  };
+  for (std::size_t f = 0; f < fronts_.size(); ++f) {
+    const Front& front = fronts_[f];
+    if (front.is_leaf) open(f);
+    if (front.opens) open(at(front.parent));
+    top[at(mark_[f])] = front.left;
+  }
+  for (std::size_t f = 0; f < fronts_.size(); ++f) {
+    if (mark_[f] == 1) fronts_[f].left += highest[0];
+  }
+  // Registers are filled beyond the last block.
+  resize_with_room(runs_, most);
+  resize_with_room(values_, slot + dense::group);
+  resize_with_room(left_, highest[0] + highest[1] + dense::group);
+}
+
+// Where the blocks of the matrix go, front by front.
 void BlockLU::find_sources() {
-  const auto slot_of = [&](std::int32_t row, std::int32_t column) {
-    const auto j = static_cast<std::size_t>(column);
-    const auto first = rows_.begin() + static_cast<std::ptrdiff_t>(begin_[j]);
-    const auto last = rows_.begin() + static_cast<std::ptrdiff_t>(begin_[j + 1]);
-    return static_cast<std::int32_t>(std::lower_bound(first, last, row) - rows_.begin());
+  const auto b = static_cast<std::size_t>(components_);
+  const auto for_each = [&](auto&& visit) {
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      const std::int32_t p = position_[at(edges_[e].first)];
+      const std::int32_t q = position_[at(edges_[e].second)];
+      visit(e, std::min(p, q), std::max(p, q), p < q);
+    }
   };
-  const auto places = [&](const Edge& edge) {
-    return std::pair{position_[static_cast<std::size_t>(edge.first)],
-                     position_[static_cast<std::size_t>(edge.second)]};
-  };
-  resize_with_room(source_begin_, nodes_ + 1);
-  resize_with_room(sources_, 2 * edges_.size());
-  std::fill(source_begin_.begin(), source_begin_.end(), 0);
-  for (const auto& edge : edges_) {
-    const auto [p, q] = places(edge);
-    ++source_begin_[static_cast<std::size_t>(p) + 1];
-    ++source_begin_[static_cast<std::size_t>(q) + 1];
+  resize_with_room(next_, std::max(nodes_, fronts_.size()));
+  std::fill(next_.begin(), next_.end(), 0);
+  for_each([&](std::size_t, std::int32_t low, std::int32_t, bool) {
+    next_[at(front_of_[at(low)])] += 2;
+  });
+  std::size_t source = 0;
+  for (std::size_t f = 0; f < fronts_.size(); ++f) {
+    fronts_[f].first_source = source;
+    source += next_[f];
+    fronts_[f].last_source = source;
+    next_[f] = fronts_[f].first_source;
   }
-  for (std::size_t j = 0; j < nodes_; ++j) source_begin_[j + 1] += source_begin_[j];
-  std::copy_n(source_begin_.begin(), nodes_, below_.begin());
-  for (std::size_t e = 0; e < edges_.size(); ++e) {
-    const auto [p, q] = places(edges_[e]);
-    const auto upper = static_cast<std::int32_t>(nodes_ + e);
-    const auto lower = static_cast<std::int32_t>(nodes_ + edges_.size() + e);
-    sources_[below_[static_cast<std::size_t>(q)]++] = {slot_of(p, q), upper};
-    sources_[below_[static_cast<std::size_t>(p)]++] = {slot_of(q, p), lower};
-  }
+  resize_with_room(sources_, source + ahead);
+  for_each([&](std::size_t e, std::int32_t low, std::int32_t high, bool ascending) {
+    const std::size_t f = at(front_of_[at(low)]);
+    const Front& front = fronts_[f];
+    const dense::Shape shape(front.pivots, front.others, b);
+    const std::size_t pivot = at(low) - front.first;
+    std::size_t other = at(high) - front.first;
+    if (other >= front.pivots) {
+      const auto begin = rows_.begin() + static_cast<std::ptrdiff_t>(front.rows);
+      const auto end = begin + static_cast<std::ptrdiff_t>(front.others);
+      other = front.pivots + static_cast<std::size_t>(std::lower_bound(begin, end, high) - begin);
+    }
+    const std::size_t upper = nodes_ + e;
+    const std::size_t lower = upper + edges_.size();
+    sources_[next_[f]++] = {front.values + shape.place(pivot, other), shape.pivot_rows,
+                            ascending ? upper : lower};
+    sources_[next_[f]++] = {
+        front.values + shape.place(other, pivot),
+        other < front.pivots ? shape.pivot_rows : shape.other_rows, ascending ? lower : upper};
+  });
+}
+
+std::size_t BlockLU::factor_blocks() const {
+  return nodes_ + 2 * static_cast<std::size_t>(fill_);
 }
 
 void BlockLU::analyse(const BlockMatrix& matrix, bool keep_order) {
@@ -173,14 +353,17 @@ void BlockLU::analyse(const BlockMatrix& matrix, bool keep_order) {
   components_ = matrix.components;
   resize_with_room(edges_, matrix.edges.size());
   std::copy(matrix.edges.begin(), matrix.edges.end(), edges_.begin());
-  if (keep_order) find_reach();
-  ordered_ = !keep_order || static_cast<double>(reach_.size()) > more_fill * own_fill_;
+  list_neighbours();
+  if (keep_order) find_structure();
+  ordered_ = !keep_order || fill_ > more_fill * own_fill_;
   if (ordered_) {
-    order(nodes_, edges_);
-    find_reach();
-    own_fill_ = static_cast<double>(reach_.size());
+    order();
+    find_structure();
+    own_fill_ = fill_;
   }
-  find_columns();
+  find_fronts();
+  link_fronts();
+  place_fronts();
   find_sources();
 }
 

@@ -1,5 +1,6 @@
-// The solves: forward and backward substitution.
-#include "equilibrium/block_lu_loops.hpp"
+// The solves: forward and backward substitution, front by front.
+#include "equilibrium/block_lu_view.hpp"
+#include "equilibrium/quad.hpp"
 
 #include "room.hpp"
 
@@ -7,92 +8,187 @@
 
 namespace grainlaw {
 
-using namespace block_lu;
+using namespace quad;
+using dense::Shape;
 
 namespace {
 
-// In the elimination's order.
-template <int b>
-GRAINLAW_INLINE void substitute(const Factor& f, double* y) {
-  constexpr std::size_t size = b * width;
-  const double* const values = f.values;
-  const auto subtract = [&](std::size_t first, std::size_t last, const Lanes& x) {
-    Lanes each[b];
-#pragma GCC unroll 3
-    for (std::size_t c = 0; c < b; ++c) each[c] = Lanes{} + x[c];
-    for (std::size_t slot = first; slot < last; ++slot) {
-      double* const to = y + static_cast<std::size_t>(f.rows[slot]) * width;
-      const Block<b> block = load_block<b>(values + slot * size);
-      Lanes sum = load(to);
-#pragma GCC unroll 3
-      for (std::size_t c = 0; c < b; ++c) sum -= block.column[c] * each[c];
-      store(to, sum);
-    }
-  };
-  for (std::size_t j = 0; j < f.nodes; ++j) {
-    subtract(f.diagonal[j] + 1, f.begin[j + 1], load(y + j * width));
-  }
-  for (std::size_t j = f.nodes; j-- > 0;) {
-    const Block<b> inverse = load_block<b>(values + f.diagonal[j] * size);
-    const double* const from = y + j * width;
-    Lanes x = inverse.column[0] * from[0];
-#pragma GCC unroll 3
-    for (std::size_t c = 1; c < b; ++c) x += inverse.column[c] * from[c];
-    store(y + j * width, x);
-    subtract(f.begin[j], f.diagonal[j], x);
-  }
-}
+using View = BlockLU::View;
+using Front = BlockLU::Front;
 
-GRAINLAW_CLONES void substitute_3(const Factor& f, double* y) { substitute<3>(f, y); }
-GRAINLAW_CLONES void substitute_2(const Factor& f, double* y) { substitute<2>(f, y); }
-
-// A vector in every lane.
+// A node's unknowns: of one vector, in the lanes; what the last lane holds is never read.
 template <int b>
-GRAINLAW_INLINE void substitute_four(const Factor& f, double* y) {
-  constexpr std::size_t size = b * width;
-  const double* const values = f.values;
-  const auto subtract = [&](std::size_t first, std::size_t last, const Block<b>& x) {
-    for (std::size_t slot = first; slot < last; ++slot) {
-      double* const to = y + static_cast<std::size_t>(f.rows[slot]) * size;
-      const double* const block = values + slot * size;
-      Block<b> sum = load_block<b>(to);
-#pragma GCC unroll 3
-      for (std::size_t c = 0; c < b; ++c) {
-#pragma GCC unroll 3
-        for (std::size_t r = 0; r < b; ++r) sum.column[r] -= block[c * width + r] * x.column[c];
-      }
-      store_block<b>(to, sum);
-    }
+struct OneVector {
+  static constexpr std::size_t size = width;
+  Lanes value;
+
+  struct Spread {
+    double by[b];
   };
-  for (std::size_t j = 0; j < f.nodes; ++j) {
-    subtract(f.diagonal[j] + 1, f.begin[j + 1], load_block<b>(y + j * size));
+  GRAINLAW_INLINE static OneVector load(const double* from) { return {quad::load(from)}; }
+  GRAINLAW_INLINE void store(double* to) const { quad::store(to, value); }
+  GRAINLAW_INLINE Spread spread() const {
+    Spread result;
+#pragma GCC unroll 3
+    for (std::size_t c = 0; c < b; ++c) result.by[c] = value[c];
+    return result;
   }
-  for (std::size_t j = f.nodes; j-- > 0;) {
-    const double* const inverse = values + f.diagonal[j] * size;
-    const Block<b> from = load_block<b>(y + j * size);
-    Block<b> x;
+  // -= a x and = a x; a is a block by columns, `stride` apart.
+  GRAINLAW_INLINE void subtract(const double* a, std::size_t stride, const Spread& x) {
+#pragma GCC unroll 3
+    for (std::size_t c = 0; c < b; ++c) value -= quad::load(a + c * stride) * x.by[c];
+  }
+  GRAINLAW_INLINE static OneVector product(const double* a, std::size_t stride, const Spread& x) {
+    OneVector result{quad::load(a) * x.by[0]};
+#pragma GCC unroll 3
+    for (std::size_t c = 1; c < b; ++c) result.value += quad::load(a + c * stride) * x.by[c];
+    return result;
+  }
+};
+
+// Of four vectors, one in every lane, a register for every unknown.
+template <int b>
+struct FourVectors {
+  static constexpr std::size_t size = b * width;
+  using Spread = FourVectors;
+  Lanes value[b];
+
+  GRAINLAW_INLINE static FourVectors load(const double* from) {
+    FourVectors result;
+#pragma GCC unroll 3
+    for (std::size_t c = 0; c < b; ++c) result.value[c] = quad::load(from + c * width);
+    return result;
+  }
+  GRAINLAW_INLINE void store(double* to) const {
+#pragma GCC unroll 3
+    for (std::size_t c = 0; c < b; ++c) quad::store(to + c * width, value[c]);
+  }
+  GRAINLAW_INLINE const Spread& spread() const { return *this; }
+  GRAINLAW_INLINE void subtract(const double* a, std::size_t stride, const Spread& x) {
+#pragma GCC unroll 3
+    for (std::size_t c = 0; c < b; ++c) {
+#pragma GCC unroll 3
+      for (std::size_t r = 0; r < b; ++r) value[r] -= a[c * stride + r] * x.value[c];
+    }
+  }
+  GRAINLAW_INLINE static FourVectors product(const double* a, std::size_t stride, const Spread& x) {
+    FourVectors result;
 #pragma GCC unroll 3
     for (std::size_t r = 0; r < b; ++r) {
-      x.column[r] = inverse[r] * from.column[0];
+      result.value[r] = a[r] * x.value[0];
 #pragma GCC unroll 3
-      for (std::size_t c = 1; c < b; ++c) x.column[r] += inverse[c * width + r] * from.column[c];
+      for (std::size_t c = 1; c < b; ++c) result.value[r] += a[c * stride + r] * x.value[c];
     }
-    store_block<b>(y + j * size, x);
-    subtract(f.begin[j], f.diagonal[j], x);
+    return result;
+  }
+};
+
+// The front's pivots, and from them what they take from the others.
+template <int b, class Unknowns>
+GRAINLAW_INLINE void forward(const View& f, const Front& front, double* y) {
+  const Shape shape(front.pivots, front.others, b);
+  const double* const values = f.values + front.values;
+  const double* const panel = values + shape.other_panel();
+  const std::int32_t* const rows = f.rows + front.rows;
+  double* const own = y + front.first * Unknowns::size;
+  for (std::size_t k = 0; k < front.pivots; ++k) {
+    const auto x = Unknowns::load(own + k * Unknowns::size);
+    const typename Unknowns::Spread by = x.spread();
+    for (std::size_t r = k + 1; r < front.pivots; ++r) {
+      auto to = Unknowns::load(own + r * Unknowns::size);
+      to.subtract(values + shape.place(r, k), shape.pivot_rows, by);
+      to.store(own + r * Unknowns::size);
+    }
+  }
+  const auto take = [&]<std::size_t count>(std::size_t k) GRAINLAW_INLINED {
+    typename Unknowns::Spread by[count];
+#pragma GCC unroll 2
+    for (std::size_t i = 0; i < count; ++i) {
+      by[i] = Unknowns::load(own + (k + i) * Unknowns::size).spread();
+    }
+    const double* a = panel + b * k * shape.other_rows;
+    for (std::size_t r = 0; r < front.others; ++r, a += b) {
+      double* const at = y + static_cast<std::size_t>(rows[r]) * Unknowns::size;
+      auto to = Unknowns::load(at);
+#pragma GCC unroll 2
+      for (std::size_t i = 0; i < count; ++i) {
+        to.subtract(a + i * b * shape.other_rows, shape.other_rows, by[i]);
+      }
+      to.store(at);
+    }
+  };
+  std::size_t k = 0;
+  for (; k + 2 <= front.pivots; k += 2) take.template operator()<2>(k);
+  if (k < front.pivots) take.template operator()<1>(k);
+}
+
+template <int b, class Unknowns>
+GRAINLAW_INLINE void backward(const View& f, const Front& front, double* y) {
+  const Shape shape(front.pivots, front.others, b);
+  const double* const values = f.values + front.values;
+  const std::int32_t* const rows = f.rows + front.rows;
+  double* const own = y + front.first * Unknowns::size;
+  const auto give = [&]<std::size_t count>(std::size_t k) GRAINLAW_INLINED {
+    Unknowns to[count];
+#pragma GCC unroll 4
+    for (std::size_t i = 0; i < count; ++i) to[i] = Unknowns::load(own + (k + i) * Unknowns::size);
+    const double* a = values + shape.place(k, front.pivots);
+    for (std::size_t r = 0; r < front.others; ++r, a += b * shape.pivot_rows) {
+      const auto x = Unknowns::load(y + static_cast<std::size_t>(rows[r]) * Unknowns::size);
+      const typename Unknowns::Spread by = x.spread();
+#pragma GCC unroll 4
+      for (std::size_t i = 0; i < count; ++i) to[i].subtract(a + i * b, shape.pivot_rows, by);
+    }
+#pragma GCC unroll 4
+    for (std::size_t i = 0; i < count; ++i) to[i].store(own + (k + i) * Unknowns::size);
+  };
+  std::size_t k = 0;
+  if (front.others > 0) {
+    for (; k + 4 <= front.pivots; k += 4) give.template operator()<4>(k);
+    for (; k + 2 <= front.pivots; k += 2) give.template operator()<2>(k);
+    if (k < front.pivots) give.template operator()<1>(k);
+  }
+  for (k = front.pivots; k-- > 0;) {
+    const auto right = Unknowns::load(own + k * Unknowns::size);
+    const typename Unknowns::Spread by = right.spread();
+    const auto x = Unknowns::product(values + shape.place(k, k), shape.pivot_rows, by);
+    x.store(own + k * Unknowns::size);
+    const typename Unknowns::Spread found = x.spread();
+    for (std::size_t r = 0; r < k; ++r) {
+      auto to = Unknowns::load(own + r * Unknowns::size);
+      to.subtract(values + shape.place(r, k), shape.pivot_rows, found);
+      to.store(own + r * Unknowns::size);
+    }
   }
 }
 
-GRAINLAW_CLONES void substitute_four_3(const Factor& f, double* y) { substitute_four<3>(f, y); }
-GRAINLAW_CLONES void substitute_four_2(const Factor& f, double* y) { substitute_four<2>(f, y); }
+// y in the elimination's order.
+template <int b, class Unknowns>
+GRAINLAW_INLINE void substitute(const View& f, double* y) {
+  for (std::size_t k = 0; k < f.fronts.size(); ++k) forward<b, Unknowns>(f, f.fronts[k], y);
+  for (std::size_t k = f.fronts.size(); k-- > 0;) backward<b, Unknowns>(f, f.fronts[k], y);
+}
+
+GRAINLAW_CLONES void substitute_3(const View& f, double* y) { substitute<3, OneVector<3>>(f, y); }
+GRAINLAW_CLONES void substitute_2(const View& f, double* y) { substitute<2, OneVector<2>>(f, y); }
+GRAINLAW_CLONES void substitute_four_3(const View& f, double* y) {
+  substitute<3, FourVectors<3>>(f, y);
+}
+GRAINLAW_CLONES void substitute_four_2(const View& f, double* y) {
+  substitute<2, FourVectors<2>>(f, y);
+}
 
 }  // namespace
 
 void BlockLU::solve(std::span<Quad> x) {
   resize_with_room(work_, x.size());
   for (std::size_t j = 0; j < nodes_; ++j) work_[j] = x[static_cast<std::size_t>(node_[j])];
-  const Factor f = factor();
-  components_ == 3 ? substitute_3(f, work_.data()->lane) : substitute_2(f, work_.data()->lane);
-  for (std::size_t j = 0; j < nodes_; ++j) x[static_cast<std::size_t>(node_[j])] = work_[j];
+  double* y = work_.data()->lane;
+  components_ == 3 ? substitute_3(view(), y) : substitute_2(view(), y);
+  for (std::size_t j = 0; j < nodes_; ++j) {
+    work_[j].lane[3] = 0;
+    x[static_cast<std::size_t>(node_[j])] = work_[j];
+  }
 }
 
 void BlockLU::solve_four(std::span<Quad> x) {
@@ -101,9 +197,8 @@ void BlockLU::solve_four(std::span<Quad> x) {
   for (std::size_t j = 0; j < nodes_; ++j) {
     std::copy_n(&x[static_cast<std::size_t>(node_[j]) * b], b, &work_[j * b]);
   }
-  const Factor f = factor();
   double* y = work_.data()->lane;
-  components_ == 3 ? substitute_four_3(f, y) : substitute_four_2(f, y);
+  components_ == 3 ? substitute_four_3(view(), y) : substitute_four_2(view(), y);
   for (std::size_t j = 0; j < nodes_; ++j) {
     std::copy_n(&work_[j * b], b, &x[static_cast<std::size_t>(node_[j]) * b]);
   }

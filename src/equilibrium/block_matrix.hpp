@@ -1,5 +1,4 @@
-// Sparse matrix of small blocks on the graph of nodes, and its LU factorisation with the blocks on
-// the diagonal as pivots, in an order found once per graph.
+// Sparse matrix of small blocks on the graph of nodes.
 #pragma once
 
 #include <cstddef>
@@ -43,55 +42,6 @@ struct BlockMatrix {
   // r = b - A x, of one vector, and of four together.
   void residual(std::span<const Quad> b, std::span<const Quad> x, std::span<Quad> r) const;
   void residual_of_four(std::span<const Quad> b, std::span<const Quad> x, std::span<Quad> r) const;
-};
-
-// Left-looking LU on a symmetric pattern; order by approximate minimum degree (SuiteSparse AMD).
-class BlockLU {
- public:
-  struct Factor;  // how the loops see it
-
-  // Symbolic analysis; kept when the graph is the one analysed last. Where it may be
-  // kept, an order found for another graph of these nodes serves as long as its fill is as small.
-  void analyse(const BlockMatrix& matrix, bool keep_order = false);
-  // Numeric factorisation of the matrix plus diag(added), one quad per node or none. False when a
-  // pivot block is singular.
-  bool factorise(const BlockMatrix& matrix, std::span<const Quad> added = {});
-  // x = A^-1 x, of one vector, and of four together.
-  void solve(std::span<Quad> x);
-  void solve_four(std::span<Quad> x);
-
-  [[nodiscard]] std::size_t factor_blocks() const { return rows_.size(); }
-
- private:
-  struct Source {
-    std::int32_t slot, block;  // of the factor, of the matrix
-  };
-
-  int components_ = 0;
-  bool ordered_ = false;  // in the order of its own graph
-  double own_fill_ = 0;   // of the factor in such an order [blocks below the diagonal]
-  std::size_t nodes_ = 0;
-  std::vector<Edge> edges_;
-  std::vector<std::int32_t> position_;     // node -> place in the elimination
-  std::vector<std::int32_t> node_;         // and back
-  std::vector<std::size_t> begin_;         // per column: its first slot
-  std::vector<std::size_t> diagonal_;      // the slot of its pivot
-  std::vector<char> paired_;               // below the next pivot it has the rows of the next
-  std::vector<std::int32_t> rows_;         // per slot, ascending within a column
-  std::vector<std::size_t> source_begin_;  // per column
-  std::vector<Source> sources_;            // off the diagonal
-  std::vector<Quad> values_;               // pivots inverted in place
-  std::vector<Quad> work_;
-  std::vector<std::int32_t> where_;
-  // Memory of the analysis.
-  std::vector<std::int32_t> amd_, adjacency_, parent_, ancestor_, reach_;
-  std::vector<std::size_t> adjacency_begin_, reach_begin_, below_;
-
-  Factor factor(std::span<const Quad> added = {}, const BlockMatrix* matrix = nullptr);
-  void order(std::size_t nodes, std::span<const Edge> edges);
-  void find_reach();
-  void find_columns();
-  void find_sources();
 };
 
 }  // namespace grainlaw

@@ -1,6 +1,7 @@
 // GMRES with restarts, for the rare matrix of which the factors are too far from its own.
 #pragma once
 
+#include "equilibrium/block_lu.hpp"
 #include "equilibrium/block_matrix.hpp"
 
 #include <array>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/contact_point.hpp"
+#include "equilibrium/block_lu.hpp"
 #include "equilibrium/block_matrix.hpp"
 #include "equilibrium/gmres.hpp"
 #include "equilibrium/increment.hpp"

@@ -1,5 +1,6 @@
 // The block factorisation and GMRES against a dense factorisation, on random matrices over random
 // planar graphs.
+#include "equilibrium/block_lu.hpp"
 #include "equilibrium/block_matrix.hpp"
 #include "equilibrium/gmres.hpp"
 
