@@ -33,12 +33,12 @@ class BlockLU {
     std::size_t first;           // place of its first pivot in the elimination
     std::size_t pivots, others;  // nodes that are eliminated here, and that are left
     std::size_t rows;            // in rows_ and within_: the others
-    std::size_t values;          // in values_: panel of the pivots' rows, then of the others' columns
-    std::size_t left;            // in left_: what the elimination leaves of the others
+    std::size_t values;          // in values_: panel of the pivots' rows, then of the others'
+    std::size_t left;            // in values_: what the elimination leaves of the others
     std::size_t first_source, last_source;
-    std::int32_t parent;   // the front whose pivots come first among the others; -1: none
-    std::size_t passed;    // of the others, pivots of the parent
-    bool opens, is_leaf;   // first of its parent's children; without children
+    std::int32_t parent;  // the front whose pivots come first among the others; -1: none
+    std::size_t passed;   // of the others, pivots of the parent
+    bool opens, is_leaf;  // first of its parent's children; without children
   };
   // A block of the matrix, and where in values_ it goes, with the distance of its columns.
   struct Source {
@@ -64,10 +64,9 @@ class BlockLU {
   std::vector<std::int32_t> rows_;      // places, ascending within a front
   std::vector<std::int32_t> within_;    // the same as nodes of the parent
   std::vector<Source> sources_;         // off the diagonal, by fronts
-  simd::Column<double> values_;         // pivots inverted in place
-  simd::Column<double> left_;
-  std::vector<Run> runs_;       // of one front at a time
-  std::vector<Quad> work_;      // of the solves
+  simd::Column<double> values_;         // panels, pivots inverted in place; then what fronts leave
+  std::vector<Run> runs_;               // of one front at a time
+  std::vector<Quad> work_;              // of the solves
   // Memory of the analysis: by nodes, by places, and by fronts.
   std::vector<std::int32_t> amd_, neighbours_, parent_, ancestor_, child_, sibling_, order_, below_;
   std::vector<std::int32_t> structure_, mark_, front_of_, merged_;

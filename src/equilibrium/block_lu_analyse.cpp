@@ -59,8 +59,8 @@ void BlockLU::order() {
   double info[AMD_INFO];
   amd_defaults(control);
   amd_2(static_cast<std::int32_t>(nodes_), begin, neighbours, length,
-        static_cast<std::int32_t>(slack), static_cast<std::int32_t>(entries), size, next, last, head,
-        elements, degree, flags, control, info);
+        static_cast<std::int32_t>(slack), static_cast<std::int32_t>(entries), size, next, last,
+        head, elements, degree, flags, control, info);
   position_.assign(next, next + nodes_);
   resize_with_room(node_, nodes_);
   for (std::size_t q = 0; q < nodes_; ++q) node_[at(position_[q])] = static_cast<std::int32_t>(q);
@@ -175,8 +175,8 @@ void BlockLU::find_fronts() {
   constexpr double always = 0.05;
   merged_.clear();  // first places of fronts
   for (std::size_t j = 0; j < nodes_; ++j) {
-    const bool goes_on = j > 0 && parent_[j - 1] == static_cast<std::int32_t>(j) &&
-                         below_[j - 1] == below_[j] + 1;
+    const bool goes_on =
+        j > 0 && parent_[j - 1] == static_cast<std::int32_t>(j) && below_[j - 1] == below_[j] + 1;
     if (!goes_on) merged_.push_back(static_cast<std::int32_t>(j));
   }
   keep_room(merged_);
@@ -286,12 +286,11 @@ void BlockLU::place_fronts() {
     top[at(mark_[f])] = front.left;
   }
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
-    if (mark_[f] == 1) fronts_[f].left += highest[0];
+    fronts_[f].left += slot + (mark_[f] == 1 ? highest[0] : 0);
   }
   // Registers are filled beyond the last block.
   resize_with_room(runs_, most);
-  resize_with_room(values_, slot + dense::group);
-  resize_with_room(left_, highest[0] + highest[1] + dense::group);
+  resize_with_room(values_, slot + highest[0] + highest[1] + dense::group);
 }
 
 // Where the blocks of the matrix go, front by front.
@@ -332,15 +331,13 @@ void BlockLU::find_sources() {
     const std::size_t lower = upper + edges_.size();
     sources_[next_[f]++] = {front.values + shape.place(pivot, other), shape.pivot_rows,
                             ascending ? upper : lower};
-    sources_[next_[f]++] = {
-        front.values + shape.place(other, pivot),
-        other < front.pivots ? shape.pivot_rows : shape.other_rows, ascending ? lower : upper};
+    sources_[next_[f]++] = {front.values + shape.place(other, pivot),
+                            other < front.pivots ? shape.pivot_rows : shape.other_rows,
+                            ascending ? lower : upper};
   });
 }
 
-std::size_t BlockLU::factor_blocks() const {
-  return nodes_ + 2 * static_cast<std::size_t>(fill_);
-}
+std::size_t BlockLU::factor_blocks() const { return nodes_ + 2 * static_cast<std::size_t>(fill_); }
 
 void BlockLU::analyse(const BlockMatrix& matrix, bool keep_order) {
   constexpr double more_fill = 1.1;  // that a kept order may leave

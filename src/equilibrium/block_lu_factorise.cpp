@@ -71,9 +71,10 @@ GRAINLAW_INLINE bool invert(double* a, std::integral_constant<int, 3>) {
   if (!(std::abs(determinant) > safe_determinant * size)) return invert_with_pivoting<3>(a);
   const double f = 1 / determinant;
   store_quad(a, Quad4{c00, c10, c20, 0} * f);
-  store_quad(a + s, Quad4{a02 * a21 - a01 * a22, a00 * a22 - a02 * a20, a01 * a20 - a00 * a21, 0} * f);
+  store_quad(a + s,
+             Quad4{a02 * a21 - a01 * a22, a00 * a22 - a02 * a20, a01 * a20 - a00 * a21, 0} * f);
   store_quad(a + 2 * s,
-        Quad4{a01 * a12 - a02 * a11, a02 * a10 - a00 * a12, a00 * a11 - a01 * a10, 0} * f);
+             Quad4{a01 * a12 - a02 * a11, a02 * a10 - a00 * a12, a00 * a11 - a01 * a10, 0} * f);
   return true;
 }
 
@@ -88,7 +89,6 @@ GRAINLAW_INLINE bool invert(double* a, std::integral_constant<int, 2>) {
   store_quad(a + s, Quad4{-a01, a00, 0, 0} * f);
   return true;
 }
-
 
 // The pivots of a diagonal block of `rows` (whole groups), in place: upper factor, inverted pivots, and below them the lower factor, which
 // `lower` has too, with zeros elsewhere. False when a pivot is singular.
@@ -246,7 +246,7 @@ template <std::size_t b>
 GRAINLAW_INLINE void open_front(const View& f, const Front& front) {
   const Shape shape(front.pivots, front.others, b);
   std::fill_n(f.values + front.values, shape.panel_size(), 0.0);
-  std::fill_n(f.left + front.left, shape.left_size(), 0.0);
+  std::fill_n(f.values + front.left, shape.left_size(), 0.0);
 }
 
 template <std::size_t b>
@@ -285,7 +285,8 @@ GRAINLAW_INLINE void add_rows(double* to, const double* from, std::size_t count)
   using Bits = simd::Vector<4>::bits;
   std::size_t r = 0;
   if constexpr (width == group) {
-    for (; r + width <= count; r += width) store(to + r, load<width>(to + r) + load<width>(from + r));
+    for (; r + width <= count; r += width)
+      store(to + r, load<width>(to + r) + load<width>(from + r));
   }
   for (; r < count; r += 4) {
     const Bits lane{0, 1, 2, 3};
@@ -317,8 +318,8 @@ GRAINLAW_INLINE void add_to_parent(const View& f, const Front& front, const Shap
   const std::size_t in_all = find_runs(front.passed, front.others, in_pivots);
   double* const pivot_panel = f.values + parent.values;
   double* const other_panel = pivot_panel + to.other_panel();
-  double* const left = f.left + parent.left;
-  const double* from = f.left + front.left;
+  double* const left = f.values + parent.left;
+  const double* from = f.values + front.left;
   for (std::size_t k = 0; k < front.others; ++k) {
     const std::size_t column = b * static_cast<std::size_t>(within[k]);
     for (std::size_t c = column; c < column + b; ++c, from += shape.other_rows) {
@@ -360,7 +361,7 @@ GRAINLAW_INLINE bool eliminate(const View& f, const Front& front, const Shape& s
     subtract_product<width>(others.from(0, next), others.from(0, p), pivots.from(p, next), count,
                             shape.other_rows, shape.eliminated - next);
   }
-  const Matrix left{f.left + front.left, shape.other_rows};
+  const Matrix left{f.values + front.left, shape.other_rows};
   subtract_product<width>(left, others, pivots.from(0, shape.eliminated), shape.eliminated,
                           shape.other_rows, shape.others);
   return true;
@@ -386,8 +387,8 @@ GRAINLAW_BY_LANES(bool, factorise_2, factorise_fronts, (const View& f, const Val
 }  // namespace
 
 BlockLU::View BlockLU::view() {
-  return {fronts_,          rows_.data(),   within_.data(), node_.data(),
-          sources_.data(), values_.data(), left_.data(),   runs_.data()};
+  return {fronts_,         rows_.data(),   within_.data(), node_.data(),
+          sources_.data(), values_.data(), runs_.data()};
 }
 
 bool BlockLU::factorise(const BlockMatrix& matrix, std::span<const Quad> added) {

@@ -17,7 +17,6 @@ struct BlockLU::View {
   const std::int32_t* node;
   const Source* sources;
   double* values;
-  double* left;
   Run* runs;
 };
 

@@ -18,9 +18,9 @@ constexpr std::size_t whole_groups(std::size_t rows) { return (rows + group - 1)
 // A front of so many nodes, pivots first: a panel of the pivots' rows, all columns wide, and one of
 // the others' rows, as wide as the pivots; what is left of the others is a third.
 struct Shape {
-  std::size_t components, pivots;         // unknowns of a node; nodes
-  std::size_t eliminated, others;         // unknowns
-  std::size_t pivot_rows, other_rows;     // from column to column
+  std::size_t components, pivots;      // unknowns of a node; nodes
+  std::size_t eliminated, others;      // unknowns
+  std::size_t pivot_rows, other_rows;  // from column to column
 
   Shape(std::size_t pivot_nodes, std::size_t other_nodes, std::size_t unknowns)
       : components(unknowns),
