@@ -69,9 +69,8 @@ class BlockLU {
   std::vector<Quad> work_;              // of the solves
   // Memory of the analysis: by nodes, by places, and by fronts.
   std::vector<std::int32_t> amd_, neighbours_, parent_, ancestor_, child_, sibling_, order_, below_;
-  std::vector<std::int32_t> structure_, mark_, front_of_, merged_;
+  std::vector<std::int32_t> structure_, mark_, front_of_;
   std::vector<std::size_t> neighbours_begin_, structure_begin_, next_;
-  std::vector<double> zeros_;
 
   [[nodiscard]] View view();
   void list_neighbours();

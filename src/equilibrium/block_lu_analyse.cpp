@@ -164,55 +164,38 @@ void BlockLU::find_structure() {
   keep_room(structure_);
 }
 
-// Columns of one list make a front; so do those of a front and of the one it is left to, right after
-// it, where the zeros that this brings cost less than another front.
+// Columns of one list make a front; so do those of a front and of the one right after it that it is
+// left to, where the zeros that this brings cost less than two fronts do.
 void BlockLU::find_fronts() {
-  struct Share {
-    std::size_t pivots;
-    double zeros;
+  const auto goes_on = [&](std::size_t j) {
+    return parent_[j - 1] == static_cast<std::int32_t>(j) && below_[j - 1] == below_[j] + 1;
   };
-  constexpr std::array<Share, 2> worth_merging{{{4, 0.3}, {12, 0.12}}};
-  constexpr double always = 0.05;
-  merged_.clear();  // first places of fronts
-  for (std::size_t j = 0; j < nodes_; ++j) {
-    const bool goes_on =
-        j > 0 && parent_[j - 1] == static_cast<std::int32_t>(j) && below_[j - 1] == below_[j] + 1;
-    if (!goes_on) merged_.push_back(static_cast<std::int32_t>(j));
-  }
-  keep_room(merged_);
   fronts_.clear();
-  resize_with_room(zeros_, merged_.size());
-  // From the last: every front is first merged with what comes after it.
-  std::size_t end = nodes_;
-  for (std::size_t s = merged_.size(); s-- > 0;) {
+  // From the last: what comes after a front has been merged as far as it may be.
+  for (std::size_t end = nodes_, first = end; end > 0; end = first) {
+    --first;
+    while (first > 0 && goes_on(first)) --first;
     Front front{};
-    front.first = at(merged_[s]);
-    front.pivots = end - front.first;
+    front.first = first;
+    front.pivots = end - first;
     front.others = at(below_[end - 1]);
     front.rows = structure_begin_[end - 1];
-    end = front.first;
-    double zeros = 0;
     while (!fronts_.empty()) {
       const Front& next = fronts_.back();
-      const std::size_t last = front.first + front.pivots - 1;
-      const std::int32_t parent = parent_[last];
+      const std::int32_t parent = parent_[front.first + front.pivots - 1];
       if (parent == -1 || at(parent) >= next.first + next.pivots) break;
-      const std::size_t pivots = front.pivots + next.pivots;
-      const auto missing = static_cast<double>(front.pivots) *
-                           static_cast<double>(next.pivots + next.others - front.others);
-      const double all = zeros + zeros_[fronts_.size() - 1] + missing;
-      const auto size = static_cast<double>(pivots) *
-                        (0.5 * static_cast<double>(pivots) + static_cast<double>(next.others));
-      const auto* share = std::find_if(worth_merging.begin(), worth_merging.end(),
-                                       [=](const Share& s) { return pivots <= s.pivots; });
-      if (all > (share == worth_merging.end() ? always : share->zeros) * size) break;
-      front.pivots = pivots;
+      const auto cost = [&](std::size_t pivots, std::size_t others) {
+        return dense::Shape(pivots, others, at(components_)).cost();
+      };
+      if (cost(front.pivots + next.pivots, next.others) >
+          cost(front.pivots, front.others) + cost(next.pivots, next.others)) {
+        break;
+      }
+      front.pivots += next.pivots;
       front.others = next.others;
       front.rows = next.rows;
-      zeros = all;
       fronts_.pop_back();
     }
-    zeros_[fronts_.size()] = zeros;
     fronts_.push_back(front);
   }
   keep_room(fronts_);

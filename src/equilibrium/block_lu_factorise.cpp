@@ -4,6 +4,7 @@
 #include "equilibrium/quad.hpp"
 
 #include <cmath>
+#include <cstring>
 #include <type_traits>
 #include <utility>
 
@@ -90,6 +91,18 @@ GRAINLAW_INLINE bool invert(double* a, std::integral_constant<int, 2>) {
   return true;
 }
 
+template <std::size_t width>
+using Bits = typename simd::Vector<width>::bits;
+
+// All bits of the first `count` lanes.
+template <std::size_t width>
+GRAINLAW_INLINE Bits<width> first_lanes(std::size_t count) {
+  static constexpr long long bits[2 * group] = {-1, -1, -1, -1, -1, -1, -1, -1};
+  Bits<width> result;
+  std::memcpy(&result, bits + group - std::min(count, width), sizeof result);
+  return result;
+}
+
 // The pivots of a diagonal block of `rows` (whole groups), in place: upper factor, inverted pivots, and below them the lower factor, which
 // `lower` has too, with zeros elsewhere. False when a pivot is singular.
 template <std::size_t width, std::size_t b>
@@ -113,14 +126,17 @@ GRAINLAW_INLINE bool factorise_block(const Matrix& a, std::size_t nodes, std::si
           product[c] += load<width>(a.column(p + k) + r) * pivot[c * pivot_stride + k];
         }
       }
+      const Bits<width> found = first_lanes<width>(std::max(r, p + b) - r);
 #pragma GCC unroll 3
-      for (std::size_t c = 0; c < b; ++c) store(lower.column(p + c) + r, product[c]);
+      for (std::size_t c = 0; c < b; ++c) {
+        double* const column = a.column(p + c) + r;
+        const auto below = (Bits<width>)product[c] & ~found;
+        store(lower.column(p + c) + r, (V)below);
+        store(column, (V)(below | ((Bits<width>)load<width>(column) & found)));
+      }
     }
     for (std::size_t c = 0; c < b; ++c) {
-      double* const column = lower.column(p + c);
-      for (std::size_t r = 0; r < p + b; ++r) column[r] = 0;
       for (std::size_t r = 0; r < b; ++r) a.column(p + c)[p + r] = pivot[c * pivot_stride + r];
-      for (std::size_t r = p + b; r < rows; ++r) a.column(p + c)[r] = column[r];
     }
     const std::size_t first = p + b < columns ? (p + b) / width * width : rows;
     for (std::size_t c = p + b; c < columns; ++c) {
@@ -278,22 +294,39 @@ GRAINLAW_INLINE void add_matrix(const View& f, const Front& front, const Shape& 
   }
 }
 
-// So many rows to where they follow each other too. Lanes beyond them get zeros.
+// to += from; lanes beyond the last row get zeros.
 template <std::size_t width>
-GRAINLAW_INLINE void add_rows(double* to, const double* from, std::size_t count) {
-  using V = simd::Lanes<4>;
-  using Bits = simd::Vector<4>::bits;
+GRAINLAW_INLINE void add(const Matrix& to, const Matrix& from, std::size_t rows,
+                         std::size_t columns) {
+  using V = simd::Lanes<width>;
   std::size_t r = 0;
-  if constexpr (width == group) {
-    for (; r + width <= count; r += width)
-      store(to + r, load<width>(to + r) + load<width>(from + r));
+  for (; r + width <= rows; r += width) {
+    for (std::size_t c = 0; c < columns; ++c) {
+      double* const at = to.column(c) + r;
+      store(at, load<width>(at) + load<width>(from.column(c) + r));
+    }
   }
-  for (; r < count; r += 4) {
-    const Bits lane{0, 1, 2, 3};
-    const Bits there = lane < static_cast<long long>(count - r);
-    const V what = (V)((Bits)load<4>(from + r) & there);
-    store(to + r, load<4>(to + r) + what);
+  if (r == rows) return;
+  const Bits<width> there = first_lanes<width>(rows - r);
+  for (std::size_t c = 0; c < columns; ++c) {
+    double* const at = to.column(c) + r;
+    store(at, load<width>(at) + (V)((Bits<width>)load<width>(from.column(c) + r) & there));
   }
+}
+
+// The nodes of a front from `begin` to `end`, in runs of which each is one in the parent too.
+template <std::size_t b>
+GRAINLAW_INLINE std::size_t find_runs(const std::int32_t* within, std::size_t begin,
+                                      std::size_t end, Run* runs) {
+  std::size_t count = 0;
+  for (std::size_t k = begin; k < end; ++count) {
+    const std::size_t start = k;
+    const std::int32_t ahead = within[k] - static_cast<std::int32_t>(k);
+    while (++k < end && within[k] - static_cast<std::int32_t>(k) == ahead) {
+    }
+    runs[count] = {b * start, b * static_cast<std::size_t>(within[start]), b * (k - start)};
+  }
+  return count;
 }
 
 // What a front leaves, to the panels of its parent.
@@ -301,40 +334,27 @@ template <std::size_t width, std::size_t b>
 GRAINLAW_INLINE void add_to_parent(const View& f, const Front& front, const Shape& shape) {
   const Front& parent = f.fronts[static_cast<std::size_t>(front.parent)];
   const Shape to(parent.pivots, parent.others, b);
-  const std::int32_t* const within = f.within + front.rows;
-  Run* const runs = f.runs;
-  const auto find_runs = [&](std::size_t k, std::size_t end, std::size_t runs_before) {
-    std::size_t count = runs_before;
-    while (k < end) {
-      const std::size_t start = k;
-      const std::int32_t ahead = within[k] - static_cast<std::int32_t>(k);
-      while (++k < end && within[k] - static_cast<std::int32_t>(k) == ahead) {
+  Run* const pivots = f.runs;
+  const std::size_t pivot_runs = find_runs<b>(f.within + front.rows, 0, front.passed, pivots);
+  Run* const others = f.runs + pivot_runs;
+  const std::size_t other_runs =
+      find_runs<b>(f.within + front.rows, front.passed, front.others, others);
+  const Matrix from{f.values + front.left, shape.other_rows};
+  const auto add_all = [&](const Matrix& panel, const Run* rows, std::size_t row_runs,
+                           const Run* columns, std::size_t column_runs) GRAINLAW_INLINED {
+    for (std::size_t j = 0; j < column_runs; ++j) {
+      for (std::size_t i = 0; i < row_runs; ++i) {
+        add<width>(panel.from(rows[i].to, columns[j].to), from.from(rows[i].from, columns[j].from),
+                   rows[i].count, columns[j].count);
       }
-      runs[count++] = {b * start, b * static_cast<std::size_t>(within[start]), b * (k - start)};
     }
-    return count;
   };
-  const std::size_t in_pivots = find_runs(0, front.passed, 0);
-  const std::size_t in_all = find_runs(front.passed, front.others, in_pivots);
-  double* const pivot_panel = f.values + parent.values;
-  double* const other_panel = pivot_panel + to.other_panel();
-  double* const left = f.values + parent.left;
-  const double* from = f.values + front.left;
-  for (std::size_t k = 0; k < front.others; ++k) {
-    const std::size_t column = b * static_cast<std::size_t>(within[k]);
-    for (std::size_t c = column; c < column + b; ++c, from += shape.other_rows) {
-      double* const pivots = pivot_panel + c * to.pivot_rows;
-      for (std::size_t i = 0; i < in_pivots; ++i) {
-        add_rows<width>(pivots + runs[i].to, from + runs[i].from, runs[i].count);
-      }
-      double* const others = (k < front.passed ? other_panel + c * to.other_rows
-                                               : left + (c - to.eliminated) * to.other_rows) -
-                             to.eliminated;
-      for (std::size_t i = in_pivots; i < in_all; ++i) {
-        add_rows<width>(others + runs[i].to, from + runs[i].from, runs[i].count);
-      }
-    }
-  }
+  double* const values = f.values + parent.values;
+  add_all({values, to.pivot_rows}, pivots, pivot_runs, pivots, pivot_runs + other_runs);
+  add_all({values + to.other_panel() - to.eliminated, to.other_rows}, others, other_runs, pivots,
+          pivot_runs);
+  add_all({f.values + parent.left - to.eliminated * (1 + to.other_rows), to.other_rows}, others,
+          other_runs, others, other_runs);
 }
 
 template <std::size_t width, std::size_t b>

@@ -33,6 +33,7 @@ struct OneVector {
     for (std::size_t c = 0; c < b; ++c) result.by[c] = value[c];
     return result;
   }
+  GRAINLAW_INLINE void add(const OneVector& other) { value += other.value; }
   // -= a x and = a x; a is a block by columns, `stride` apart.
   GRAINLAW_INLINE void subtract(const double* a, std::size_t stride, const Spread& x) {
 #pragma GCC unroll 3
@@ -64,6 +65,10 @@ struct FourVectors {
     for (std::size_t c = 0; c < b; ++c) quad::store(to + c * width, value[c]);
   }
   GRAINLAW_INLINE const Spread& spread() const { return *this; }
+  GRAINLAW_INLINE void add(const FourVectors& other) {
+#pragma GCC unroll 3
+    for (std::size_t c = 0; c < b; ++c) value[c] += other.value[c];
+  }
   GRAINLAW_INLINE void subtract(const double* a, std::size_t stride, const Spread& x) {
 #pragma GCC unroll 3
     for (std::size_t c = 0; c < b; ++c) {
@@ -128,23 +133,34 @@ GRAINLAW_INLINE void backward(const View& f, const Front& front, double* y) {
   const double* const values = f.values + front.values;
   const std::int32_t* const rows = f.rows + front.rows;
   double* const own = y + front.first * Unknowns::size;
+  // From two of the others at a time: sums that do not wait for each other.
   const auto give = [&]<std::size_t count>(std::size_t k) GRAINLAW_INLINED {
     Unknowns to[count];
-#pragma GCC unroll 4
+    Unknowns second[count]{};
+#pragma GCC unroll 2
     for (std::size_t i = 0; i < count; ++i) to[i] = Unknowns::load(own + (k + i) * Unknowns::size);
+    const std::size_t step = b * shape.pivot_rows;
     const double* a = values + shape.place(k, front.pivots);
-    for (std::size_t r = 0; r < front.others; ++r, a += b * shape.pivot_rows) {
-      const auto x = Unknowns::load(y + static_cast<std::size_t>(rows[r]) * Unknowns::size);
+    std::size_t r = 0;
+    const auto take = [&](Unknowns* sum, const double* at, std::size_t other) GRAINLAW_INLINED {
+      const auto x = Unknowns::load(y + static_cast<std::size_t>(rows[other]) * Unknowns::size);
       const typename Unknowns::Spread by = x.spread();
-#pragma GCC unroll 4
-      for (std::size_t i = 0; i < count; ++i) to[i].subtract(a + i * b, shape.pivot_rows, by);
+#pragma GCC unroll 2
+      for (std::size_t i = 0; i < count; ++i) sum[i].subtract(at + i * b, shape.pivot_rows, by);
+    };
+    for (; r + 2 <= front.others; r += 2, a += 2 * step) {
+      take(to, a, r);
+      take(second, a + step, r + 1);
     }
-#pragma GCC unroll 4
-    for (std::size_t i = 0; i < count; ++i) to[i].store(own + (k + i) * Unknowns::size);
+    if (r < front.others) take(to, a, r);
+#pragma GCC unroll 2
+    for (std::size_t i = 0; i < count; ++i) {
+      to[i].add(second[i]);
+      to[i].store(own + (k + i) * Unknowns::size);
+    }
   };
   std::size_t k = 0;
   if (front.others > 0) {
-    for (; k + 4 <= front.pivots; k += 4) give.template operator()<4>(k);
     for (; k + 2 <= front.pivots; k += 2) give.template operator()<2>(k);
     if (k < front.pivots) give.template operator()<1>(k);
   }

@@ -33,6 +33,14 @@ struct Shape {
   [[nodiscard]] std::size_t other_panel() const { return pivot_rows * (eliminated + others); }
   [[nodiscard]] std::size_t panel_size() const { return other_panel() + other_rows * eliminated; }
   [[nodiscard]] std::size_t left_size() const { return other_rows * others; }
+  // About what a front of this shape costs [cycles], measured where registers have eight lanes.
+  [[nodiscard]] double cost() const {
+    constexpr double front = 250, panel_entry = 0.4, left_entry = 0.6, product = 1.0 / 16;
+    const auto panel = static_cast<double>(panel_size());
+    const auto left = static_cast<double>(left_size());
+    return front + panel_entry * panel + left_entry * left +
+           product * static_cast<double>(eliminated) * (panel + left);
+  }
   // Of the block (row, column), by nodes, one of them a pivot.
   [[nodiscard]] std::size_t place(std::size_t row, std::size_t column) const {
     const std::size_t to = components * column;
