@@ -20,11 +20,13 @@ constexpr std::size_t lanes = ContactSides::lanes;
 static_assert(lanes == ContactList::group);
 
 struct Loop {
-  std::span<ContactSides::Nodes> groups;
+  std::span<const ContactSides::Rows> groups;
+  ContactSides::Nodes* nodes;
+  const ContactSides::Bounds* bounds;
   const ContactSides::Start* starts;
   ContactSides::Side* sides;
-  const double* records;  // of the place, or the moves
-  double* next_moves = nullptr;
+  const double* records;         // of the place, or the moves
+  double* last_moves = nullptr;  // in: of the step before; out: of the next
   double curvature = 0, friction = 0, ratio = 0, factor = 0, keep = 0, gain = 0;
 };
 
@@ -42,11 +44,14 @@ GRAINLAW_INLINE Looked look_loop(const Loop& loop) {
   V beyond{};
   GroupSum<width> force, touching;
   const double* own_records = loop.records;
-  for (auto& nodes : loop.groups) {
+  for (std::size_t g = 0; g < loop.groups.size(); ++g) {
+    const ContactSides::Rows rows = loop.groups[g];
+    ContactSides::Nodes& nodes = loop.nodes[g];
+    const ContactSides::Bounds& bounds = loop.bounds[g];
     for (std::size_t k = 0; k < lanes; k += width, own_records += 4 * width) {
       const Columns<width> own = columns_at<width>(own_records);
       V stiffness{}, stiffness_roll{};
-      for (std::size_t row = nodes.first_row; row < nodes.first_row + nodes.rows; ++row) {
+      for (std::size_t row = rows.first; row < rows.first + rows.count; ++row) {
         const ContactSides::Start& start = loop.starts[row];
         ContactSides::Side& side = loop.sides[row];
         const Columns<width> other = records_of<width>(loop.records, side.other + k);
@@ -91,9 +96,9 @@ GRAINLAW_INLINE Looked look_loop(const Loop& loop) {
         store(mass + k, value);
         store(gain + k, 1 / value);
       };
-      put_mass(stiffness, nodes.least, nodes.mass, nodes.gain);
+      put_mass(stiffness, bounds.least, nodes.mass, nodes.gain);
       if constexpr (rotating) {
-        put_mass(stiffness_roll * load<width>(nodes.inverse_radius + k), nodes.least_roll,
+        put_mass(stiffness_roll * load<width>(bounds.inverse_radius + k), bounds.least_roll,
                  nodes.mass_roll, nodes.gain_roll);
       }
     }
@@ -110,15 +115,17 @@ GRAINLAW_INLINE ContactSides::Measured step_loop(const Loop& loop) {
   const double curvature = loop.curvature;
   V largest_force{};
   GroupSum<width> power, next_power, inertia;
-  double* next_moves = loop.next_moves;
+  double* last_moves = loop.last_moves;
   const double* own_records = loop.records;
-  for (auto& nodes : loop.groups) {
+  for (std::size_t g = 0; g < loop.groups.size(); ++g) {
+    const ContactSides::Rows rows = loop.groups[g];
+    const ContactSides::Nodes& nodes = loop.nodes[g];
     for (std::size_t k = 0; k < lanes;
-         k += width, next_moves += 4 * width, own_records += 4 * width) {
+         k += width, last_moves += 4 * width, own_records += 4 * width) {
       Columns<width> own = columns_at<width>(own_records);
       V x{}, y{}, roll{};
-      const ContactSides::Side* side = loop.sides + nodes.first_row;
-      for (const auto* const end = side + nodes.rows; side != end; ++side) {
+      const ContactSides::Side* side = loop.sides + rows.first;
+      for (const auto* const end = side + rows.count; side != end; ++side) {
         const Columns<width> other = records_of<width>(loop.records, side->other + k);
         const V ux = own.x - other.x;
         const V uy = own.y - other.y;
@@ -144,26 +151,24 @@ GRAINLAW_INLINE ContactSides::Measured step_loop(const Loop& loop) {
         if constexpr (rotating) roll -= stretch * ft;
       }
       V work{}, next_work{}, twice_energy{};
-      const auto go_on = [&](const V& force, double* velocity, const double* mass,
-                             const double* gain, V& moved) {
-        const V v = load<width>(velocity + k);
+      const Columns<width> last = columns_at<width>(last_moves);
+      const auto go_on = [&](const V& force, const double* mass, const double* gain,
+                             const V& before, V& moved) {
+        const V v = moved - before;
         largest_force = largest(largest_force, magnitude(force));
         work += v * force;
         twice_energy += v * load<width>(mass + k) * v;
         const V next = loop.keep * v + loop.gain * force * load<width>(gain + k);
         next_work += next * force;
-        store(velocity + k, next);
         moved += next;
       };
-      go_on(x, nodes.velocity_x, nodes.mass, nodes.gain, own.x);
-      go_on(y, nodes.velocity_y, nodes.mass, nodes.gain, own.y);
-      if constexpr (rotating) {
-        go_on(roll, nodes.velocity_roll, nodes.mass_roll, nodes.gain_roll, own.roll);
-      }
+      go_on(x, nodes.mass, nodes.gain, last.x, own.x);
+      go_on(y, nodes.mass, nodes.gain, last.y, own.y);
+      if constexpr (rotating) go_on(roll, nodes.mass_roll, nodes.gain_roll, last.roll, own.roll);
       power.add(k, work);
       next_power.add(k, next_work);
       inertia.add(k, twice_energy);
-      put_records<width>(own, next_moves);
+      put_records<width>(own, last_moves);
     }
   }
   return {most(largest_force), power.total(), next_power.total(), inertia.total()};
@@ -188,29 +193,27 @@ void ContactSides::arrange(const ContactList& list, const Packing& packing,
   curvature_ = 0.5 * static_cast<double>(particles_) / sum;
   if (!at_rest) save_velocities();
   sort_nodes(list, packing.order, least_masses);
-  if (!at_rest) restore_velocities();
-  for (auto* records : {&place_, &moves_, &next_moves_}) {
+  for (auto* records : {&place_, &moves_, &last_moves_}) {
     resize_with_room(*records, lanes * nodes_.size());
+    std::fill(records->begin(), records->end(), ParticleRecord{});
   }
-  std::fill(place_.begin(), place_.end(), ParticleRecord{});
+  if (!at_rest) restore_velocities();
   list_sides(list, 2 * *std::max_element(radius.begin(), radius.end()));
 }
 
 void ContactSides::save_velocities() {
+  resize_with_room(velocity_, particles_);
   for (std::size_t p = 0; p < particles_; ++p) {
-    const Nodes& nodes = nodes_[slot_[p] / lanes];
-    const std::size_t k = slot_[p] % lanes;
-    next_moves_[p] = {nodes.velocity_x[k], nodes.velocity_y[k], nodes.velocity_roll[k], 0};
+    const ParticleRecord& now = moves_[slot_[p]];
+    const ParticleRecord& last = last_moves_[slot_[p]];
+    velocity_[p] = {now.x - last.x, now.y - last.y, now.roll - last.roll, 0};
   }
 }
 
 void ContactSides::restore_velocities() {
   for (std::size_t p = 0; p < particles_; ++p) {
-    Nodes& nodes = nodes_[slot_[p] / lanes];
-    const std::size_t k = slot_[p] % lanes;
-    nodes.velocity_x[k] = next_moves_[p].x;
-    nodes.velocity_y[k] = next_moves_[p].y;
-    nodes.velocity_roll[k] = next_moves_[p].roll;
+    const ParticleRecord& v = velocity_[p];
+    last_moves_[slot_[p]] = {-v.x, -v.y, -v.roll, 0};
   }
 }
 
@@ -229,25 +232,30 @@ void ContactSides::sort_nodes(const ContactList& list, std::span<const std::int3
   for (const std::uint32_t count : count_) ++first_slot_[count + 1];
   std::partial_sum(first_slot_.begin(), first_slot_.end(), first_slot_.begin());
 
-  Nodes filling{};
+  Bounds filling{};
   for (auto* column : {&filling.least, &filling.least_roll}) std::fill_n(*column, lanes, 1.0);
-  resize_with_room(nodes_, (particles_ + lanes - 1) / lanes);
-  std::fill(nodes_.begin(), nodes_.end(), filling);
+  const std::size_t groups = (particles_ + lanes - 1) / lanes;
+  resize_with_room(nodes_, groups);
+  resize_with_room(bounds_, groups);
+  std::fill(bounds_.begin(), bounds_.end(), filling);
+  resize_with_room(rows_, groups);
+  std::fill(rows_.begin(), rows_.end(), Rows{});
   resize_with_room(slot_, particles_);
   for (std::size_t q = 0; q < particles_; ++q) {
     const std::size_t p = order.empty() ? q : at(order[q]);
     slot_[p] = first_slot_[count_[p]]++;
-    Nodes& nodes = nodes_[slot_[p] / lanes];
+    Bounds& bounds = bounds_[slot_[p] / lanes];
     const std::size_t k = slot_[p] % lanes;
-    nodes.least[k] = least_masses[p].x;
-    nodes.least_roll[k] = least_masses[p].roll;
-    nodes.inverse_radius[k] = least_masses[p].unused;
-    nodes.rows = std::max(nodes.rows, count_[p]);
+    bounds.least[k] = least_masses[p].x;
+    bounds.least_roll[k] = least_masses[p].roll;
+    bounds.inverse_radius[k] = least_masses[p].unused;
+    Rows& rows = rows_[slot_[p] / lanes];
+    rows.count = std::max(rows.count, count_[p]);
   }
-  std::uint32_t rows = 0;
-  for (Nodes& nodes : nodes_) {
-    nodes.first_row = rows;
-    rows += nodes.rows;
+  std::uint32_t first = 0;
+  for (Rows& rows : rows_) {
+    rows.first = first;
+    first += rows.count;
   }
 }
 
@@ -257,14 +265,14 @@ void ContactSides::list_sides(const ContactList& list, double longest_reach) {
   std::fill_n(nothing.offset_x, lanes, 2 * longest_reach);
   std::fill_n(nothing.inverse_reach, lanes, 1 / longest_reach);
   std::fill_n(nothing.x, lanes, 1.0);
-  const std::size_t rows = nodes_.back().first_row + nodes_.back().rows;
+  const std::size_t rows = rows_.back().first + rows_.back().count;
   resize_with_room(starts_, rows);
   std::fill(starts_.begin(), starts_.end(), nothing);
   resize_with_room(sides_, rows);
   std::fill(sides_.begin(), sides_.end(), Side{});
   std::int32_t first = 0;
-  for (const Nodes& nodes : nodes_) {
-    for (std::size_t row = nodes.first_row; row < nodes.first_row + nodes.rows; ++row) {
+  for (const Rows& group : rows_) {
+    for (std::size_t row = group.first; row < group.first + group.count; ++row) {
       std::iota(sides_[row].other, sides_[row].other + lanes, first);
     }
     first += lanes;
@@ -272,7 +280,7 @@ void ContactSides::list_sides(const ContactList& list, double longest_reach) {
   std::fill(count_.begin(), count_.end(), 0U);
   const auto add = [&](std::size_t c, std::int32_t node, std::int32_t other, double sign) {
     const std::size_t slot = slot_[at(node)];
-    const std::size_t row = nodes_[slot / lanes].first_row + count_[at(node)]++;
+    const std::size_t row = rows_[slot / lanes].first + count_[at(node)]++;
     const std::size_t k = slot % lanes;
     Start& start = starts_[row];
     start.offset_x[k] = sign * list.offset_x[c];
@@ -295,8 +303,15 @@ void ContactSides::list_sides(const ContactList& list, double longest_reach) {
 ContactTotals ContactSides::look(std::span<const ParticleRecord> particles, const ContactLaw& law,
                                  double factor, ContactList& list) {
   for (std::size_t p = 0; p < particles_; ++p) place_[slot_[p]] = particles[p];
+  for (std::size_t s = 0; s < moves_.size(); ++s) {
+    const ParticleRecord& now = moves_[s];
+    ParticleRecord& last = last_moves_[s];
+    last = {last.x - now.x, last.y - now.y, last.roll - now.roll, 0};
+  }
   std::fill(moves_.begin(), moves_.end(), ParticleRecord{});
-  const Loop loop{.groups = nodes_,
+  const Loop loop{.groups = rows_,
+                  .nodes = nodes_.data(),
+                  .bounds = bounds_.data(),
                   .starts = starts_.data(),
                   .sides = sides_.data(),
                   .records = &place_[0].x,
@@ -313,18 +328,20 @@ ContactTotals ContactSides::look(std::span<const ParticleRecord> particles, cons
 }
 
 ContactSides::Measured ContactSides::step(const ContactLaw& law, double keep, double gain) {
-  const Loop loop{.groups = nodes_,
+  const Loop loop{.groups = rows_,
+                  .nodes = nodes_.data(),
+                  .bounds = nullptr,
                   .starts = nullptr,
                   .sides = sides_.data(),
                   .records = &moves_[0].x,
-                  .next_moves = &next_moves_[0].x,
+                  .last_moves = &last_moves_[0].x,
                   .curvature = curvature_,
                   .friction = law.friction,
                   .ratio = law.ratio,
                   .keep = keep,
                   .gain = gain};
   const Measured measured = law.rotating() ? step_rotating(loop) : step_locked(loop);
-  moves_.swap(next_moves_);
+  moves_.swap(last_moves_);
   return measured;
 }
 

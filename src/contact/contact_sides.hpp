@@ -48,11 +48,14 @@ class ContactSides {
   // lanes there are.
   static constexpr std::size_t lanes = 8;
   using Doubles = double[lanes];
+  struct Rows {
+    std::uint32_t first, count;  // of their sides, one of each node in a row
+  };
   struct alignas(64) Nodes {
-    std::uint32_t first_row, rows;  // of their sides, one of each node in a row
-    Doubles velocity_x, velocity_y, velocity_roll;
     Doubles mass, mass_roll, gain, gain_roll;  // gain = 1 / mass
-    Doubles least, least_roll, inverse_radius;
+  };
+  struct alignas(64) Bounds {
+    Doubles least, least_roll, inverse_radius;  // masses are no smaller; 1 / R
   };
   // As in ContactList, with the node as j.
   struct alignas(64) Start {
@@ -72,13 +75,17 @@ class ContactSides {
   void list_sides(const ContactList& list, double longest_reach);
 
   std::size_t particles_ = 0;
-  double curvature_ = 0;       // 1 / mean branch [1/m]
-  simd::Column<Nodes> nodes_;  // sorted by the number of sides
+  double curvature_ = 0;  // 1 / mean branch [1/m]
+  // Sorted by the number of sides.
+  std::vector<Rows> rows_;
+  simd::Column<Nodes> nodes_;
+  simd::Column<Bounds> bounds_;
   simd::Column<Start> starts_;
   simd::Column<Side> sides_;
-  // Of the nodes, and of those that fill up the last group.
-  simd::Column<ParticleRecord> place_, moves_;
-  simd::Column<ParticleRecord> next_moves_;  // while listing: velocities, by particles
+  // Of the nodes, and of those that fill up the last group. The velocity is what the moves grew by in
+  // the last step.
+  simd::Column<ParticleRecord> place_, moves_, last_moves_;
+  std::vector<ParticleRecord> velocity_;  // by particles, while listing
   std::vector<std::uint32_t> count_, first_slot_;
   std::vector<std::uint32_t> slot_;  // of a particle: which node it is
 };
