@@ -12,7 +12,7 @@ constexpr int most_subincrements = 64;
 // Relaxation hands over to Newton at this residual: Newton's reach shrinks with the packing's size.
 double switch_tolerance(std::size_t nodes) {
   constexpr double hand_over = 5e-4;
-  constexpr double exponent = 1.66;
+  constexpr double exponent = 1.2;
   return hand_over * std::pow(std::min(1.0, 400.0 / static_cast<double>(nodes)), exponent);
 }
 

@@ -16,6 +16,8 @@ constexpr std::size_t width = 4;
 
 // Masses older than this are past the stability limit: contacts have closed meanwhile.
 constexpr long mass_interval = 10;
+constexpr long long_interval = 30;  // where a relaxation is calm
+static_assert(long_interval % mass_interval == 0);
 
 // One record per node: translation, and rotation as turned length R theta. Its force M / R makes
 // every component a force, and its mass is I / R^2.
@@ -126,7 +128,16 @@ void Relaxation::refresh() {
   }
 }
 
+// Whether two looks in three are not needed: contacts hardly move, and what they do is by the forces.
+bool Relaxation::calm() const {
+  constexpr double calm_residual = 1e-2;
+  constexpr double rise = 3;  // of the residual since the last look
+  return by_sides_ && residual_ < calm_residual && calm_max_ < rise * calm_start_ &&
+         steps_ % long_interval != 0;
+}
+
 void Relaxation::look() {
+  calm_start_ = calm_max_ = residual_;
   const auto totals = memory_.sides.look(increment_.records, *increment_.problem->law,
                                          Increment::mass_factor, increment_.contacts);
   increment_.touching = totals.touching;
@@ -161,14 +172,12 @@ void Relaxation::review_floor() {
 // Where soft modes creep under the damping that flutter asks for, on with them at once; whether it
 // did. Less often every time: what a leap disturbs needs the relaxation.
 bool Relaxation::leap() {
-  constexpr long leap_interval = 30;  // from look to look [steps]
-  static_assert(leap_interval % mass_interval == 0);
   constexpr double leap_residual = 2e-3;    // below it the contacts switch seldom
   constexpr double restless = 6;            // largest / smallest residual since the last look
   constexpr double longest_leap = 0.3;      // mean overlaps
   constexpr double least_stiffness = 1e-6;  // of the mean one
   constexpr double longer_pause = 1.5;
-  if (steps_ % leap_interval != 0) return false;
+  if (steps_ % long_interval != 0) return false;
   const bool creeps = residual_ < leap_residual && look_max_ < restless * look_min_;
   look_max_ = look_min_ = residual_;
   if (!creeps || steps_ < next_leap_) {
@@ -183,7 +192,7 @@ bool Relaxation::leap() {
   const bool leapt = memory_.slow.leap(increment_.records, limit, least_stiffness * stiffness);
   memory_.slow.forget();
   if (!leapt) return false;
-  pause_ = longer_pause * pause_ + leap_interval;
+  pause_ = longer_pause * pause_ + long_interval;
   next_leap_ = steps_ + std::lround(pause_);
   increment_.store_records();
   std::fill(memory_.velocity.begin(), memory_.velocity.end(), 0.0);
@@ -250,7 +259,7 @@ bool Relaxation::run(double tolerance, long steps, double least_force) {
     const bool stop = steps_ == last || !std::isfinite(residual_) ||
                       (steps_ % window == 0 && increment_.mean_force < least_force);
     const bool over = residual_ < tolerance || stop;
-    if (over || steps_ % mass_interval == 0) {
+    if (over || (steps_ % mass_interval == 0 && !calm())) {
       if (by_sides_) memory_.sides.move(increment_.records);
       increment_.store_records();
       refresh();
@@ -262,6 +271,7 @@ bool Relaxation::run(double tolerance, long steps, double least_force) {
       if (increment_.residual_norm() < tolerance) return true;
       if (stop) return false;
     }
+    calm_max_ = std::max(calm_max_, residual_);
     look_max_ = std::max(look_max_, residual_);
     look_min_ = std::min(look_min_, residual_);
     window_max_ = std::max(window_max_, residual_);

@@ -43,6 +43,7 @@ class Relaxation {
  private:
   void refresh();
   void look();
+  [[nodiscard]] bool calm() const;
   ContactSides::Measured step_nodes(double keep, double gain);
   void update();
   void review_floor();
@@ -67,6 +68,7 @@ class Relaxation {
   static constexpr long first_leap = 200;
   long next_leap_ = first_leap;  // not before this step
   double pause_ = 0;             // after the last leap [steps]
+  double calm_start_ = 0, calm_max_ = 0;  // residual at the last look at the geometry, and since
   double look_max_ = 0, look_min_ = std::numeric_limits<double>::infinity();  // residual since then
   double window_start_ = std::numeric_limits<double>::infinity();
   double window_max_ = 0, window_min_ = std::numeric_limits<double>::infinity();
