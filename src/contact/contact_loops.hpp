@@ -321,17 +321,7 @@ GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
           static_cast<int>(touching.total())};
 }
 
-#define GRAINLAW_LOOP(Result, name, loop_of, ...)                                                \
-  Result name##_of_two(const Loop& loop) { return loop_of<2 __VA_OPT__(, ) __VA_ARGS__>(loop); } \
-  GRAINLAW_OF_FOUR Result name##_of_four(const Loop& loop) {                                     \
-    return loop_of<4 __VA_OPT__(, ) __VA_ARGS__>(loop);                                          \
-  }                                                                                              \
-  GRAINLAW_OF_EIGHT Result name##_of_eight(const Loop& loop) {                                   \
-    return loop_of<8 __VA_OPT__(, ) __VA_ARGS__>(loop);                                          \
-  }                                                                                              \
-  Result name(const Loop& loop) {                                                                \
-    if (eight_lanes()) return name##_of_eight(loop);                                             \
-    return four_lanes() ? name##_of_four(loop) : name##_of_two(loop);                            \
-  }
+#define GRAINLAW_LOOP(Result, name, loop_of, ...) \
+  GRAINLAW_BY_LANES(Result, name, loop_of, (const Loop& loop), (loop)__VA_OPT__(, ) __VA_ARGS__)
 
 }  // namespace grainlaw::contact_loops

@@ -66,8 +66,8 @@ class Relaxation {
   double floor_ = first_floor;  // of the damping
   long steps_ = 0;
   static constexpr long first_leap = 200;
-  long next_leap_ = first_leap;  // not before this step
-  double pause_ = 0;             // after the last leap [steps]
+  long next_leap_ = first_leap;           // not before this step
+  double pause_ = 0;                      // after the last leap [steps]
   double calm_start_ = 0, calm_max_ = 0;  // residual at the last look at the geometry, and since
   double look_max_ = 0, look_min_ = std::numeric_limits<double>::infinity();  // residual since then
   double window_start_ = std::numeric_limits<double>::infinity();

@@ -133,17 +133,6 @@ void assembly(benchmark::State& timing) {
 }
 BENCHMARK(assembly)->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMicrosecond);
 
-// Symbolic and numeric.
-void first_factorisation(benchmark::State& timing) {
-  Assembled at(timing);
-  for (auto _ : timing) {
-    at.workspace.increment.factorisations = 0;
-    at.workspace.newton.stiffness.assemble(at.workspace.increment, 0);
-    at.workspace.newton.stiffness.factorise(at.workspace.increment);
-  }
-}
-BENCHMARK(first_factorisation)->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMicrosecond);
-
 void factorisation(benchmark::State& timing) {
   Assembled at(timing);
   for (auto _ : timing) at.workspace.newton.stiffness.factorise(at.workspace.increment);

@@ -98,7 +98,9 @@ std::vector<PathRow> study_paths(const StudyOptions& options, const std::vector<
 // CPU per evaluation against the number of particles, and the standard error of cpu_exact over
 // packings.
 struct NumberRow {
-  double particles, packings, cpu, cpu_exact, error, steps, factorisations;
+  double particles, packings, cpu, cpu_exact, error;
+  double median, median_error;  // of a packing's increments, with the exact tangent
+  double steps, factorisations;
 };
 std::vector<NumberRow> study_numbers(const StudyOptions& options, int largest_count);
 
