@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <random>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -157,6 +158,59 @@ TEST(block_lu, solves_as_a_dense_factorisation_does) {
       const auto b = random_vector(unknowns(matrix), random);
       expect_solution(matrix, b, solve(lu, matrix, b));
     }
+  }
+}
+
+// Groups of nodes that all touch each other, one after the other; `shared` of each are the next one's too.
+BlockMatrix chained_groups(std::size_t groups, std::size_t size, std::size_t shared, int components,
+                           std::mt19937& random) {
+  std::set<Edge> edges;
+  const std::size_t step = size - shared;
+  for (std::size_t g = 0; g < groups; ++g) {
+    for (std::size_t p = g * step; p < g * step + size; ++p) {
+      for (std::size_t q = p + 1; q < g * step + size; ++q) {
+        edges.emplace(static_cast<std::int32_t>(p), static_cast<std::int32_t>(q));
+      }
+    }
+  }
+  BlockMatrix matrix;
+  const std::vector<Edge> ordered(edges.begin(), edges.end());
+  matrix.reset(groups * step + shared, components, ordered);
+  fill(matrix, random);
+  for (std::size_t q = 0; q < matrix.nodes; ++q) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(components); ++k) {
+      matrix.block(q)[k].lane[k] += static_cast<double>(size);
+    }
+  }
+  return matrix;
+}
+
+void expect_solved(const BlockMatrix& matrix, std::mt19937& random) {
+  BlockLU lu;
+  lu.analyse(matrix);
+  ASSERT_TRUE(lu.factorise(matrix));
+  const auto b = random_vector(unknowns(matrix), random);
+  expect_solution(matrix, b, solve(lu, matrix, b));
+}
+
+// 8 nodes of 3 unknowns and 12 of 2 fill a block of pivots.
+TEST(block_lu, eliminates_fronts_of_any_size) {
+  std::mt19937 random(21);
+  for (const int components : {2, 3}) {
+    for (const std::size_t size : {3U, 7U, 8U, 9U, 12U, 13U, 17U, 40U}) {
+      expect_solved(chained_groups(1, size, 0, components, random), random);
+      for (const std::size_t shared : {std::size_t{1}, size / 2}) {
+        expect_solved(chained_groups(4, size, shared, components, random), random);
+      }
+    }
+  }
+}
+
+TEST(block_lu, solves_parts_that_do_not_touch) {
+  std::mt19937 random(22);
+  for (const int components : {2, 3}) {
+    expect_solved(chained_groups(5, 6, 0, components, random), random);
+    expect_solved(chained_groups(30, 1, 0, components, random), random);
   }
 }
 

@@ -291,11 +291,11 @@ Evaluation advance_in_halves(State& state, const Tensor& F, int& refused) {
 }
 
 // Rounding decides whether one of the increments needs halves; with these packings none does where it
-// is that of wide registers, and three do without what is tested.
+// is that of wide registers, and eleven do without what is tested.
 TEST(stress_free, forces_that_fade_without_end_count_for_nothing) {
   int refused = 0;
   int faded = 0;
-  for (const std::uint64_t seed : {3, 12}) {
+  for (const std::uint64_t seed : {31, 54}) {
     GeneratorOptions options;
     options.count = 200;
     options.seed = seed;
