@@ -128,7 +128,8 @@ void Relaxation::refresh() {
   }
 }
 
-// Whether two looks in three are not needed: contacts hardly move, and what they do is by the forces.
+// Whether a look may wait: contacts hardly move, those that switch find their forces all the same, and
+// masses that no longer do would raise the residual.
 bool Relaxation::calm() const {
   constexpr double calm_residual = 1e-2;
   constexpr double rise = 3;  // of the residual since the last look
@@ -172,12 +173,14 @@ void Relaxation::review_floor() {
 // Where soft modes creep under the damping that flutter asks for, on with them at once; whether it
 // did. Less often every time: what a leap disturbs needs the relaxation.
 bool Relaxation::leap() {
+  constexpr long leap_interval = 30;  // from look to look [steps]
+  static_assert(leap_interval % long_interval == 0);
   constexpr double leap_residual = 2e-3;    // below it the contacts switch seldom
   constexpr double restless = 6;            // largest / smallest residual since the last look
   constexpr double longest_leap = 0.3;      // mean overlaps
   constexpr double least_stiffness = 1e-6;  // of the mean one
   constexpr double longer_pause = 1.5;
-  if (steps_ % long_interval != 0) return false;
+  if (steps_ % leap_interval != 0) return false;
   const bool creeps = residual_ < leap_residual && look_max_ < restless * look_min_;
   look_max_ = look_min_ = residual_;
   if (!creeps || steps_ < next_leap_) {
@@ -192,7 +195,7 @@ bool Relaxation::leap() {
   const bool leapt = memory_.slow.leap(increment_.records, limit, least_stiffness * stiffness);
   memory_.slow.forget();
   if (!leapt) return false;
-  pause_ = longer_pause * pause_ + long_interval;
+  pause_ = longer_pause * pause_ + leap_interval;
   next_leap_ = steps_ + std::lround(pause_);
   increment_.store_records();
   std::fill(memory_.velocity.begin(), memory_.velocity.end(), 0.0);
