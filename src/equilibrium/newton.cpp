@@ -41,8 +41,6 @@ constexpr double largest_shift = 1e3;
 constexpr double good = 0.1;
 constexpr double acceptable = 0.9;
 constexpr double largest_rise = 300;
-// Of a step, relative: what contacts that switch leave is larger.
-constexpr double solution_tolerance = 1e-6;
 
 class FlowNewton {
  public:
@@ -86,7 +84,7 @@ class FlowNewton {
     if (Border::needed(*increment_.problem->space)) {
       return border.solve(increment_, stiffness, shift_, residual, step);
     }
-    return stiffness.solve(increment_, residual, step, solution_tolerance);
+    return stiffness.solve(increment_, residual, step);
   }
 
   void keep_best() {
