@@ -147,16 +147,19 @@ std::size_t unknowns(const BlockMatrix& matrix) {
   return matrix.nodes * static_cast<std::size_t>(matrix.components);
 }
 
+void expect_solved(const BlockMatrix& matrix, BlockLU& lu, std::mt19937& random) {
+  lu.analyse(matrix);
+  ASSERT_TRUE(lu.factorise(matrix));
+  const auto b = random_vector(unknowns(matrix), random);
+  expect_solution(matrix, b, solve(lu, matrix, b));
+}
+
 TEST(block_lu, solves_as_a_dense_factorisation_does) {
   std::mt19937 random(11);
   BlockLU lu;  // of one matrix after the other
   for (const int components : {2, 3}) {
     for (const std::size_t nodes : {1U, 2U, 10U, 60U, 200U}) {
-      const BlockMatrix matrix = random_matrix(nodes, components, random);
-      lu.analyse(matrix);
-      ASSERT_TRUE(lu.factorise(matrix));
-      const auto b = random_vector(unknowns(matrix), random);
-      expect_solution(matrix, b, solve(lu, matrix, b));
+      expect_solved(random_matrix(nodes, components, random), lu, random);
     }
   }
 }
@@ -185,22 +188,15 @@ BlockMatrix chained_groups(std::size_t groups, std::size_t size, std::size_t sha
   return matrix;
 }
 
-void expect_solved(const BlockMatrix& matrix, std::mt19937& random) {
-  BlockLU lu;
-  lu.analyse(matrix);
-  ASSERT_TRUE(lu.factorise(matrix));
-  const auto b = random_vector(unknowns(matrix), random);
-  expect_solution(matrix, b, solve(lu, matrix, b));
-}
-
 // 8 nodes of 3 unknowns and 12 of 2 fill a block of pivots.
 TEST(block_lu, eliminates_fronts_of_any_size) {
   std::mt19937 random(21);
+  BlockLU lu;  // of one matrix after the other
   for (const int components : {2, 3}) {
     for (const std::size_t size : {3U, 7U, 8U, 9U, 12U, 13U, 17U, 40U}) {
-      expect_solved(chained_groups(1, size, 0, components, random), random);
+      expect_solved(chained_groups(1, size, 0, components, random), lu, random);
       for (const std::size_t shared : {std::size_t{1}, size / 2}) {
-        expect_solved(chained_groups(4, size, shared, components, random), random);
+        expect_solved(chained_groups(4, size, shared, components, random), lu, random);
       }
     }
   }
@@ -208,9 +204,10 @@ TEST(block_lu, eliminates_fronts_of_any_size) {
 
 TEST(block_lu, solves_parts_that_do_not_touch) {
   std::mt19937 random(22);
+  BlockLU lu;
   for (const int components : {2, 3}) {
-    expect_solved(chained_groups(5, 6, 0, components, random), random);
-    expect_solved(chained_groups(30, 1, 0, components, random), random);
+    expect_solved(chained_groups(5, 6, 0, components, random), lu, random);
+    expect_solved(chained_groups(30, 1, 0, components, random), lu, random);
   }
 }
 
@@ -220,10 +217,7 @@ TEST(block_lu, analysis_serves_other_values_on_the_same_graph) {
     BlockMatrix matrix = random_matrix(80, components, random);
     BlockLU lu;
     for (int k = 0; k < 5; ++k) {
-      lu.analyse(matrix);
-      ASSERT_TRUE(lu.factorise(matrix));
-      const auto b = random_vector(unknowns(matrix), random);
-      expect_solution(matrix, b, solve(lu, matrix, b));
+      expect_solved(matrix, lu, random);
       matrix.set_zero();
       fill(matrix, random);
     }
@@ -234,11 +228,7 @@ TEST(block_lu, other_graph_of_equal_size_is_analysed_anew) {
   std::mt19937 random(13);
   BlockLU lu;
   for (int k = 0; k < 5; ++k) {
-    const BlockMatrix matrix = random_matrix(50, 3, random);
-    lu.analyse(matrix);
-    ASSERT_TRUE(lu.factorise(matrix));
-    const auto b = random_vector(unknowns(matrix), random);
-    expect_solution(matrix, b, solve(lu, matrix, b));
+    expect_solved(random_matrix(50, 3, random), lu, random);
   }
 }
 
