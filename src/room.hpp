@@ -12,8 +12,13 @@ constexpr std::size_t plenty = 2;
 constexpr std::size_t little = 8;
 
 template <class Vector>
-void resize_with_room(Vector& vector, std::size_t size, std::size_t part = plenty) {
+void reserve_with_room(Vector& vector, std::size_t size, std::size_t part = plenty) {
   if (vector.capacity() < size) vector.reserve(size + size / part);
+}
+
+template <class Vector>
+void resize_with_room(Vector& vector, std::size_t size, std::size_t part = plenty) {
+  reserve_with_room(vector, size, part);
   vector.resize(size);
 }
 

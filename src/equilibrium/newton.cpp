@@ -53,6 +53,7 @@ class FlowNewton {
     memory.flow.reserve(increment.unknowns());
     memory.total.reserve(increment.unknowns());
     increment.refresh_masses();
+    if (Gears::possible(*increment.problem)) memory.gears.forget(increment);
     keep_best();
   }
 
@@ -60,9 +61,19 @@ class FlowNewton {
     const int last = increment_.factorisations + max_factorisations;
     while (increment_.factorisations < last && std::isfinite(norm_)) {
       if (increment_.residual_norm() < tolerance_) return true;
+      assemble();
+      if (Gears::possible(*increment_.problem)) {
+        turn_gears();
+        if (increment_.residual_norm() < tolerance_) return true;
+        memory_.gears.hold(increment_, memory_.stiffness);
+      }
       const auto r = increment_.residual();
       memory_.residual.assign(r.begin(), r.end());
-      if (!solve()) {
+      const bool solved = solve();
+      if (solved && Gears::possible(*increment_.problem)) {
+        memory_.gears.see(increment_, memory_.step, least_moment());
+      }
+      if (!solved) {
         if (!raise_shift()) return false;
       } else if (full_steps_) {
         full_step();
@@ -76,10 +87,28 @@ class FlowNewton {
  private:
   [[nodiscard]] double defect() const { return defect_norm(increment_, memory_.step, 0); }
 
-  // For memory_.step, at the present coordinates.
+  void assemble() { memory_.stiffness.assemble(increment_, shift_); }
+
+  // Of gears, that counts [N].
+  [[nodiscard]] double least_moment() const {
+    constexpr double enough = 0.3;  // of the tolerance
+    return enough * tolerance_ * increment_.relative_scale();
+  }
+
+  void turn_gears() {
+    auto& gears = memory_.gears;
+    gears.find(increment_, memory_.stiffness.touching());
+    if (!gears.turn(increment_, least_moment())) return;
+    increment_.update_forces();
+    norm_ = defect();
+    if (norm_ < best_) keep_best();
+    assemble();
+    gears.find(increment_, memory_.stiffness.touching());
+  }
+
+  // For memory_.step, at the present coordinates, of what was assembled there.
   bool solve() {
-    auto& [stiffness, border, step, residual, coordinates, moved, best, flow, total] = memory_;
-    stiffness.assemble(increment_, shift_);
+    auto& [stiffness, border, gears, step, residual, coordinates, moved, best, flow, total] = memory_;
     stiffness.factorise(increment_);
     if (Border::needed(*increment_.problem->space)) {
       return border.solve(increment_, stiffness, shift_, residual, step);
@@ -121,7 +150,9 @@ class FlowNewton {
   void full_step() {
     constexpr double move_limit = 3;  // mean overlaps
     constexpr int patience = 4;
+    constexpr double the_same = 1e-2;  // change of the residual by a step and what settles after it
     constexpr double flow_shift = 1e-2;
+    const double before = norm_;
     const double limit = move_limit * increment_.relative_scale() / increment_.mean_stiffness();
     increment_.move(memory_.step, std::min(1.0, limit / largest_move(increment_, memory_.step)));
     increment_.keep_neighbours();
@@ -136,7 +167,8 @@ class FlowNewton {
     if (norm_ < acceptable * best_) {
       keep_best();
       shift_ = shift_ / 16 < least_shift ? 0 : shift_ / 16;
-    } else if (++without_gain_ == patience || !(norm_ < largest_rise * best_)) {
+    } else if (++without_gain_ == patience || !(norm_ < largest_rise * best_) ||
+               std::abs(norm_ - before) < the_same * before) {
       go_to(memory_.best, best_deformation_);
       increment_.refresh_masses();
       norm_ = best_;
@@ -216,6 +248,7 @@ class FlowNewton {
       for (std::size_t q = 0; q < memory_.total.size(); ++q) {
         memory_.residual[q] = r[q] - shift_ * m[q] * memory_.total[q];
       }
+      assemble();
       if (!solve() || near_share() < 1) return false;
       for (std::size_t q = 0; q < memory_.total.size(); ++q) memory_.total[q] += memory_.step[q];
       move(1);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "equilibrium/border.hpp"
+#include "equilibrium/gears.hpp"
 #include "equilibrium/increment.hpp"
 #include "equilibrium/relaxation.hpp"
 #include "equilibrium/stiffness.hpp"
@@ -14,6 +15,7 @@ namespace grainlaw {
 struct NewtonMemory {
   Stiffness stiffness;
   Border border;
+  Gears gears;
   std::vector<double> step, residual, coordinates, moved, best, flow, total;
 };
 
@@ -21,7 +23,8 @@ struct NewtonMemory {
 // A step on which contacts switch leaves forces out of balance around them: with memory for a short
 // relaxation, that settles what the step did not foresee, and may end it all.
 // Full steps may pass through states of larger residual all the same; when a few in a row gain
-// nothing, they are taken back and the flow leads on until it gains.
+// nothing, or one ends where it began, they are taken back and the flow leads on until it gains.
+// Before a step, discs that roll like gears turn to where they are in balance.
 // The flow's s falls while the linear model is good and rises when it is not, and a step that no
 // relaxation settles is corrected by Newton on its own equation; with s > 0 it is stable exactly
 // where the equilibrium is, flutter included. False after max_factorisations, or a few more to end a

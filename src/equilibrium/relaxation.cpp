@@ -88,7 +88,11 @@ Relaxation::Relaxation(Increment& increment, History history, RelaxationMemory& 
   by_sides_ = by_places && law.plain() && law.tangential();
   at_once_ = by_places && law.plain() && !law.tangential();
   // Without friction nothing flutters, and the damping is that of the softest mode.
-  leaps_ = may_leap && by_places && law.tangential();
+  rough_ = by_places && law.tangential();
+  leaps_ = may_leap && rough_;
+  constexpr double patience = 500;  // with up to 400 nodes [steps]
+  const double size = static_cast<double>(increment.nodes()) / 400;
+  patience_ = std::lround(patience * std::sqrt(std::max(1.0, size)));
   if (leaps_) {
     memory.slow.reserve(increment.particles());
     memory.slow.forget();
@@ -167,7 +171,18 @@ void Relaxation::review_floor() {
     const bool flutter = window_max_ > oscillating * window_min_;
     floor_ = flutter ? std::min(2 * floor_, largest_floor) : 0.5 * floor_;
   }
+  constexpr double gain = 0.7;
+  if (window_max_ < gain * least_max_) {
+    least_max_ = window_max_;
+    last_gain_ = steps_;
+  }
   window_start_ = window_max_ = window_min_ = residual_;
+}
+
+// Whether it does so without end: some clusters have no stable equilibrium within reach.
+bool Relaxation::flutters() const {
+  constexpr double large = 3e-3;
+  return rough_ && window_max_ > large && steps_ - last_gain_ > patience_;
 }
 
 // Where soft modes creep under the damping that flutter asks for, on with them at once; whether it
@@ -260,7 +275,7 @@ bool Relaxation::run(double tolerance, long steps, double least_force) {
   for (const long last = steps_ + steps;;) {
     step();
     const bool stop = steps_ == last || !std::isfinite(residual_) ||
-                      (steps_ % window == 0 && increment_.mean_force < least_force);
+                      (steps_ % window == 0 && (increment_.mean_force < least_force || flutters()));
     const bool over = residual_ < tolerance || stop;
     if (over || (steps_ % mass_interval == 0 && !calm())) {
       if (by_sides_) memory_.sides.move(increment_.records);

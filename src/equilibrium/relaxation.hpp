@@ -48,6 +48,7 @@ class Relaxation {
   void update();
   void review_floor();
   bool leap();
+  [[nodiscard]] bool flutters() const;
   void step();
   void step_deformation();
 
@@ -58,7 +59,8 @@ class Relaxation {
   bool at_once_ = false;   // nothing comes between the sums of forces and the step
   bool arranged_ = false;  // of the contacts listed at present
   bool at_rest_ = true;    // no velocities to keep
-  bool leaps_ = false;     // along slow modes: with friction, forces a function of the places
+  bool rough_ = false;     // friction, and forces a function of the places
+  bool leaps_ = false;     // along slow modes
   double residual_ = 0;    // before the last step [-]; infinite: no contact, or not a finite number
   double power_ = 0;       // sum of the last step's velocity times the residual before it
   double frequency_ = 0;   // sqrt of the Rayleigh quotient of the velocity [1 / step]
@@ -72,6 +74,9 @@ class Relaxation {
   double look_max_ = 0, look_min_ = std::numeric_limits<double>::infinity();  // residual since then
   double window_start_ = std::numeric_limits<double>::infinity();
   double window_max_ = 0, window_min_ = std::numeric_limits<double>::infinity();
+  double least_max_ = std::numeric_limits<double>::infinity();  // of the windows'
+  long last_gain_ = 0;                                          // when it fell [steps]
+  long patience_ = 0;
 };
 
 struct PublishedOptions;

@@ -53,6 +53,11 @@ class Stiffness {
   // factors, and Border takes it out of the solutions. The factors are no longer those of K.
   void assemble(const Increment& increment, double shift);
 
+  // Add to what was assembled, against the rotation of a node, as much as its mass.
+  void hold_rotation(const Increment& increment, std::size_t node) {
+    matrix_.block(node)[2].lane[2] += increment.mass[2 * matrix_.nodes + node];
+  }
+
   // Factorise what was assembled.
   void factorise(Increment& increment);
 
@@ -60,7 +65,7 @@ class Stiffness {
   // while that helps; by GMRES where that ends far from it. False when b is not in the range of K to
   // working precision, or the factors are of no use.
   bool solve(const Increment& increment, std::span<const double> b, std::span<double> x,
-             double tolerance = 1e-12);
+             double tolerance = 1e-8);
 
   // The same of four vectors together. Of K just assembled, without factorise() before: old factors
   // do when refinement with them converges quickly, else K is factorised here.

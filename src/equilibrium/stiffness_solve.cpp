@@ -15,9 +15,10 @@ namespace {
 
 // Holds rattlers and the translation of the cell in the factors, relative to the masses; refinement
 // takes it out of the solution again.
-constexpr double grounding = 1e-9;
-// Of a residual relative to the largest entry of the right-hand side.
+constexpr double grounding = 1e-12;
+// Of a residual relative to the largest entry of the right-hand side: of GMRES, of four together.
 constexpr double good = 1e-12;
+constexpr double good_of_four = 1e-10;
 constexpr double usable = 1e-6;
 // Refinement goes on while it falls to less than this share. With old factors it has to be quick,
 // or a factorisation is cheaper; below `settled` what stays is rounding, by whatever factors.
@@ -131,7 +132,7 @@ bool Stiffness::solve_four_by_factors(const Increment& increment, std::span<cons
   std::copy(b.begin(), b.end(), x.begin());
   lu_.solve_four(x);
   double error = defect();
-  for (double last = 1; error > good && error < needed(error) * last;) {
+  for (double last = 1; error > good_of_four && error < needed(error) * last;) {
     lu_.solve_four(check_);
     add_to(x, check_);
     last = error;
