@@ -37,12 +37,12 @@ void Gears::find(const Increment& increment, std::span<const TouchingContact> to
   const auto nodes = increment.nodes();
   for (auto* column : {&sense_, &turn_}) resize_with_room(*column, nodes);
   resize_with_room(parent_, nodes);
-  resize_with_room(held_, nodes);
+  resize_with_room(locked_, nodes);
   resize_with_room(wanted_, nodes);
   std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   std::fill(sense_.begin(), sense_.end(), 1.0);
   std::fill(turn_.begin(), turn_.end(), 0.0);
-  for (auto* column : {&held_, &wanted_}) {
+  for (auto* column : {&locked_, &wanted_}) {
     std::fill(column->begin(), column->end(), static_cast<unsigned char>(0));
   }
   // As many as there may be: their number varies more than that of the contacts.
@@ -57,20 +57,20 @@ void Gears::find(const Increment& increment, std::span<const TouchingContact> to
       const double overlap = list.rest_of(c) - point.distance;
       const double kt = list.tangential_stiffness[c] * stiffness_scale(overlap, law);
       const double start = list.start_force[c] * start_scale(overlap, law);
-      sliding_.push_back({start - kt * point.distance * point.turn, law.friction * point.normal_force,
-                          kt, point.distance * list.inverse_reach[c], contact.node_i,
-                          contact.node_j});
+      sliding_.push_back({start - kt * point.distance * point.turn,
+                          law.friction * point.normal_force, kt,
+                          point.distance * list.inverse_reach[c], contact.node_i, contact.node_j});
       continue;
     }
     const Member a = member(contact.node_i);
     const Member b = member(contact.node_j);
     if (a.cluster == b.cluster) {
-      if (a.sense == b.sense) held_[a.cluster] = 1;
+      if (a.sense == b.sense) locked_[a.cluster] = 1;
       continue;
     }
     parent_[b.cluster] = a.cluster;
     sense_[b.cluster] = -a.sense * b.sense;
-    held_[a.cluster] |= held_[b.cluster];
+    locked_[a.cluster] |= locked_[b.cluster];
   }
 }
 
@@ -81,7 +81,7 @@ void Gears::list_sides() {
     const Member a = member(contact.node_i);
     const Member b = member(contact.node_j);
     const auto add = [&](std::size_t cluster, double senses) {
-      if (held_[cluster] == 0 && senses != 0) {
+      if (locked_[cluster] == 0 && senses != 0) {
         sides_.push_back({cluster, k, contact.stretch * senses});
       }
     };
@@ -115,8 +115,8 @@ double Gears::balance(std::span<const Side> sides, double force) {
     const Sliding& contact = sliding_[side.contact];
     const double by_turn = way * contact.stiffness * side.rate;  // of the trial force
     if (by_turn == 0) continue;
-    const auto [sticks, slides] = std::minmax({(-contact.bound - contact.trial) / by_turn,
-                                               (contact.bound - contact.trial) / by_turn});
+    const auto [sticks, slides] = std::minmax(
+        {(-contact.bound - contact.trial) / by_turn, (contact.bound - contact.trial) / by_turn});
     if (slides <= 0) continue;
     const double stiffness = std::abs(by_turn * side.rate);
     kinks_.push_back({std::max(sticks, 0.0), stiffness});
@@ -139,7 +139,7 @@ double Gears::balance(std::span<const Side> sides, double force) {
 
 void Gears::hold(const Increment& increment, Stiffness& stiffness) const {
   for (std::size_t q = 0; q < increment.nodes(); ++q) {
-    if (parent_[q] == q && held_[q] == 0) stiffness.hold_rotation(increment, q);
+    if (parent_[q] == q && locked_[q] == 0) stiffness.hold_rotation(increment, q);
   }
 }
 
@@ -147,7 +147,7 @@ void Gears::see(const Increment& increment, std::span<const double> step, double
   forget(increment);
   const std::size_t n = increment.nodes();
   for (std::size_t q = 0; q < n; ++q) {
-    if (parent_[q] != q || held_[q] != 0) continue;
+    if (parent_[q] != q || locked_[q] != 0) continue;
     const double moment = increment.mass[2 * n + q] * step[2 * n + q];
     if (std::abs(moment) > least * increment.node_radius[q]) seen_[q] = 1;
   }

@@ -58,12 +58,12 @@ class Gears {
   [[nodiscard]] double force(std::span<const Side> sides) const;
   double balance(std::span<const Side> sides, double force);
 
-  std::vector<std::size_t> parent_;  // of a node in its cluster's tree; itself: it stands for it
-  std::vector<double> sense_;        // against the parent's
-  std::vector<unsigned char> held_;  // odd cycles hold the cluster of this node
+  std::vector<std::size_t> parent_;    // of a node in its cluster's tree; itself: it stands for it
+  std::vector<double> sense_;          // against the parent's
+  std::vector<unsigned char> locked_;  // by odd cycles: the cluster of this node
   std::vector<unsigned char> seen_;    // out of balance, by nodes
   std::vector<unsigned char> wanted_;  // the clusters of these
-  std::vector<double> turn_;         // of a cluster: R theta of what stands for it [m]
+  std::vector<double> turn_;           // of a cluster: R theta of what stands for it [m]
   std::vector<Sliding> sliding_;
   std::vector<Side> sides_;  // by clusters
   std::vector<Kink> kinks_;

@@ -46,14 +46,18 @@ class FlowNewton {
  public:
   FlowNewton(Increment& increment, double tolerance, NewtonMemory& memory,
              RelaxationMemory* relaxation)
-      : increment_(increment), tolerance_(tolerance), memory_(memory), relaxation_(relaxation) {
+      : increment_(increment),
+        tolerance_(tolerance),
+        memory_(memory),
+        relaxation_(relaxation),
+        gears_(Gears::possible(*increment.problem)) {
     memory.step.assign(increment.unknowns(), 0.0);
     memory.coordinates.reserve(increment.coordinates.size());
     memory.moved.reserve(increment.coordinates.size());
     memory.flow.reserve(increment.unknowns());
     memory.total.reserve(increment.unknowns());
     increment.refresh_masses();
-    if (Gears::possible(*increment.problem)) memory.gears.forget(increment);
+    if (gears_) memory.gears.forget(increment);
     keep_best();
   }
 
@@ -62,7 +66,7 @@ class FlowNewton {
     while (increment_.factorisations < last && std::isfinite(norm_)) {
       if (increment_.residual_norm() < tolerance_) return true;
       assemble();
-      if (Gears::possible(*increment_.problem)) {
+      if (gears_) {
         turn_gears();
         if (increment_.residual_norm() < tolerance_) return true;
         memory_.gears.hold(increment_, memory_.stiffness);
@@ -70,9 +74,7 @@ class FlowNewton {
       const auto r = increment_.residual();
       memory_.residual.assign(r.begin(), r.end());
       const bool solved = solve();
-      if (solved && Gears::possible(*increment_.problem)) {
-        memory_.gears.see(increment_, memory_.step, least_moment());
-      }
+      if (solved && gears_) memory_.gears.see(increment_, memory_.step, least_moment());
       if (!solved) {
         if (!raise_shift()) return false;
       } else if (full_steps_) {
@@ -108,7 +110,8 @@ class FlowNewton {
 
   // For memory_.step, at the present coordinates, of what was assembled there.
   bool solve() {
-    auto& [stiffness, border, gears, step, residual, coordinates, moved, best, flow, total] = memory_;
+    auto& [stiffness, border, gears, step, residual, coordinates, moved, best, flow, total] =
+        memory_;
     stiffness.factorise(increment_);
     if (Border::needed(*increment_.problem->space)) {
       return border.solve(increment_, stiffness, shift_, residual, step);
@@ -262,6 +265,7 @@ class FlowNewton {
   double tolerance_;
   NewtonMemory& memory_;
   RelaxationMemory* relaxation_;  // null: none
+  bool gears_;                    // there may be some
   double shift_ = first_shift;
   double norm_ = 0;  // of the residual at the present coordinates
   double best_ = 0;  // the least so far, at memory.best

@@ -90,9 +90,6 @@ Relaxation::Relaxation(Increment& increment, History history, RelaxationMemory& 
   // Without friction nothing flutters, and the damping is that of the softest mode.
   rough_ = by_places && law.tangential();
   leaps_ = may_leap && rough_;
-  constexpr double patience = 500;  // with up to 400 nodes [steps]
-  const double size = static_cast<double>(increment.nodes()) / 400;
-  patience_ = std::lround(patience * std::sqrt(std::max(1.0, size)));
   if (leaps_) {
     memory.slow.reserve(increment.particles());
     memory.slow.forget();
@@ -171,7 +168,7 @@ void Relaxation::review_floor() {
     const bool flutter = window_max_ > oscillating * window_min_;
     floor_ = flutter ? std::min(2 * floor_, largest_floor) : 0.5 * floor_;
   }
-  constexpr double gain = 0.7;
+  constexpr double gain = 0.7;  // of a window's largest residual over the least before
   if (window_max_ < gain * least_max_) {
     least_max_ = window_max_;
     last_gain_ = steps_;
@@ -181,8 +178,11 @@ void Relaxation::review_floor() {
 
 // Whether it does so without end: some clusters have no stable equilibrium within reach.
 bool Relaxation::flutters() const {
-  constexpr double large = 3e-3;
-  return rough_ && window_max_ > large && steps_ - last_gain_ > patience_;
+  constexpr double flutter_residual = 3e-3;
+  constexpr double flutter_patience = 500;  // with up to 400 nodes [steps]
+  if (!rough_ || window_max_ <= flutter_residual) return false;
+  const double size = std::max(1.0, static_cast<double>(increment_.nodes()) / 400);
+  return static_cast<double>(steps_ - last_gain_) > flutter_patience * std::sqrt(size);
 }
 
 // Where soft modes creep under the damping that flutter asks for, on with them at once; whether it

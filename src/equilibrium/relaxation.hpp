@@ -76,7 +76,6 @@ class Relaxation {
   double window_max_ = 0, window_min_ = std::numeric_limits<double>::infinity();
   double least_max_ = std::numeric_limits<double>::infinity();  // of the windows'
   long last_gain_ = 0;                                          // when it fell [steps]
-  long patience_ = 0;
 };
 
 struct PublishedOptions;

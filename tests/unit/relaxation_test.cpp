@@ -233,6 +233,33 @@ TEST(relaxation, leaps_along_slow_modes_spare_steps) {
   EXPECT_LT(steps_of_shear(true), 0.95 * static_cast<double>(steps_of_shear(false)));
 }
 
+// Shear through the peak, where some increments have no stable equilibrium within reach.
+TEST(relaxation, what_flutters_on_is_given_up_and_may_settle_all_the_same) {
+  State state(
+      make_material(describe(reference_packing(), rough_law(), BoundaryType::periodic_cell)));
+  constexpr long limit = 20000;
+  RelaxationMemory memory;
+  int given_up = 0;
+  int settled = 0;
+  for (int k = 1; k <= 100; ++k) {
+    const Tensor F{1, 2e-3 * k, 0, 1};
+    const Problem problem = state.material().problem();
+    Increment increment;
+    increment.begin(problem, state.committed(), F);
+    increment.refresh_masses();
+    if (relax(increment, 5e-4, limit, History::committed, memory)) {
+      ++settled;
+    } else {
+      EXPECT_GT(increment.residual_norm(), 5e-4);
+      EXPECT_LT(increment.relaxation_steps, limit) << k;
+      ++given_up;
+    }
+    advance(state, F);
+  }
+  EXPECT_GT(given_up, 0);
+  EXPECT_GE(settled, 90);
+}
+
 TEST(relaxation, sliding_contacts_are_those_at_the_friction_limit) {
   for (const auto method : {Method::chain, Method::advancing}) {
     MaterialDescription description = describe(reference_packing(), rough_law());
