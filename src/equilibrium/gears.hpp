@@ -5,7 +5,6 @@
 #include "equilibrium/stiffness.hpp"
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 

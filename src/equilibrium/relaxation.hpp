@@ -36,8 +36,8 @@ class Relaxation {
   Relaxation(Increment& increment, History history, RelaxationMemory& memory, bool may_leap = true);
 
   // Go on until residual_norm() < tolerance, at most `steps` further steps. Returns whether it got
-  // there. Ends too when no more than `least_force` is left of the mean contact force [N]. The
-  // coordinates may be changed between two calls.
+  // there. Ends too when no more than `least_force` is left of the mean contact force [N], or when
+  // friction keeps it fluttering. The coordinates may be changed between two calls.
   bool run(double tolerance, long steps, double least_force = 0);
 
  private:

@@ -1,24 +1,11 @@
 // Two or three discs in a row that closes on itself in a cell, with room across: nothing holds the
 // row against a motion sideways.
+#include "disc_row.hpp"
 #include "law_support.hpp"
 #include "tangent_support.hpp"
 
 namespace grainlaw::test {
 namespace {
-
-Packing disc_row(const std::vector<double>& radii, double overlap) {
-  Packing packing;
-  packing.radius = radii;
-  double length = 0;
-  for (const double r : radii) {
-    packing.position.push_back(length + r);
-    length += 2 * r - overlap;
-  }
-  packing.position.resize(2 * radii.size(), 2e-3);
-  packing.cell = {length, 0, 0, 5e-3};
-  packing.thickness = 0.1;
-  return packing;
-}
 
 const std::vector<double> rows[] = {
     {1e-3, 1e-3}, {1e-3, 0.7e-3}, {1e-3, 1e-3, 1e-3}, {1e-3, 0.8e-3, 0.6e-3}};
@@ -59,8 +46,8 @@ TEST(disc_row, bears_along_its_length_by_springs_in_line) {
 
 TEST(disc_row, tangent_is_the_derivative) {
   for (const auto& radii : rows) {
-    for (const auto& law : {compressive_law(), rough_law(), hertz_law(), bonded_law(1e6),
-                            locked_bonded_law(1e6)}) {
+    for (const auto& law :
+         {compressive_law(), rough_law(), hertz_law(), bonded_law(1e6), locked_bonded_law(1e6)}) {
       MaterialDescription description = describe_law(disc_row(radii, 0), law);
       description.solver.contacts_lost = ContactsLost::stress_free;
       State state(make_material(description));

@@ -1,5 +1,6 @@
 // Discs in a row that closes on itself, whose contacts slide: where they turn to is known.
 #include "equilibrium/gears.hpp"
+#include "disc_row.hpp"
 #include "law_support.hpp"
 
 namespace grainlaw::test {
@@ -7,20 +8,6 @@ namespace {
 
 constexpr double overlap = 1e-6;
 constexpr double angle = 5e-4;  // of the row after the shear, against before
-
-Packing row(const std::vector<double>& radii) {
-  Packing packing;
-  packing.radius = radii;
-  double length = 0;
-  for (const double r : radii) {
-    packing.position.push_back(length + r);
-    length += 2 * r - overlap;
-  }
-  packing.position.resize(2 * radii.size(), 0.0);
-  packing.cell = {length, 0, 0, 1e-2};
-  packing.thickness = 0.1;
-  return packing;
-}
 
 // After a shear that turns the row, nothing yet in equilibrium.
 struct Sheared {
@@ -31,7 +18,7 @@ struct Sheared {
   Gears gears;
 
   explicit Sheared(const std::vector<double>& radii)
-      : state(make_material(describe(row(radii), rough_law()))),
+      : state(make_material(describe(disc_row(radii, overlap), rough_law()))),
         problem(state.material().problem()) {
     increment.begin(problem, state.committed(), {1, 0, std::tan(angle), 1});
     increment.refresh_masses();
@@ -149,7 +136,7 @@ TEST(gears, nothing_turns_for_less_than_asked_or_where_it_is_in_balance) {
 
 // Turning needs rotations, and forces that a rotation alone can leave as they are.
 TEST(gears, are_none_where_discs_keep_their_orientation_or_contacts_carry_moments) {
-  const Packing packing = row({1e-3, 1e-3});
+  const Packing packing = disc_row({1e-3, 1e-3}, overlap);
   for (const auto& [law, possible] :
        {std::pair{rough_law(), true}, std::pair{hertz_law(), true},
         std::pair{compressive_law(), false}, std::pair{bonded_law(1e6), false}}) {
