@@ -180,9 +180,10 @@ void Relaxation::review_floor() {
 bool Relaxation::flutters() const {
   constexpr double flutter_residual = 3e-3;
   constexpr double flutter_patience = 500;  // with up to 400 nodes [steps]
+  constexpr double growth = 0.25;           // clusters that flutter are as small in large packings
   if (!rough_ || window_max_ <= flutter_residual) return false;
   const double size = std::max(1.0, static_cast<double>(increment_.nodes()) / 400);
-  return static_cast<double>(steps_ - last_gain_) > flutter_patience * std::sqrt(size);
+  return static_cast<double>(steps_ - last_gain_) > flutter_patience * std::pow(size, growth);
 }
 
 // Where soft modes creep under the damping that flutter asks for, on with them at once; whether it

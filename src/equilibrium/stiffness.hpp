@@ -103,7 +103,7 @@ class Stiffness {
   std::vector<std::int32_t> listed_i_, listed_j_;  // the contacts that the graph was made from
   std::vector<std::pair<Edge, std::int32_t>> pairs_;
   std::vector<Quad> ground_;
-  std::vector<Quad> right_, solution_, check_;
+  std::vector<Quad> right_, solution_, check_, kept_;
 };
 
 }  // namespace grainlaw

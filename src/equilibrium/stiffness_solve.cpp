@@ -132,17 +132,24 @@ bool Stiffness::solve_four_by_factors(const Increment& increment, std::span<cons
   std::copy(b.begin(), b.end(), x.begin());
   lu_.solve_four(x);
   double error = defect();
-  for (double last = 1; error > good_of_four && error < needed(error) * last;) {
+  double last = 1;
+  while (error > good_of_four && error < needed(error) * last) {
+    std::copy(x.begin(), x.end(), kept_.begin());
     lu_.solve_four(check_);
     add_to(x, check_);
     last = error;
     error = defect();
+  }
+  if (last <= usable && error > last) {  // of a nearly singular matrix it rises again
+    std::copy(kept_.begin(), kept_.end(), x.begin());
+    error = last;
   }
   return error <= (earlier ? settled : usable);
 }
 
 bool Stiffness::solve_four(Increment& increment, std::span<const Quad> b, std::span<Quad> x) {
   resize_with_room(check_, b.size());
+  resize_with_room(kept_, b.size());
   if (factors_ == Factors::of_earlier_matrix && solve_four_by_factors(increment, b, x)) return true;
   if (factors_ != Factors::of_matrix) factorise(increment);
   if (factors_ != Factors::of_matrix) return false;
