@@ -20,6 +20,7 @@ using Front = BlockLU::Front;
 template <int b>
 struct OneVector {
   static constexpr std::size_t size = width;
+  static constexpr std::size_t sums = 4;  // of as many pivots do sixteen registers hold
   Lanes value;
 
   struct Spread {
@@ -51,6 +52,7 @@ struct OneVector {
 template <int b>
 struct FourVectors {
   static constexpr std::size_t size = b * width;
+  static constexpr std::size_t sums = 2;
   using Spread = FourVectors;
   Lanes value[b];
 
@@ -107,7 +109,7 @@ GRAINLAW_INLINE void forward(const View& f, const Front& front, double* y) {
   }
   const auto take = [&]<std::size_t count>(std::size_t k) GRAINLAW_INLINED {
     typename Unknowns::Spread by[count];
-#pragma GCC unroll 2
+#pragma GCC unroll 4
     for (std::size_t i = 0; i < count; ++i) {
       by[i] = Unknowns::load(own + (k + i) * Unknowns::size).spread();
     }
@@ -115,7 +117,7 @@ GRAINLAW_INLINE void forward(const View& f, const Front& front, double* y) {
     for (std::size_t r = 0; r < front.others; ++r, a += b) {
       double* const at = y + static_cast<std::size_t>(rows[r]) * Unknowns::size;
       auto to = Unknowns::load(at);
-#pragma GCC unroll 2
+#pragma GCC unroll 4
       for (std::size_t i = 0; i < count; ++i) {
         to.subtract(a + i * b * shape.other_rows, shape.other_rows, by[i]);
       }
@@ -123,6 +125,7 @@ GRAINLAW_INLINE void forward(const View& f, const Front& front, double* y) {
     }
   };
   std::size_t k = 0;
+  for (; k + 4 <= front.pivots; k += 4) take.template operator()<4>(k);
   for (; k + 2 <= front.pivots; k += 2) take.template operator()<2>(k);
   if (k < front.pivots) take.template operator()<1>(k);
 }
@@ -137,7 +140,7 @@ GRAINLAW_INLINE void backward(const View& f, const Front& front, double* y) {
   const auto give = [&]<std::size_t count>(std::size_t k) GRAINLAW_INLINED {
     Unknowns to[count];
     Unknowns second[count]{};
-#pragma GCC unroll 2
+#pragma GCC unroll 4
     for (std::size_t i = 0; i < count; ++i) to[i] = Unknowns::load(own + (k + i) * Unknowns::size);
     const std::size_t step = b * shape.pivot_rows;
     const double* a = values + shape.place(k, front.pivots);
@@ -145,7 +148,7 @@ GRAINLAW_INLINE void backward(const View& f, const Front& front, double* y) {
     const auto take = [&](Unknowns* sum, const double* at, std::size_t other) GRAINLAW_INLINED {
       const auto x = Unknowns::load(y + static_cast<std::size_t>(rows[other]) * Unknowns::size);
       const typename Unknowns::Spread by = x.spread();
-#pragma GCC unroll 2
+#pragma GCC unroll 4
       for (std::size_t i = 0; i < count; ++i) sum[i].subtract(at + i * b, shape.pivot_rows, by);
     };
     for (; r + 2 <= front.others; r += 2, a += 2 * step) {
@@ -153,7 +156,7 @@ GRAINLAW_INLINE void backward(const View& f, const Front& front, double* y) {
       take(second, a + step, r + 1);
     }
     if (r < front.others) take(to, a, r);
-#pragma GCC unroll 2
+#pragma GCC unroll 4
     for (std::size_t i = 0; i < count; ++i) {
       to[i].add(second[i]);
       to[i].store(own + (k + i) * Unknowns::size);
@@ -161,6 +164,9 @@ GRAINLAW_INLINE void backward(const View& f, const Front& front, double* y) {
   };
   std::size_t k = 0;
   if (front.others > 0) {
+    if constexpr (Unknowns::sums == 4) {
+      for (; k + 4 <= front.pivots; k += 4) give.template operator()<4>(k);
+    }
     for (; k + 2 <= front.pivots; k += 2) give.template operator()<2>(k);
     if (k < front.pivots) give.template operator()<1>(k);
   }
