@@ -20,7 +20,7 @@ using Front = BlockLU::Front;
 template <int b>
 struct OneVector {
   static constexpr std::size_t size = width;
-  static constexpr std::size_t sums = 4;  // of as many pivots do sixteen registers hold
+  static constexpr std::size_t backward_pivots = 4;  // at once: sixteen registers hold their sums
   Lanes value;
 
   struct Spread {
@@ -52,7 +52,7 @@ struct OneVector {
 template <int b>
 struct FourVectors {
   static constexpr std::size_t size = b * width;
-  static constexpr std::size_t sums = 2;
+  static constexpr std::size_t backward_pivots = 2;
   using Spread = FourVectors;
   Lanes value[b];
 
@@ -90,6 +90,17 @@ struct FourVectors {
   }
 };
 
+// Visits as many pivots at a time as may be, at most four or two.
+template <std::size_t most, class Visit>
+GRAINLAW_INLINE void by_pivots(std::size_t pivots, const Visit& visit) {
+  std::size_t k = 0;
+  if constexpr (most == 4) {
+    for (; k + 4 <= pivots; k += 4) visit.template operator()<4>(k);
+  }
+  for (; k + 2 <= pivots; k += 2) visit.template operator()<2>(k);
+  if (k < pivots) visit.template operator()<1>(k);
+}
+
 // The front's pivots, and from them what they take from the others.
 template <int b, class Unknowns>
 GRAINLAW_INLINE void forward(const View& f, const Front& front, double* y) {
@@ -124,10 +135,7 @@ GRAINLAW_INLINE void forward(const View& f, const Front& front, double* y) {
       to.store(at);
     }
   };
-  std::size_t k = 0;
-  for (; k + 4 <= front.pivots; k += 4) take.template operator()<4>(k);
-  for (; k + 2 <= front.pivots; k += 2) take.template operator()<2>(k);
-  if (k < front.pivots) take.template operator()<1>(k);
+  by_pivots<4>(front.pivots, take);
 }
 
 template <int b, class Unknowns>
@@ -162,15 +170,8 @@ GRAINLAW_INLINE void backward(const View& f, const Front& front, double* y) {
       to[i].store(own + (k + i) * Unknowns::size);
     }
   };
-  std::size_t k = 0;
-  if (front.others > 0) {
-    if constexpr (Unknowns::sums == 4) {
-      for (; k + 4 <= front.pivots; k += 4) give.template operator()<4>(k);
-    }
-    for (; k + 2 <= front.pivots; k += 2) give.template operator()<2>(k);
-    if (k < front.pivots) give.template operator()<1>(k);
-  }
-  for (k = front.pivots; k-- > 0;) {
+  if (front.others > 0) by_pivots<Unknowns::backward_pivots>(front.pivots, give);
+  for (std::size_t k = front.pivots; k-- > 0;) {
     const auto right = Unknowns::load(own + k * Unknowns::size);
     const typename Unknowns::Spread by = right.spread();
     const auto x = Unknowns::product(values + shape.place(k, k), shape.pivot_rows, by);
