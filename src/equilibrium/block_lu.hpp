@@ -2,6 +2,7 @@
 #pragma once
 
 #include "equilibrium/block_matrix.hpp"
+#include "equilibrium/dense_block.hpp"
 #include "simd.hpp"
 
 #include <cstddef>
@@ -64,7 +65,8 @@ class BlockLU {
   std::vector<std::int32_t> rows_;      // places, ascending within a front
   std::vector<std::int32_t> within_;    // the same as nodes of the parent
   std::vector<Source> sources_;         // off the diagonal, by fronts
-  simd::Column<double> values_;         // panels, pivots inverted in place; then what fronts leave
+  simd::Column<double> values_;         // panels, factorised in place; then what fronts leave
+  std::vector<dense::Pivot> pivots_;    // how the diagonal blocks are kept, by places
   std::vector<Run> runs_;               // of one front at a time
   std::vector<Quad> work_;              // of the solves
   // Memory of the analysis: by nodes, by places, and by fronts.

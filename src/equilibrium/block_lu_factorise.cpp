@@ -132,12 +132,13 @@ GRAINLAW_INLINE bool eliminate(const View& f, const Front& front, const Shape& s
     const std::size_t rows = whole_groups(count);
     const Matrix diagonal = pivots.from(p, p);
     const Matrix lower{memory, rows};
-    if (!factorise_block<width, b>(diagonal, count / b, rows, lower)) return false;
+    Pivot* const kept = f.pivots + front.first + p / b;
+    if (!factorise_diagonal<width, b>(diagonal, count / b, rows, kept, lower)) return false;
     solve_lower<width, b>(pivots.from(p, next), lower, count, rows, all - next);
-    solve_upper<width, b>(others.from(0, p), diagonal, count, shape.other_rows);
+    solve_upper<width, b>(others.from(0, p), diagonal, kept, count, shape.other_rows);
     if (next == shape.eliminated) break;
     const Matrix below = pivots.from(next, p);
-    solve_upper<width, b>(below, diagonal, count, shape.pivot_rows - next);
+    solve_upper<width, b>(below, diagonal, kept, count, shape.pivot_rows - next);
     subtract_product<width>(pivots.from(next, next), below, pivots.from(p, next), count,
                             shape.pivot_rows - next, all - next);
     subtract_product<width>(others.from(0, next), others.from(0, p), pivots.from(p, next), count,
@@ -170,7 +171,7 @@ GRAINLAW_BY_LANES(bool, factorise_2, factorise_fronts, (const View& f, const Val
 
 BlockLU::View BlockLU::view() {
   return {fronts_,         rows_.data(),   within_.data(), node_.data(),
-          sources_.data(), values_.data(), runs_.data()};
+          sources_.data(), values_.data(), pivots_.data(), runs_.data()};
 }
 
 bool BlockLU::factorise(const BlockMatrix& matrix, std::span<const Quad> added) {

@@ -124,6 +124,7 @@ void BlockLU::place_fronts() {
   }
   // Registers are filled beyond the last block.
   resize_with_room(runs_, most);
+  resize_with_room(pivots_, nodes_);
   resize_with_room(values_, slot + highest[0] + highest[1] + dense::group);
 }
 

@@ -9,6 +9,7 @@
 namespace grainlaw {
 
 using namespace quad;
+using dense::Pivot;
 using dense::Shape;
 
 namespace {
@@ -17,7 +18,7 @@ using View = BlockLU::View;
 using Front = BlockLU::Front;
 
 // A node's unknowns: of one vector, in the lanes; what the last lane holds is never read.
-template <int b>
+template <std::size_t b>
 struct OneVector {
   static constexpr std::size_t size = width;
   static constexpr std::size_t backward_pivots = 4;  // at once: sixteen registers hold their sums
@@ -40,16 +41,26 @@ struct OneVector {
 #pragma GCC unroll 3
     for (std::size_t c = 0; c < b; ++c) value -= quad::load(a + c * stride) * x.by[c];
   }
-  GRAINLAW_INLINE static OneVector product(const double* a, std::size_t stride, const Spread& x) {
-    OneVector result{quad::load(a) * x.by[0]};
+  // The entries of a^-1 x, of a pivot; x lies at `from`.
+  GRAINLAW_INLINE static OneVector divide(const double* from, const double* a, std::size_t stride,
+                                          const Pivot& pivot) {
+    OneVector result{};
+    if (!pivot.triangular) {
+      result.value = quad::load(a) * from[0];
 #pragma GCC unroll 3
-    for (std::size_t c = 1; c < b; ++c) result.value += quad::load(a + c * stride) * x.by[c];
+      for (std::size_t c = 1; c < b; ++c) result.value += quad::load(a + c * stride) * from[c];
+      return result;
+    }
+    double x[b];
+    dense::divide_column<b>(x, a, stride, pivot, [&](std::size_t c) { return from[c]; });
+#pragma GCC unroll 3
+    for (std::size_t c = 0; c < b; ++c) result.value[c] = x[c];
     return result;
   }
 };
 
 // Of four vectors, one in every lane, a register for every unknown.
-template <int b>
+template <std::size_t b>
 struct FourVectors {
   static constexpr std::size_t size = b * width;
   static constexpr std::size_t backward_pivots = 2;
@@ -78,13 +89,19 @@ struct FourVectors {
       for (std::size_t r = 0; r < b; ++r) value[r] -= a[c * stride + r] * x.value[c];
     }
   }
-  GRAINLAW_INLINE static FourVectors product(const double* a, std::size_t stride, const Spread& x) {
+  GRAINLAW_INLINE static FourVectors divide(const double* from, const double* a, std::size_t stride,
+                                            const Pivot& pivot) {
     FourVectors result;
+    const auto take = [&](std::size_t c) GRAINLAW_INLINED { return quad::load(from + c * width); };
+    if (pivot.triangular) {
+      dense::divide_column<b>(result.value, a, stride, pivot, take);
+      return result;
+    }
 #pragma GCC unroll 3
     for (std::size_t r = 0; r < b; ++r) {
-      result.value[r] = a[r] * x.value[0];
+      result.value[r] = a[r] * take(0);
 #pragma GCC unroll 3
-      for (std::size_t c = 1; c < b; ++c) result.value[r] += a[c * stride + r] * x.value[c];
+      for (std::size_t c = 1; c < b; ++c) result.value[r] += a[c * stride + r] * take(c);
     }
     return result;
   }
@@ -102,7 +119,7 @@ GRAINLAW_INLINE void by_pivots(std::size_t pivots, const Visit& visit) {
 }
 
 // The front's pivots, and from them what they take from the others.
-template <int b, class Unknowns>
+template <std::size_t b, class Unknowns>
 GRAINLAW_INLINE void forward(const View& f, const Front& front, double* y) {
   const Shape shape(front.pivots, front.others, b);
   const double* const values = f.values + front.values;
@@ -138,7 +155,7 @@ GRAINLAW_INLINE void forward(const View& f, const Front& front, double* y) {
   by_pivots<4>(front.pivots, take);
 }
 
-template <int b, class Unknowns>
+template <std::size_t b, class Unknowns>
 GRAINLAW_INLINE void backward(const View& f, const Front& front, double* y) {
   const Shape shape(front.pivots, front.others, b);
   const double* const values = f.values + front.values;
@@ -172,9 +189,8 @@ GRAINLAW_INLINE void backward(const View& f, const Front& front, double* y) {
   };
   if (front.others > 0) by_pivots<Unknowns::backward_pivots>(front.pivots, give);
   for (std::size_t k = front.pivots; k-- > 0;) {
-    const auto right = Unknowns::load(own + k * Unknowns::size);
-    const typename Unknowns::Spread by = right.spread();
-    const auto x = Unknowns::product(values + shape.place(k, k), shape.pivot_rows, by);
+    const auto x = Unknowns::divide(own + k * Unknowns::size, values + shape.place(k, k),
+                                    shape.pivot_rows, f.pivots[front.first + k]);
     x.store(own + k * Unknowns::size);
     const typename Unknowns::Spread found = x.spread();
     for (std::size_t r = 0; r < k; ++r) {
@@ -186,7 +202,7 @@ GRAINLAW_INLINE void backward(const View& f, const Front& front, double* y) {
 }
 
 // y in the elimination's order.
-template <int b, class Unknowns>
+template <std::size_t b, class Unknowns>
 GRAINLAW_INLINE void substitute(const View& f, double* y) {
   for (std::size_t k = 0; k < f.fronts.size(); ++k) forward<b, Unknowns>(f, f.fronts[k], y);
   for (std::size_t k = f.fronts.size(); k-- > 0;) backward<b, Unknowns>(f, f.fronts[k], y);

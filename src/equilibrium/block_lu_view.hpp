@@ -17,6 +17,7 @@ struct BlockLU::View {
   const std::int32_t* node;
   const Source* sources;
   double* values;
+  dense::Pivot* pivots;
   Run* runs;
 };
 
