@@ -19,8 +19,8 @@ struct Pivot {
   std::int8_t row[3] = {0, 1, 2};
 };
 
-// Determinants that are this much smaller than the products they are made of have lost digits, and so
-// has the inverse: a particle whose contacts all slide turns freely.
+// Determinants that are this much smaller than the products they are made of have lost digits, and the
+// inverse has with them: there are particles that move in one direction without that a force changes.
 constexpr double safe_determinant = 1e-2;
 
 // By cofactors; false where that is not safe, and nothing is changed.
