@@ -16,14 +16,14 @@ double switch_tolerance(std::size_t nodes) {
   return hand_over * std::pow(std::min(1.0, 400.0 / static_cast<double>(nodes)), exponent);
 }
 
-// What is spent on one sub-increment before others are tried; chosen, as what is named below, by
-// `verification/run sweep`.
+// What is spent on one sub-increment with up to 400 nodes before others are tried; chosen, as what is
+// named below, by `verification/run sweep`.
 struct Effort {
   int rounds;                // of relaxation and Newton
   int first_factorisations;  // where Newton works at once, it works soon
   int most_factorisations;
-  double relaxation_steps;  // with up to 400 nodes
-  int finest;               // sub-increments, times those that the size of the increment asks for
+  double relaxation_steps;
+  int finest;  // sub-increments, times those that the size of the increment asks for
 };
 constexpr Effort full_effort{.rounds = 9,
                              .first_factorisations = 20,
@@ -44,8 +44,19 @@ const Effort& effort_of(const Request& request) {
   return request.guess_loose ? repeated_effort : bounded_effort;
 }
 
+double size_factor(std::size_t nodes) {
+  return std::sqrt(std::max(1.0, static_cast<double>(nodes) / 400));
+}
+
 long relaxation_limit(double steps, std::size_t nodes) {
-  return static_cast<long>(steps * std::sqrt(std::max(1.0, static_cast<double>(nodes) / 400)));
+  return static_cast<long>(steps * size_factor(nodes));
+}
+
+// Fewer in large packings, where sub-increments cost less than to go on: in one of 6400 discs that would
+// not settle all rounds took fifty times what an increment does.
+int limit_of(int count, int least, std::size_t nodes) {
+  const long fewer = std::lround(count / size_factor(nodes));
+  return std::min(count, std::max(least, static_cast<int>(fewer)));
 }
 
 std::array<double, 4> between(const std::array<double, 9>& a, const std::array<double, 4>& b,
@@ -141,17 +152,24 @@ bool solve_part(const Request& request, Workspace& w, Outcome& outcome) {
   // After them, relaxed down to the target, one whole increment in a thousand still settles: two
   // sub-increments are cheaper.
   constexpr int enough_rounds = 6;
+  constexpr int least_rounds = 3;
   const bool whole = outcome.subincrements == 1;
   auto& increment = w.increment;
   const Effort& effort = effort_of(request);
   const long steps = relaxation_limit(effort.relaxation_steps, increment.nodes());
+  const auto limit_to = [&](int count, int least) {
+    return limit_of(count, least, increment.nodes());
+  };
+  const int rounds = limit_to(effort.rounds, least_rounds);
+  const int enough = limit_to(enough_rounds, least_rounds);
+  const int most_factorisations = limit_to(effort.most_factorisations, unsettled_factorisations);
   increment.refresh_masses();
   double target = reachable(request, increment);
   double hand_over = switch_tolerance(increment.nodes());
   if (target > worth_newton * hand_over) hand_over = target;
   bool last = false;
-  for (int round = 0; !last && round < effort.rounds; ++round) {
-    last = whole && round >= enough_rounds && hand_over <= target;
+  for (int round = 0; !last && round < rounds; ++round) {
+    last = whole && round >= enough && hand_over <= target;
     const double tolerance = std::max(hand_over, target);
     const long limit = (round < 5 ? 1 : 2) * steps;
     // From the last iterate of a step the next is found on the same branch.
@@ -165,7 +183,7 @@ bool solve_part(const Request& request, Workspace& w, Outcome& outcome) {
     const bool unsettled = !relaxed && round < unsettled_rounds;
     const int factorisations = unsettled    ? unsettled_factorisations
                                : round == 0 ? effort.first_factorisations
-                                            : effort.most_factorisations;
+                                            : most_factorisations;
     // What is fading away settles nowhere.
     auto* const settling = may_fade(request, increment) ? nullptr : &w.relaxation;
     if (flow_newton(increment, target, factorisations, w.newton, settling)) return true;
