@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace grainlaw {
 
@@ -286,6 +287,34 @@ bool solve_advancing(const Request& request, Method method, Workspace& w, Outcom
   return done;
 }
 
+// Whether the end of a detour may be compared with the increment as a whole: nothing broke or came free
+// on the way.
+bool may_be_whole(const Request& request) {
+  return request.loose_tolerance == 0 && !request.problem->law->bonds() && !may_be_free(request);
+}
+
+// The equilibrium of the increment as a whole, from the committed history, near where the detour ended: about
+// every other one that was missed at first is found so.
+bool solve_whole(Request request, Workspace& w, Outcome& outcome) {
+  auto& increment = w.increment;
+  request.guess = &w.detour.coordinates;
+  request.guess_deformation = w.detour.deformation;
+  start_iteration(request, 1, increment);
+  increment.keep_neighbours();
+  increment.update_forces();
+  const int factorisations =
+      limit_of(full_effort.first_factorisations, unsettled_factorisations, increment.nodes());
+  const double target = reachable(request, increment);
+  if (!flow_newton(increment, target, factorisations, w.newton, &w.relaxation)) return false;
+  if (increment.collapsed()) return false;
+  w.sensitivity.reset();
+  outcome.subincrements = 1;
+  outcome.history_advanced = false;
+  outcome.sensitivities =
+      request.sensitivities && w.sensitivity.solve(increment, 1, 0, w.newton.stiffness);
+  return true;
+}
+
 }  // namespace
 
 Outcome solve(const Request& request, Workspace& w) {
@@ -318,18 +347,29 @@ Outcome solve(const Request& request, Workspace& w) {
     if (advance_first && attempt(solve_advancing(request, Method::advancing, w, outcome))) {
       return true;
     }
+    const auto straighten = [&] {
+      if (parts > 1 || !may_be_whole(request)) return true;
+      w.detour = w.increment;
+      const bool whole = solve_whole(request, w, outcome);
+      count();
+      if (!whole) std::swap(w.increment, w.detour);
+      return true;
+    };
     const int finest = effort_of(request).finest;
     bool fallback_left = true;
     for (int refinement = 1; refinement <= finest; refinement *= 2) {
       if (parts * refinement > most_subincrements) break;
-      if (attempt(solve_parts(request, parts * refinement, w, outcome))) return true;
+      if (attempt(solve_parts(request, parts * refinement, w, outcome))) {
+        return refinement == 1 || straighten();
+      }
       if (w.increment.touching == 0 || w.increment.collapsed()) return false;
       if (refinement == 1 && finest > 1 && may_fade(request, w.increment)) {
         fallback_left = solve_advancing(request, Method::advancing, w, outcome);
         if (attempt(fallback_left && !w.increment.bears())) return true;
       }
     }
-    return fallback_left && attempt(solve_advancing(request, Method::advancing, w, outcome));
+    return fallback_left && attempt(solve_advancing(request, Method::advancing, w, outcome)) &&
+           straighten();
   };
   if (!chain()) {
     outcome.status = w.increment.collapsed()     ? GRAINLAW_COLLAPSED

@@ -18,6 +18,7 @@ namespace grainlaw {
 // All memory of one solving thread.
 struct Workspace {
   Increment increment;
+  Increment detour;  // what sub-increments or an advancing history led to, while less is tried
   RelaxationMemory relaxation;
   NewtonMemory newton;
   Sensitivity sensitivity;
@@ -43,7 +44,7 @@ struct Request {
 
 struct Outcome {
   grainlaw_status status = GRAINLAW_NOT_CONVERGED;
-  int subincrements = 1;
+  int subincrements = 1;  // that this is the end of, each from the equilibrium of the one before
   bool history_advanced = false;  // approximate: friction history advanced during the relaxation
   bool loose = false;             // ended at the loose tolerance: close to an equilibrium, none
   bool sensitivities = false;     // they exist, and belong to where this ended
