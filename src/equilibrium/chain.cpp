@@ -293,8 +293,8 @@ bool may_be_whole(const Request& request) {
   return request.loose_tolerance == 0 && !request.problem->law->bonds() && !may_be_free(request);
 }
 
-// The equilibrium of the increment as a whole, from the committed history, near where the detour ended: about
-// every other one that was missed at first is found so.
+// The equilibrium of the increment as a whole, from the committed history, near where the detour ended:
+// about every other one that was missed at first is found so.
 bool solve_whole(Request request, Workspace& w, Outcome& outcome) {
   auto& increment = w.increment;
   request.guess = &w.detour.coordinates;
@@ -348,19 +348,19 @@ Outcome solve(const Request& request, Workspace& w) {
       return true;
     }
     const auto straighten = [&] {
-      if (parts > 1 || !may_be_whole(request)) return true;
+      if (parts > 1 || !may_be_whole(request)) return;
       w.detour = w.increment;
       const bool whole = solve_whole(request, w, outcome);
       count();
       if (!whole) std::swap(w.increment, w.detour);
-      return true;
     };
     const int finest = effort_of(request).finest;
     bool fallback_left = true;
     for (int refinement = 1; refinement <= finest; refinement *= 2) {
       if (parts * refinement > most_subincrements) break;
       if (attempt(solve_parts(request, parts * refinement, w, outcome))) {
-        return refinement == 1 || straighten();
+        if (refinement > 1) straighten();
+        return true;
       }
       if (w.increment.touching == 0 || w.increment.collapsed()) return false;
       if (refinement == 1 && finest > 1 && may_fade(request, w.increment)) {
@@ -368,8 +368,11 @@ Outcome solve(const Request& request, Workspace& w) {
         if (attempt(fallback_left && !w.increment.bears())) return true;
       }
     }
-    return fallback_left && attempt(solve_advancing(request, Method::advancing, w, outcome)) &&
-           straighten();
+    if (!fallback_left || !attempt(solve_advancing(request, Method::advancing, w, outcome))) {
+      return false;
+    }
+    straighten();
+    return true;
   };
   if (!chain()) {
     outcome.status = w.increment.collapsed()     ? GRAINLAW_COLLAPSED

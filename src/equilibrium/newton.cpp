@@ -149,15 +149,22 @@ class FlowNewton {
     relax(increment_, tolerance_, settling_steps, History::committed, *relaxation_);
   }
 
-  // Moves of a few mean overlaps turn contacts over; what lies beyond is another packing.
+  // Moves of a few mean overlaps turn contacts over; what lies beyond is another packing. Where next to nothing
+  // holds some particles, a shift holds them.
   void full_step() {
     constexpr double move_limit = 3;  // mean overlaps
     constexpr int patience = 4;
     constexpr double the_same = 1e-2;  // change of the residual by a step and what settles after it
     constexpr double flow_shift = 1e-2;
+    constexpr double least_share = 0.1;  // less of a step does not tell what is wrong with the rest
     const double before = norm_;
     const double limit = move_limit * increment_.relative_scale() / increment_.mean_stiffness();
-    increment_.move(memory_.step, std::min(1.0, limit / largest_move(increment_, memory_.step)));
+    const double share = limit / largest_move(increment_, memory_.step);
+    if (share < least_share && shift_ < flow_shift) {
+      shift_ = std::max(16 * shift_, first_shift);
+      return;
+    }
+    increment_.move(memory_.step, std::min(1.0, share));
     increment_.keep_neighbours();
     increment_.update_forces();
     increment_.refresh_masses();
