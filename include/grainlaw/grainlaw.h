@@ -141,7 +141,8 @@ typedef struct grainlaw_report {
   long relaxation_steps; /* pseudo-time steps [-] */
   long servo_corrections; /* outer corrections of the servo method, 0 for direct [-] */
   int factorisations;     /* sparse factorisations, tangent included [-] */
-  int subincrements;      /* parts the increment was split into; 0: it was not begun [-] */
+  int subincrements;      /* parts that led here, each from the equilibrium before it; 0: the
+                             increment was not begun [-] */
   int contacts;           /* touching contacts [-] */
   int sliding;            /* contacts at the friction limit [-] */
   int status_changes;     /* contacts that opened, closed, stuck, slid or lost their bond [-] */
