@@ -316,7 +316,7 @@ TEST(stress_free, forces_that_fade_without_end_count_for_nothing) {
     EXPECT_GT(pressure(advance(state, {0.999, 0.012, 0, 0.999})), 1e4);
   }
   EXPECT_GT(faded, 0);
-  EXPECT_LE(refused, 5);
+  EXPECT_LE(refused, 2);
 }
 
 TEST(stress_free, force_floor_below_the_forces_changes_nothing) {
