@@ -41,8 +41,17 @@ void write(const grainlaw_state* state, const PackingRecipe& recipe, const std::
         "writing a packing");
 }
 
+bool is_kept(const PackingRecipe& recipe, const std::string& name) {
+  return recipe.keep && std::filesystem::exists(recipe.directory / (name + "_particles.csv"));
+}
+
 // Of the first seed that leads to one.
 std::string compact(const PackingRecipe& recipe, double stiffness) {
+  const auto name_of = [&](long seed) {
+    return fmt::format("discs{}_seed{}_{:.0e}", recipe.count, seed, stiffness);
+  };
+  for (long seed = recipe.seed; seed <= recipe.seed + more_seeds; ++seed)
+    if (is_kept(recipe, name_of(seed))) return name_of(seed);
   MaterialSource source;
   source.file = recipe.scene;
   source.base = recipe.scene.parent_path();
@@ -54,9 +63,8 @@ std::string compact(const PackingRecipe& recipe, double stiffness) {
     change(source, "packing", "seed", seed);
     try {
       const State state = make_state(make_material(source));
-      const std::string name = fmt::format("discs{}_seed{}_{:.0e}", recipe.count, seed, stiffness);
-      write(state.get(), recipe, name);
-      return name;
+      write(state.get(), recipe, name_of(seed));
+      return name_of(seed);
     } catch (const ComputationError& error) {
       fmt::print("kn/p = {:.0e}, seed {}: {}\n", stiffness, seed, error.what());
       if (seed == recipe.seed + more_seeds) throw;
@@ -81,12 +89,15 @@ struct Pressure {
 void unload(grainlaw_state* state, double share) {
   constexpr double largest_decrease = 0.2;  // of the pressure in one increment
   constexpr double accuracy = 0.01;
+  constexpr double least_decrease = 1e-6;  // where smaller ones would be needed it is given up
   constexpr int most_increments = 1000;
   double stretch = 1;
   Pressure now(evaluate(state, Tensor::Identity(), GRAINLAW_WANT_TANGENT_EXACT), stretch);
   const double target = share * now.value;
   double decrease = largest_decrease;
-  for (int count = 0; count < most_increments && now.value > (1 + accuracy) * target; ++count) {
+  for (int count = 0;
+       count < most_increments && decrease > least_decrease && now.value > (1 + accuracy) * target;
+       ++count) {
     const double wanted = std::max(target, (1 - decrease) * now.value);
     const double next = stretch + (wanted - now.value) / now.slope;
     const Tensor deformation = next * Tensor::Identity();
@@ -111,9 +122,10 @@ void unload(grainlaw_state* state, double share) {
 std::string make_packing(const PackingRecipe& recipe, double stiffness) {
   if (stiffness <= stiffest_compaction) return compact(recipe, stiffness);
   const std::string from = compact(recipe, stiffest_compaction);
+  const std::string name = fmt::format("{}_to_{:.0e}", from, stiffness);
+  if (is_kept(recipe, name)) return name;
   const State state = make_state(read(recipe, from, young(stiffness), 0));
   unload(state.get(), stiffest_compaction / stiffness);
-  const std::string name = fmt::format("{}_to_{:.0e}", from, stiffness);
   write(state.get(), recipe, name);
   return name;
 }

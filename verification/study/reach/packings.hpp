@@ -14,6 +14,7 @@ struct PackingRecipe {
   int count = 400;
   long seed = 1;            // the first to try
   double tolerance = 1e-8;  // of the equilibria [-]
+  bool keep = false;        // those that are in the directory are not made anew
 };
 
 // Compacts without friction to kn / (p t) = `stiffness` of two discs of mean radius, and writes the

@@ -27,6 +27,7 @@ struct Arguments {
   long seed = 1;
   int threads = 1;
   int repeats = 1;
+  bool keep_packings = false;
   SmallIncrements small;
 };
 
@@ -84,8 +85,12 @@ void add_grid_material(std::vector<Job>& jobs, const PackingRecipe& recipe, cons
 // Packings of five stiffnesses, each with five frictions.
 void add_grid_paths(std::vector<Job>& jobs, const StudyOptions& options,
                     const Arguments& arguments) {
-  const PackingRecipe recipe{options.scene("pack400.toml"), options.output + "/reach_packings",
-                             arguments.count, arguments.seed, arguments.tolerance};
+  const PackingRecipe recipe{options.scene("pack400.toml"),
+                             options.output + "/reach_packings",
+                             arguments.count,
+                             arguments.seed,
+                             arguments.tolerance,
+                             arguments.keep_packings};
   for (const double stiffness : {1e2, 1e3, 1e4, 1e5, 1e6}) {
     fmt::print(stderr, "packing of {} discs at kn/p = {:.0e}\n", arguments.count, stiffness);
     const std::string name = make_packing(recipe, stiffness);
@@ -160,6 +165,8 @@ void add_reach_study(CLI::App& study, const std::shared_ptr<StudyOptions>& optio
           "of every path, with stiffnesses apart by 1e-6 of it: what is left to chance [-]")
       ->check(at_least(1))
       ->capture_default_str();
+  command->add_flag("--keep-packings", arguments->keep_packings,
+                    "take the packings of the grid that an earlier run left in the output");
   command->add_option("--threads", arguments->threads, "paths led at once [-]")
       ->check(at_least(1))
       ->capture_default_str();
