@@ -159,14 +159,19 @@ void Relaxation::update() {
   increment_.reduce(forces);
 }
 
-// A high floor keeps flutter down, a low one lets soft modes move.
+double Relaxation::size() const {
+  return std::max(1.0, static_cast<double>(increment_.nodes()) / 400);
+}
+
+// A high floor keeps flutter down, a low one lets soft modes move, which are softer in large packings.
 void Relaxation::review_floor() {
-  constexpr double largest_floor = 0.25;
+  constexpr double largest_floor = 0.25;   // with up to 400 nodes
   constexpr double enough_progress = 0.5;  // of the residual, over a window
   constexpr double oscillating = 2;        // largest / smallest residual of a window
   if (residual_ > enough_progress * window_start_) {
     const bool flutter = window_max_ > oscillating * window_min_;
-    floor_ = flutter ? std::min(2 * floor_, largest_floor) : 0.5 * floor_;
+    const double largest = std::max(first_floor, largest_floor / std::sqrt(size()));
+    floor_ = flutter ? std::min(2 * floor_, largest) : 0.5 * floor_;
   }
   constexpr double gain = 0.7;  // of a window's largest residual over the least before
   if (window_max_ < gain * least_max_) {
@@ -182,8 +187,7 @@ bool Relaxation::flutters() const {
   constexpr double flutter_patience = 500;  // with up to 400 nodes [steps]
   constexpr double growth = 0.25;           // clusters that flutter are as small in large packings
   if (!rough_ || window_max_ <= flutter_residual) return false;
-  const double size = std::max(1.0, static_cast<double>(increment_.nodes()) / 400);
-  return static_cast<double>(steps_ - last_gain_) > flutter_patience * std::pow(size, growth);
+  return static_cast<double>(steps_ - last_gain_) > flutter_patience * std::pow(size(), growth);
 }
 
 // Where soft modes creep under the damping that flutter asks for, on with them at once; whether it

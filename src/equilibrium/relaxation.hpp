@@ -46,6 +46,7 @@ class Relaxation {
   [[nodiscard]] bool calm() const;
   ContactSides::Measured step_nodes(double keep, double gain);
   void update();
+  [[nodiscard]] double size() const;  // of the packing, over 400 nodes; 1 where there are fewer
   void review_floor();
   bool leap();
   [[nodiscard]] bool flutters() const;
