@@ -246,7 +246,7 @@ bool solve_parts(const Request& request, int parts, Workspace& w, Outcome& outco
     if (!settled) return false;
     if (k < parts) {
       carry();
-      increment.advance_history();
+      increment.continue_history();
     }
   }
   return true;

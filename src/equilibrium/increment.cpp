@@ -100,19 +100,30 @@ void Increment::deform(const std::array<double, 4>& target) {
   let_go_ = false;
   after_break_ = false;
   const auto& space = *problem->space;
-  if (space.bound_to_axes()) {
-    // Fluctuations keep their components, and what is found of F stays until it is found.
+  auto to = target;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (space.found[k]) to[k] = deformation[k];  // until it is found
+  }
+  carry_affinely(deformation, to, coordinates);
+  deformation = to;
+  if (!space.bound_to_axes()) cell = cell_at(deformation);
+  if (!space.identity) place_fixed();
+  list_neighbours();
+}
+
+// Moves positions affinely from one F to another; where the space is bound to axes, fluctuations keep
+// their components.
+void Increment::carry_affinely(const std::array<double, 4>& from, const std::array<double, 4>& to,
+                               std::vector<double>& positions) const {
+  const auto n = particles();
+  double* x = positions.data();
+  if (problem->space->bound_to_axes()) {
     std::array<double, 4> change{};
-    for (std::size_t k = 0; k < 4; ++k) change[k] = space.found[k] ? 0 : target[k] - deformation[k];
-    for (std::size_t k = 0; k < 4; ++k) deformation[k] += change[k];
-    move_with(space.reference.data(), change, particles(), coordinates.data());
-    place_fixed();
-    list_neighbours();
+    for (std::size_t k = 0; k < 4; ++k) change[k] = to[k] - from[k];
+    move_with(problem->space->reference.data(), change, n, x);
     return;
   }
-  const auto g = product(target, inverse(deformation).data());
-  const auto n = particles();
-  double* x = coordinates.data();
+  const auto g = product(to, inverse(from).data());
   double* y = x + n;
   for (std::size_t p = 0; p < n; ++p) {
     const double a = x[p];
@@ -120,10 +131,6 @@ void Increment::deform(const std::array<double, 4>& target) {
     x[p] = g[0] * a + g[1] * b;
     y[p] = g[2] * a + g[3] * b;
   }
-  deformation = target;
-  cell = cell_at(deformation);
-  if (!space.identity) place_fixed();
-  list_neighbours();
 }
 
 // Where F has a particle that does not fluctuate.

@@ -57,6 +57,12 @@ class Increment {
 
   // Make the present coordinates the start of the history; sums up the dissipated energy.
   void advance_history();
+  // The same on the way through an increment, where the answer must not depend on what equilibrium
+  // leaves open: nodes that nothing holds start where the deformation carries their last start, and
+  // the mean fluctuation of those that are held.
+  void continue_history();
+  // Whether a contact that carries, or the boundary, holds a node in x (fixed_x) and y (fixed_y).
+  void find_held(std::vector<unsigned char>& held) const;
 
   // Break bonds that are beyond their strength here, and the history starts anew from here; false
   // when none is. The worst break first, with all that exceed the strength by at least half as
@@ -96,9 +102,6 @@ class Increment {
 
   // From here to the next F no contact counts but a bond, whatever is left of its force.
   void let_go() { let_go_ = true; }
-
-  // Whether every particle is where F carried it from the start of the history.
-  [[nodiscard]] bool follows_deformation() const;
 
   // Put contacts, coordinates and dissipation into `to`, rotations added to those of `from`.
   void export_to(const Configuration& from, Configuration& to) const;
@@ -179,11 +182,15 @@ class Increment {
  private:
   [[nodiscard]] std::array<double, 4> cell_at(const std::array<double, 4>& f) const;
   void list_neighbours();
+  void advance_contacts_and_history();
+  void carry_start();
   void list_bonded_pairs();
   [[nodiscard]] double bond_load(std::size_t c) const;
   [[nodiscard]] double worst_bond() const;
   void build_list();
   void project();
+  void carry_affinely(const std::array<double, 4>& from, const std::array<double, 4>& to,
+                      std::vector<double>& positions) const;
   [[nodiscard]] double affine_place(std::size_t p, std::size_t direction) const;
   void place_fixed();
   // How far a packing that nothing holds has moved as a whole [m].
@@ -206,7 +213,8 @@ class Increment {
   double deformation_scale_ = 1;
   double mean_branch_ = 0;                               // 2 R [m]
   std::array<std::array<double, 3>, 2> average_mass_{};  // inverse of sum row row / m
-  std::vector<char> held_;                               // nodes with a contact
+  std::vector<unsigned char> held_;                      // of nodes, as found last
+  std::vector<double> carried_start_;
   NeighbourSearch search_;
 };
 

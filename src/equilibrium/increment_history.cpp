@@ -3,7 +3,6 @@
 #include "contact/contact_point.hpp"
 #include "contact/frictional.hpp"
 #include "equilibrium/increment.hpp"
-#include "equilibrium/pull_back.hpp"
 #include "room.hpp"
 
 #include <algorithm>
@@ -30,24 +29,6 @@ bool Increment::bears() const {
   return false;
 }
 
-bool Increment::follows_deformation() const {
-  constexpr double rounding = 1e-12;  // of 2 R
-  const auto n = particles();
-  const PullBack pull_back(start_deformation);
-  const auto& f = deformation;
-  const auto moved = [&](std::size_t p) {
-    const auto [a, b] = pull_back(start[p], start[n + p]);
-    const double x = f[0] * a + f[1] * b;
-    const double y = f[2] * a + f[3] * b;
-    return std::hypot(coordinates[p] - x, coordinates[n + p] - y) > rounding * mean_branch_;
-  };
-  for (std::size_t p = 0; p < n; ++p) {
-    if (moved(p)) return false;
-  }
-  return std::all_of(coordinates.begin() + static_cast<std::ptrdiff_t>(2 * n), coordinates.end(),
-                     [](double turned) { return turned == 0; });
-}
-
 // What the springs hold less what the prescribed stresses have given: at the given F and those
 // stresses nothing else gives energy.
 double Increment::potential_energy() const {
@@ -59,7 +40,7 @@ double Increment::potential_energy() const {
   return energy;
 }
 
-void Increment::advance_history() {
+void Increment::advance_contacts_and_history() {
   load_records();
   const auto& law = *problem->law;
   dissipated += advance_contacts(records, law, contacts, forces);
@@ -86,9 +67,61 @@ void Increment::advance_history() {
     if (law.moments()) history_moments.push_back(contacts.start_moment[c] * scale / weight);
     if (gaps) history_gaps.push_back(contacts.rest[c] - contacts.reach[c]);
   }
+}
+
+void Increment::advance_history() {
+  advance_contacts_and_history();
   start = coordinates;
   start_deformation = deformation;
   build_list();
+}
+
+void Increment::continue_history() {
+  advance_contacts_and_history();
+  carry_start();
+  start_deformation = deformation;
+  build_list();
+}
+
+void Increment::find_held(std::vector<unsigned char>& held) const {
+  const auto& space = *problem->space;
+  held.assign(nodes(), 0);
+  for (std::size_t q = 0; q < space.fixed.size(); ++q) held[q] = space.fixed[q] & fixed_translation;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (!carries(c)) continue;
+    held[static_cast<std::size_t>(space.node[static_cast<std::size_t>(contacts.i[c])])] =
+        held[static_cast<std::size_t>(space.node[static_cast<std::size_t>(contacts.j[c])])] =
+            fixed_translation;
+  }
+}
+
+// Turns stay as they are: a disc is the same however far it has turned.
+void Increment::carry_start() {
+  const auto n = particles();
+  const auto& node = problem->space->node;
+  find_held(held_);
+  carried_start_.assign(start.begin(), start.begin() + static_cast<std::ptrdiff_t>(2 * n));
+  carry_affinely(start_deformation, deformation, carried_start_);
+  start = coordinates;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const unsigned char bit = k == 0 ? fixed_x : fixed_y;
+    const double* carried = carried_start_.data() + k * n;
+    const auto held = [&](std::size_t p) {
+      return (held_[static_cast<std::size_t>(node[p])] & bit) != 0;
+    };
+    double sum = 0;
+    double count = 0;
+    for (std::size_t p = 0; p < n; ++p) {
+      if (!held(p)) continue;
+      sum += coordinates[k * n + p] - carried[p];
+      ++count;
+    }
+    if (count == static_cast<double>(n)) continue;
+    const double mean = count > 0 ? sum / count : 0;
+    for (std::size_t p = 0; p < n; ++p) {
+      if (!held(p)) start[k * n + p] = carried[p] + mean;
+    }
+  }
 }
 
 // Eq. 8 of Liu, Bosco & Suiker (2017), 1 at failure; without a bond 0.
@@ -115,7 +148,7 @@ double Increment::worst_bond() const {
 bool Increment::break_bonds() {
   if (!overloads_bonds()) return false;
   const double energy = potential_energy();
-  advance_history();
+  continue_history();
   after_break_ = true;
   break_energy_ = energy;
   break_dissipated_ = dissipated;

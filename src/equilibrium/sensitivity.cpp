@@ -28,6 +28,24 @@ DeformationChange change_at(double share, const BoundarySpace& space,
   return change;
 }
 
+// F F0^-1 of the translations, `b` components a node.
+void push_forward(const std::array<double, 4>& f, const std::array<double, 4>& f0, std::size_t b,
+                  std::span<Quad> motion) {
+  const PullBack pull_back(f0);
+  const auto [g11, g21] = pull_back(1, 0);
+  const auto [g12, g22] = pull_back(0, 1);
+  const double a = f[0] * g11 + f[1] * g21;
+  const double c = f[0] * g12 + f[1] * g22;
+  const double d = f[2] * g11 + f[3] * g21;
+  const double e = f[2] * g12 + f[3] * g22;
+  for (std::size_t q = 0; q < motion.size(); q += b) {
+    const Lanes x = load(motion[q].lane);
+    const Lanes y = load(motion[q + 1].lane);
+    store(motion[q].lane, a * x + c * y);
+    store(motion[q + 1].lane, d * x + e * y);
+  }
+}
+
 }  // namespace
 
 void Sensitivity::start_of_history(const Increment& increment, double start_share) {
@@ -93,24 +111,6 @@ void Sensitivity::start_of_history(const Increment& increment, double start_shar
   if (hertzian) rescale_start(increment);
 }
 
-bool Sensitivity::springs_start_determined(const Increment& increment,
-                                           std::span<const TouchingContact> touching) {
-  if (affine_ || !increment.problem->law->tangential()) return true;
-  const auto& node = increment.problem->space->node;
-  resize_with_room(held_, increment.nodes());
-  std::fill(held_.begin(), held_.end(), 0);
-  for (const auto& contact : increment.history) {
-    held_[static_cast<std::size_t>(node[static_cast<std::size_t>(contact.i)])] = 1;
-    held_[static_cast<std::size_t>(node[static_cast<std::size_t>(contact.j)])] = 1;
-  }
-  for (const auto& contact : touching) {
-    if (contact.point.status != ContactStatus::sticking) continue;
-    if (held_[contact.node_i] == 1 && held_[contact.node_j] == 1) continue;
-    if (increment.carries(contact.index)) return false;
-  }
-  return true;
-}
-
 bool Sensitivity::solve(Increment& increment, double share, double start_share,
                         Stiffness& stiffness) {
   if (carried_) start_of_history(increment, start_share);
@@ -119,7 +119,6 @@ bool Sensitivity::solve(Increment& increment, double share, double start_share,
   const bool rotating = increment.problem->law->rotating();
   stiffness.assemble(increment, 0);
   const auto touching = stiffness.touching();
-  if (carried_ && !springs_start_determined(increment, touching)) determined_ = false;
   const bool moments = increment.problem->law->moments();
   HistoryChange history;
   if (carried_) history = {start_turn_.data(), start_force_.data()};
@@ -185,19 +184,50 @@ void Sensitivity::carry(const Increment& increment) {
   }
   keep_room(carried_force_);
   keep_room(carried_moment_);
-  carried_motion_ = motion_;
+  carry_motion(increment);
   carried_change_ = change_;
   carried_ = true;
-  affine_ = false;
 }
 
 void Sensitivity::carry_free(const Increment& increment, double share) {
-  carried_force_.clear();
-  carried_moment_.clear();
-  carried_motion_.assign(increment.node_unknowns(), Quad{});
-  carried_change_ = change_at(share, *increment.problem->space, {});
-  carried_ = true;
-  affine_ = affine_ && increment.follows_deformation();
+  change_ = change_at(share, *increment.problem->space, {});
+  motion_.assign(increment.node_unknowns(), Quad{});
+  carry(increment);
+}
+
+// As Increment::carry_start moves it: what is not held goes on from its last start, with the mean of the
+// others.
+void Sensitivity::carry_motion(const Increment& increment) {
+  const auto& node = increment.problem->space->node;
+  const std::size_t b = increment.problem->law->rotating() ? 3 : 2;
+  if (!carried_) carried_motion_.assign(increment.node_unknowns(), Quad{});
+  if (!increment.problem->space->bound_to_axes()) {
+    push_forward(increment.deformation, increment.start_deformation, b, carried_motion_);
+  }
+  increment.find_held(held_);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const unsigned char bit = k == 0 ? fixed_x : fixed_y;
+    Lanes sum{};
+    double count = 0;
+    for (const int q : node) {
+      if ((held_[static_cast<std::size_t>(q)] & bit) == 0) continue;
+      const std::size_t at = static_cast<std::size_t>(q) * b + k;
+      sum += load(motion_[at].lane) - load(carried_motion_[at].lane);
+      ++count;
+    }
+    const Lanes mean = count > 0 ? sum / count : sum;
+    for (std::size_t q = 0; q < increment.nodes(); ++q) {
+      const std::size_t at = q * b + k;
+      if ((held_[q] & bit) != 0) {
+        carried_motion_[at] = motion_[at];
+      } else {
+        store(carried_motion_[at].lane, load(carried_motion_[at].lane) + mean);
+      }
+    }
+  }
+  if (b == 2) return;
+  for (std::size_t q = 0; q < increment.nodes(); ++q)
+    carried_motion_[q * b + 2] = motion_[q * b + 2];
 }
 
 }  // namespace grainlaw

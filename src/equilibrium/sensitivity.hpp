@@ -17,23 +17,16 @@ namespace grainlaw {
 // at the end of the increment; a sub-increment ends at a share of the way, linear in F.
 class Sensitivity {
  public:
-  void reset() {
-    carried_ = false;
-    determined_ = affine_ = true;
-  }
+  void reset() { carried_ = false; }
 
   // Solve K dz = dr/dF at a converged sub-increment that ends at `share` and began at
   // `start_share`. False when the stiffness is singular.
   bool solve(Increment& increment, double share, double start_share, Stiffness& stiffness);
 
-  // False when a spring started where a rattler had been left by an earlier sub-increment:
-  // equilibrium does not tell where that is, nor how it changes with F.
-  [[nodiscard]] bool determined() const { return determined_; }
-
   // Keep what the next sub-increment's history depends on; call before
-  // Increment::advance_history().
+  // Increment::continue_history().
   void carry(const Increment& increment);
-  // The same where no contact carries: particles followed F, to a share of the way.
+  // The same where no contact carries, at a share of the way.
   void carry_free(const Increment& increment, double share);
 
   // Of a contact that touches.
@@ -55,8 +48,7 @@ class Sensitivity {
  private:
   void start_of_history(const Increment& increment, double start_share);
   bool complete(Increment& increment, const HistoryChange& history, Stiffness& stiffness);
-  [[nodiscard]] bool springs_start_determined(const Increment& increment,
-                                              std::span<const TouchingContact> touching);
+  void carry_motion(const Increment& increment);
   // Hertz-Mindlin: the springs follow the overlap.
   void rescale_start(const Increment& increment);
 
@@ -66,12 +58,10 @@ class Sensitivity {
   std::vector<Changes> changes_;      // per touching contact
   std::vector<std::int32_t> place_;   // of a listed contact among them, -1 when open
   bool carried_ = false;
-  bool determined_ = true;
-  bool affine_ = true;  // all particles followed F up to the start of the history
   std::vector<Quad> carried_motion_;            // at the start of the history
   std::vector<Quad> carried_force_;             // per contact of increment.history
   std::vector<Quad> start_turn_, start_force_;  // per listed contact
-  std::vector<char> held_;                      // per node, at the start of the history
+  std::vector<unsigned char> held_;             // as Increment::find_held tells
   std::vector<Quad> start_overlap_;             // of Hertz-Mindlin: per listed contact
   // Of laws with moments: per touching contact, per contact of the history, per listed contact.
   std::vector<Quad> moment_changes_, carried_moment_, start_moment_, start_spin_;

@@ -138,7 +138,7 @@ std::array<double, 16> tangent_of(const Workspace& w, const Outcome& outcome, Ta
                                   grainlaw_report& report) {
   if (kind != TangentKind::exact && kind != TangentKind::elastic) return {};
   if (kind == TangentKind::exact && outcome.sensitivities && !outcome.loose) {
-    report.tangent_exact = !outcome.history_advanced && w.sensitivity.determined() ? 1 : 0;
+    report.tangent_exact = outcome.history_advanced ? 0 : 1;
     return condensed_tangent(w.increment, w.sensitivity);
   }
   const auto elastic = elastic_tangent(w.increment);

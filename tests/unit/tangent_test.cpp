@@ -36,26 +36,51 @@ TEST(tangent, through_sub_increments_matches_central_differences) {
   }
 }
 
-// A rattler left by one sub-increment may come to bear in the next, from a place that no
-// equilibrium determines; then the tangent does not claim to be exact.
-TEST(tangent, through_sub_increments_is_exact_where_it_says_so) {
-  int exact = 0;
+TEST(tangent, through_sub_increments_of_the_reference_packing_matches_central_differences) {
   for (const auto boundary : {BoundaryType::periodic_cell, BoundaryType::frame_p}) {
     MaterialDescription description = describe(reference_packing(), rough_law(), boundary);
-    description.solver.increment_limit = 0.06;
+    description.solver.increment_limit = 0.05;
     const auto material = make_material(description);
     for (const Path& path : paths) {
       SCOPED_TRACE(path.name);
       State state(material);
       advance(state, path.reached, path.steps);
-      const Evaluation at = evaluate(state, path.next, TangentKind::exact);
-      EXPECT_GE(at.report.subincrements, 3);
-      if (at.report.tangent_exact == 0) continue;
-      ++exact;
+      EXPECT_GE(evaluate(state, path.next).report.subincrements, 3);
       expect_derivative(state, path.next);
     }
   }
-  EXPECT_GE(exact, 3);
+}
+
+// Where discs that nothing holds at the end of one sub-increment come to bear in a later one. About one
+// increment in a hundred ends beside a jump of P.
+TEST(tangent, where_rattlers_come_to_bear_rounding_of_F_moves_the_stress_by_rounding) {
+  constexpr Tensor increment{5.2e-3, 1.5e-3, 2.5e-3, -5e-3};
+  constexpr double rounding = 1e-14;
+  int in_parts = 0;
+  int rough = 0;
+  for (const std::uint64_t seed : {1, 2, 4, 5}) {
+    State state(make_material(
+        describe(small_packing(100, seed), rough_law(), BoundaryType::periodic_cell, 1e-11)));
+    Tensor F = identity;
+    for (int step = 0; step < 4; ++step) {
+      F = sum(F, 1, increment);
+      const Evaluation at = evaluate(state, F, TangentKind::exact);
+      ASSERT_EQ(at.status, GRAINLAW_OK) << at.report.message;
+      if (at.report.subincrements > 1 && at.report.history_advanced == 0) {
+        ++in_parts;
+        EXPECT_EQ(at.report.tangent_exact, 1);
+        double largest = 0;
+        for (const double sign : {1.0, -1.0}) {
+          const Evaluation beside = evaluate(state, sum(F, sign * rounding, {1, -0.5, 0.7, 0.3}));
+          largest = std::max(largest, relative_difference(beside.stress, at.stress));
+        }
+        if (largest > 1e-10) ++rough;
+      }
+      advance(state, F);
+    }
+  }
+  EXPECT_GE(in_parts, 6);
+  EXPECT_LE(rough, 1) << "of " << in_parts;
 }
 
 TEST(tangent, turns_the_stress_under_a_spin) {
