@@ -20,7 +20,7 @@ struct PublishedOptions {
 };
 
 struct SolverOptions {
-  double tolerance = 1e-6;  // largest particle residual / mean contact normal force [-]
+  double tolerance = 1e-9;  // largest particle residual / mean contact normal force [-]
   // Residual at which an increment may end that does not reach `tolerance` soon: its friction
   // flutters, and more effort seldom ends that [-]; 0: none.
   double loose_tolerance = 0;

@@ -16,6 +16,7 @@ namespace verification {
 struct Attempt {
   bool converged = false;
   bool loose = false;                    // converged to a residual beyond the tolerance
+  bool stalled = false;                  // every evaluation went well, to no end
   double ratio = 0.5;                    // of the part that seems feasible
   std::string reason = {};               // of the failure
   grainlaw_status status = GRAINLAW_OK;  // of an evaluation that failed
@@ -34,6 +35,12 @@ using CutObserver = std::function<void(double part, const std::string& reason)>;
 inline std::string describe_cut(int step, double part, const std::string& reason) {
   return fmt::format("step {} in parts of {:.1e} of it: {}", step, part, reason);
 }
+
+// What a part of no more than this share of a step does not end is a jump of P as a function of F and the
+// last commit: a packing that has become unstable there rearranges. It is crossed: what lies beyond is
+// committed out of balance, and brought to balance from there.
+inline constexpr double crossing_part = 1.0 / 16;
+inline constexpr int most_crossings = 8;  // of one part; then it ends where it is, as a loose one
 
 struct Parts {
   int cuts = 0;

@@ -17,6 +17,7 @@ void Effort::add(const Effort& other) {
   evaluations += other.evaluations;
   cuts += other.cuts;
   loose += other.loose;
+  crossed += other.crossed;
   relaxation_steps += other.relaxation_steps;
   servo_corrections += other.servo_corrections;
   factorisations += other.factorisations;
@@ -80,7 +81,7 @@ std::vector<std::string> record_columns() {
           "contacts[-]", "sliding[-]", "status_changes[-]",
           "newton_iterations[-]", "evaluations[-]", "step_cuts[-]", "loose_parts[-]",
           "relaxation_steps[-]", "servo_corrections[-]", "factorisations[-]", "subincrements[-]",
-          "history_advanced[-]", "broken_bonds[-]", "escaped_particles[-]"};
+          "history_advanced[-]", "broken_bonds[-]", "escaped_particles[-]", "jumps_crossed[-]"};
   // clang-format on
 }
 
@@ -100,6 +101,7 @@ std::vector<double> record_values(const Record& r) {
     values.push_back(static_cast<double>(count));
   values.push_back(r.broken_bonds);
   values.push_back(r.escaped_particles);
+  values.push_back(e.crossed);
   return values;
 }
 

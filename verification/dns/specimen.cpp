@@ -161,8 +161,9 @@ void Specimen::step(const SpecimenSegment& segment, const Tensor& deformation, c
     record_.effort.add(evaluation.report);
     if (evaluation.status != GRAINLAW_OK) {
       ++record_.effort.cuts;
-      return Attempt{false, false, evaluation.report.step_ratio,
-                     grainlaw_status_text(evaluation.status), evaluation.status};
+      return Attempt{.ratio = evaluation.report.step_ratio,
+                     .reason = grainlaw_status_text(evaluation.status),
+                     .status = evaluation.status};
     }
     record_.effort.history_advanced += evaluation.report.history_advanced;
     accept(evaluation);

@@ -55,6 +55,8 @@ struct PointDriver::Goal {
 struct PointDriver::Iterate : Attempt {
   Tensor deformation = Tensor::Identity();
   Evaluation evaluation;
+  Tensor far_deformation = Tensor::Identity();  // the iterate furthest from where the tangent of
+  double far = -1;                              // the last step has it, and how far [Pa]
 };
 
 PointDriver::PointDriver(const Material& material, const PointOptions& options)
@@ -117,9 +119,16 @@ PointDriver::Iterate PointDriver::iterate(const Goal& goal, double tolerance, Ef
     result.deformation = deformation_of(state_.get());
     const Controlled now = controlled(goal.control, result.deformation, result.evaluation);
     const Vector4 residual = goal.value - now.value;
+    const Vector4 unforeseen =
+        now.value - before.value -
+        before.derivative * (to_vector(result.deformation) - to_vector(deformation_));
     double error = 0;
     for (int k = 0; k < 4; ++k)
       if (goal.stress(k)) error = std::max(error, std::abs(residual(k)) / goal.scale);
+    if (unforeseen.norm() > result.far) {
+      result.far = unforeseen.norm();
+      result.far_deformation = result.deformation;
+    }
     if (error <= tolerance) {
       result.converged = true;
       return result;
@@ -139,6 +148,7 @@ PointDriver::Iterate PointDriver::iterate(const Goal& goal, double tolerance, Ef
     correction = matrix.fullPivLu().solve(residual);
     first = false;
   }
+  result.stalled = true;
   result.reason =
       fmt::format("the stress control did not converge (best residual {:.1e} [-])", best);
   return result;
@@ -163,6 +173,23 @@ void PointDriver::accept(const Iterate& iterate, bool has_tangent) {
   has_tangent_ = has_tangent;
 }
 
+// From an attempt that stalled before a jump, and from what it saw beyond.
+PointDriver::Iterate PointDriver::cross_jumps(const Goal& goal, Iterate last, Effort& effort) {
+  for (int crossing = 0; crossing < most_crossings && last.stalled; ++crossing) {
+    Iterate beyond = last;
+    beyond.deformation = last.far_deformation;
+    beyond.evaluation = evaluate(state_.get(), beyond.deformation, options_.tangent);
+    effort.add(beyond.evaluation.report);
+    if (beyond.evaluation.status != GRAINLAW_OK) return last;
+    accept(beyond, true);
+    check(grainlaw_commit(state_.get()), "committing beyond a jump of the stress");
+    ++effort.crossed;
+    last = iterate(goal, options_.tolerance, effort);
+  }
+  if (last.stalled) last.converged = last.loose = true;  // the next part goes on from here
+  return last;
+}
+
 void PointDriver::run(const Segment& segment, const PointObserver& observe,
                       const CutObserver& observe_cut) {
   std::array<Control, 4> control{};
@@ -173,14 +200,18 @@ void PointDriver::run(const Segment& segment, const PointObserver& observe,
     if (options_.max_steps > 0 && record_.step >= options_.max_steps) return;
     const int number = record_.step + 1;
     Effort effort;
+    double done = 0;
     double fraction = 0;
     Tensor committed;
     const auto attempt = [&](double next, bool loose) {
       fraction = (step - 1 + next) / segment.steps;
       const Goal goal = goal_at(segment, start, fraction);
-      const Iterate last =
-          iterate(goal, loose ? options_.loose_tolerance : options_.tolerance, effort);
+      Iterate last = iterate(goal, loose ? options_.loose_tolerance : options_.tolerance, effort);
+      if (last.stalled && options_.loose_tolerance == 0 && next - done <= crossing_part) {
+        last = cross_jumps(goal, last, effort);
+      }
       if (last.converged) {
+        done = next;
         committed = deformation_;
         accept(last, goal.mixed);
         effort.history_advanced += last.evaluation.report.history_advanced;

@@ -15,8 +15,9 @@ struct PointOptions {
   double tolerance = 1e-8;  // largest stress residual / |sigma| at the start of the step [-]
   int max_iterations = 20;  // of one attempt, then the step is cut
   int max_cuts = 12;        // halvings of one step, at most, before the run is given up
-  // Where P(F) jumps across the target no step size helps. Once a step is at its smallest, this
-  // tolerance holds instead of the first, and the record counts it as a loose step; 0: never [-].
+  // Where P(F) jumps across the target no step size helps. 0: the jump is crossed: what lies beyond is
+  // committed out of balance, and brought to balance from there. Else, once a step is at its smallest,
+  // this tolerance holds instead of the first, and the record counts it as a loose step [-].
   double loose_tolerance = 0;
   int max_steps = 0;  // after which a path is left; 0: none
 };
@@ -49,6 +50,7 @@ class PointDriver {
   struct Iterate;
   Goal goal_at(const Segment& segment, const Vector4& start, double fraction) const;
   Iterate iterate(const Goal& goal, double tolerance, Effort& effort);
+  Iterate cross_jumps(const Goal& goal, Iterate last, Effort& effort);
   void accept(const Iterate& iterate, bool has_tangent);
   void renew_tangent();
 

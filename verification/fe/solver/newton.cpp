@@ -81,12 +81,18 @@ class NewtonSolver final : public Solver {
 
   LoadStep advance(double to, int number) override {
     LoadStep step;
+    const double from = time_;
     int iterations = 0;
+    int crossed = 0;
     const auto attempt = [&](double next, bool loose) {
       const auto first = step.residuals.size();
       step.attempts.push_back(first);
       const double tolerance = loose ? options_.loose_tolerance : options_.tolerance;
-      const Attempt result = equilibrate(next, tolerance, step.residuals);
+      const bool small = next - time_ <= crossing_part * (to - from);
+      Attempt result = equilibrate(next, tolerance, step.residuals);
+      if (result.stalled && small && crosses_jumps()) {
+        result = cross_jumps(next, result, step.residuals, crossed);
+      }
       iterations += static_cast<int>(step.residuals.size() - first) - 1;
       if (result.converged)
         points_.commit();
@@ -95,7 +101,7 @@ class NewtonSolver final : public Solver {
       return result;
     };
     const Parts parts =
-        solve_in_parts(time_, to, fmt::format("load step {}", number), options_.max_cuts,
+        solve_in_parts(from, to, fmt::format("load step {}", number), options_.max_cuts,
                        options_.loose_tolerance > 0, attempt, observe_cut_);
     step.time = to;
     step.record = points_.record();
@@ -103,6 +109,7 @@ class NewtonSolver final : public Solver {
     step.record.effort.iterations = iterations;
     step.record.effort.cuts = parts.cuts;
     step.record.effort.loose = parts.loose;
+    step.record.effort.crossed = crossed;
     report_supports(model_, to, displacement_, system_.residual, step);
     return step;
   }
@@ -130,6 +137,7 @@ class NewtonSolver final : public Solver {
   Attempt equilibrate(double time, double tolerance, std::vector<double>& residuals) {
     Eigen::VectorXd displacement = displacement_;
     System system = system_;
+    far_ = -1;
     const Eigen::VectorXd target = dofs_.prescribed_at(time);
     Eigen::VectorXd prescribed = target - dofs_.prescribed_at(time_);
     add_load_increment(system, time);
@@ -167,6 +175,7 @@ class NewtonSolver final : public Solver {
       }
       const int made = iteration + 1;
       const bool loaded = prescribed.isZero(0);
+      if (loaded) see_far(displacement, system);
       const bool near = loaded && residual <= options_.jump_tolerance;
       const bool slow = options_.jump_iterations > 0 && made >= options_.jump_iterations &&
                         residual > slow_ratio * before;
@@ -182,10 +191,46 @@ class NewtonSolver final : public Solver {
       }
       if (stalled) break;
     }
-    return {.reason =
-                fmt::format("Newton did not converge: best relative residual {:.1e}, expected "
-                            "{:.1e} [-]",
-                            best, tolerance)};
+    return {
+        .stalled = far_ >= 0,
+        .reason = fmt::format("Newton did not converge: best relative residual {:.1e}, expected "
+                              "{:.1e} [-]",
+                              best, tolerance)};
+  }
+
+  [[nodiscard]] bool crosses_jumps() const {
+    return options_.loose_tolerance == 0 && options_.jump_tolerance == 0;
+  }
+
+  // Keeps the iterate whose forces are furthest from where the committed stiffness has them.
+  void see_far(const Eigen::VectorXd& displacement, const System& system) {
+    const double distance =
+        (system.residual - system_.residual + system_.stiffness * (displacement - displacement_))
+            .norm();
+    if (distance <= far_) return;
+    far_ = distance;
+    far_displacement_ = displacement;
+  }
+
+  // From an attempt that stalled before a jump, and from what it saw beyond.
+  Attempt cross_jumps(double time, Attempt last, std::vector<double>& residuals, int& crossed) {
+    for (int crossing = 0; crossing < most_crossings && last.stalled; ++crossing) {
+      const Eigen::VectorXd beyond = far_displacement_;
+      if (points_.evaluate(beyond, options_.tangent, threads_) != GRAINLAW_OK) return last;
+      points_.commit();
+      ++crossed;
+      displacement_ = beyond;
+      system_ = assemble(model_, points_, displacement_, time);
+      time_ = time;
+      last = equilibrate(time, options_.tolerance, residuals);
+    }
+    if (last.stalled &&
+        points_.evaluate(far_displacement_, options_.tangent, threads_) == GRAINLAW_OK) {
+      displacement_ = far_displacement_;
+      system_ = assemble(model_, points_, displacement_, time);
+      last.converged = last.loose = true;
+    }
+    return last;
   }
 
   // Goes the way of the correction. With halvings left, a way that a point refuses or that ends at a
@@ -244,6 +289,8 @@ class NewtonSolver final : public Solver {
   Eigen::SparseMatrix<double> elastic_;  // stiffness at F = I
   System system_;                        // at the committed displacement and load
   double time_ = 0;                      // committed
+  Eigen::VectorXd far_displacement_;     // what the last attempt saw furthest from there
+  double far_ = -1;                      // how far [N/m]; -1: nothing
 };
 
 }  // namespace
