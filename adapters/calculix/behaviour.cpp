@@ -1,4 +1,5 @@
 // One call of CalculiX: the state of an element's point, the packing's answer, PK2 and 21 numbers.
+#include "floating_environment.hpp"
 #include "library_points.hpp"
 #include "material_file.hpp"
 #include "point.hpp"
@@ -160,6 +161,7 @@ void grainlaw_calculix_evaluate(grainlaw_calculix_material* material, int elemen
                                 const double* F0, const double* F1, int stress_only, double* stress,
                                 double* stiffness, double* pnewdt) {
   using namespace grainlaw::adapters;
+  const FloatingEnvironment environment;
   std::string text;
   try {
     PointMap& points = points_of<PointMap>(material);

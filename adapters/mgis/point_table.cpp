@@ -1,5 +1,7 @@
 #include "point_table.hpp"
 
+#include "number_text.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 #include <iterator>
@@ -17,13 +19,12 @@ constexpr double default_budget = 1024;  // MiB
 double budget_from_environment() {
   const char* text = std::getenv("GRAINLAW_IDLE_MEMORY");
   if (text == nullptr) return default_budget * mebibyte;
-  char* end = nullptr;
-  const double value = std::strtod(text, &end);
-  if (end == text || *end != '\0' || !(value >= 0)) {
+  const std::optional<double> value = number(text);
+  if (!value || !(*value >= 0)) {
     throw std::runtime_error(std::string("GRAINLAW_IDLE_MEMORY is '") + text +
                              "'; a number of MiB was expected");
   }
-  return value * mebibyte;
+  return *value * mebibyte;
 }
 
 [[noreturn]] void unknown() {
