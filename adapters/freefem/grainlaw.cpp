@@ -14,14 +14,23 @@
 //   grainlawPoints(sand), grainlawDimension(sand), grainlawDestroy(sand)
 //
 // What cannot be done throws an ExecError, which `try ... catch(...)` catches; grainlawLastError()
-// has its text. What was committed stays as it was.
+// has its text, and grainlawThrowAgain() in the catch block goes on with it. What was committed
+// stays as it was. On several ranks an error that no script catches ends all of them; one that is
+// to be caught on all has to be agreed first, as grainlaw.idp does:
+//
+//   grainlawErrorText(text), grainlawThrow(rank, text)  the last error as numbers in a real[int],
+//                                                       to be sent; the same error, of that rank
+#include "floating_environment.hpp"
 #include "point_set.hpp"
 
 #include <ff++.hpp>
 
 #include <AFunction_ext.hpp>
 
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <iostream>
 #include <map>
 #include <memory>
 #include <string>
@@ -33,6 +42,8 @@ using grainlaw_freefem::PointSet;
 
 using Vector = KN<double>*;   // real[int]
 using Matrix = KNM<double>*;  // real[int,int]
+
+constexpr int error_status = 8;  // FreeFEM's own, of an ExecError
 
 // Numbers of sets are never used twice, so that a stale one is told.
 std::map<long, std::unique_ptr<PointSet>> sets;
@@ -48,14 +59,37 @@ Array view(Matrix array) {
           {static_cast<std::size_t>(array->N()), static_cast<std::size_t>(array->M())}};
 }
 
+bool nobody_caught = false;
+
+// FreeFEM's own error. It asks for the code of one that no script has caught, and then ends.
+class PluginError : public ErrorExec {
+ public:
+  explicit PluginError(const std::string& text) : ErrorExec(text.c_str(), 1) { last_error = text; }
+  int errcode() const override {
+    nobody_caught = true;
+    return ErrorExec::errcode();
+  }
+};
+
+// A rank that ends by an error would wait in MPI_Finalize for others that wait for it elsewhere.
+// One that ends with a status and without MPI_Finalize makes mpirun end them all.
+void end_all_ranks() {
+  if (!nobody_caught || mpisize < 2) return;
+  std::cerr << "grainlaw: the error of rank " << mpirank << " ends all " << mpisize << " ranks"
+            << std::endl;
+  std::cout.flush();
+  std::fflush(nullptr);
+  std::_Exit(error_status);
+}
+
 // Runs a command; whatever goes wrong becomes FreeFEM's own error.
 template <class Command>
 auto guarded(const char* name, Command&& command) {
+  const grainlaw::adapters::FloatingEnvironment environment;
   try {
     return command();
   } catch (const std::exception& error) {
-    last_error = std::string(name) + ": " + error.what();
-    throw ErrorExec(last_error.c_str(), 1);
+    throw PluginError(std::string(name) + ": " + error.what());
   }
 }
 
@@ -151,6 +185,27 @@ long destroy(const long& number) {
 
 string* text_of_last_error() { return &last_error; }
 
+// As much of it as there is room for, and zeros.
+long error_text(const Vector& numbers) {
+  for (long k = 0; k < numbers->N(); ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    (*numbers)[k] = at < last_error.size() ? static_cast<unsigned char>(last_error[at]) : 0;
+  }
+  return 0;
+}
+
+long throw_error(const long& rank, const Vector& numbers) {
+  std::string text;
+  for (long k = 0; k < numbers->N() && (*numbers)[k] > 0; ++k)
+    text += static_cast<char>(static_cast<unsigned char>((*numbers)[k]));
+  throw PluginError((mpisize > 1 ? "rank " + std::to_string(rank) + ": " : "") + text);
+}
+
+long throw_again() {
+  if (std::current_exception()) throw;
+  return 0;
+}
+
 template <class Field>
 void add_array_functions() {
   Global.Add("grainlawEvaluate", "(", new OneOperator3_<long, long, Field, Field>(evaluate<Field>));
@@ -177,6 +232,10 @@ void add_functions() {
   Global.Add("grainlawDimension", "(", new OneOperator1_<long, long>(dimension));
   Global.Add("grainlawDestroy", "(", new OneOperator1_<long, long>(destroy));
   Global.Add("grainlawLastError", "(", new OneOperator0<string*>(text_of_last_error));
+  Global.Add("grainlawErrorText", "(", new OneOperator1_<long, Vector>(error_text));
+  Global.Add("grainlawThrow", "(", new OneOperator2_<long, long, Vector>(throw_error));
+  Global.Add("grainlawThrowAgain", "(", new OneOperator0<long>(throw_again));
+  ff_atend(end_all_ranks);
 }
 
 }  // namespace
