@@ -195,6 +195,7 @@ long error_text(const Vector& numbers) {
 }
 
 long throw_error(const long& rank, const Vector& numbers) {
+  const grainlaw::adapters::FloatingEnvironment environment;
   std::string text;
   for (long k = 0; k < numbers->N() && (*numbers)[k] > 0; ++k)
     text += static_cast<char>(static_cast<unsigned char>((*numbers)[k]));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace grainlaw::adapters {
@@ -23,7 +24,8 @@ double Point::distance(const Tensor2& F, const Tensor2& other) {
   double largest = 0;
   for (std::size_t k = 0; k < F.size(); ++k) {
     const double difference = std::abs(F[k] - other[k]);
-    if (!(difference <= largest)) largest = difference;  // NaN is far away
+    if (std::isnan(difference)) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, difference);
   }
   return largest;
 }
