@@ -15,12 +15,13 @@
 //
 // What cannot be done throws an ExecError, which `try ... catch(...)` catches; grainlawLastError()
 // has its text, and grainlawThrowAgain() in the catch block goes on with it. What was committed
-// stays as it was. On several ranks an error that no script catches ends all of them; one that is
-// to be caught on all has to be agreed first, as grainlaw.idp does:
+// stays as it was. On several ranks one that ends by an error, or by exit(n), ends all of them; an
+// error that is to be caught on all has to be agreed first, as grainlaw.idp does:
 //
 //   grainlawErrorText(text), grainlawThrow(rank, text)  the last error as numbers in a real[int],
 //                                                       to be sent; the same error, of that rank
 #include "floating_environment.hpp"
+#include "last_words.hpp"
 #include "point_set.hpp"
 
 #include <ff++.hpp>
@@ -38,17 +39,17 @@
 namespace {
 
 using grainlaw_freefem::Array;
+using grainlaw_freefem::LastWords;
 using grainlaw_freefem::PointSet;
 
 using Vector = KN<double>*;   // real[int]
 using Matrix = KNM<double>*;  // real[int,int]
 
-constexpr int error_status = 8;  // FreeFEM's own, of an ExecError
-
 // Numbers of sets are never used twice, so that a stale one is told.
 std::map<long, std::unique_ptr<PointSet>> sets;
 long last_number = 0;
 std::string last_error;
+LastWords* last_words = nullptr;  // on several ranks
 
 Array view(Vector array) {
   return {static_cast<double*>(*array), {static_cast<std::size_t>(array->N())}};
@@ -59,27 +60,30 @@ Array view(Matrix array) {
           {static_cast<std::size_t>(array->N()), static_cast<std::size_t>(array->M())}};
 }
 
-bool nobody_caught = false;
+// FreeFEM's own error, with its text for the script.
+[[noreturn]] void fail(const std::string& text) {
+  last_error = text;
+  throw ErrorExec(last_error.c_str(), 1);
+}
 
-// FreeFEM's own error. It asks for the code of one that no script has caught, and then ends.
-class PluginError : public ErrorExec {
- public:
-  explicit PluginError(const std::string& text) : ErrorExec(text.c_str(), 1) { last_error = text; }
-  int errcode() const override {
-    nobody_caught = true;
-    return ErrorExec::errcode();
-  }
-};
-
-// A rank that ends by an error would wait in MPI_Finalize for others that wait for it elsewhere.
-// One that ends with a status and without MPI_Finalize makes mpirun end them all.
+// A rank that ends by an error, of whatever kind, would wait in MPI_Finalize for others that wait
+// for it elsewhere. One that ends with a status and without MPI_Finalize makes mpirun end them all.
 void end_all_ranks() {
-  if (!nobody_caught || mpisize < 2) return;
+  std::cerr.rdbuf(last_words->to());
+  const int code = last_words->code();
+  if (code == 0) return;
   std::cerr << "grainlaw: the error of rank " << mpirank << " ends all " << mpisize << " ranks"
             << std::endl;
   std::cout.flush();
   std::fflush(nullptr);
-  std::_Exit(error_status);
+  std::_Exit(code);
+}
+
+void hear_last_words() {
+  if (mpisize < 2) return;
+  last_words = new LastWords(std::cerr.rdbuf());  // the stream lives longer than the plugin
+  std::cerr.rdbuf(last_words);
+  ff_atend(end_all_ranks);
 }
 
 // Runs a command; whatever goes wrong becomes FreeFEM's own error.
@@ -89,7 +93,7 @@ auto guarded(const char* name, Command&& command) {
   try {
     return command();
   } catch (const std::exception& error) {
-    throw PluginError(std::string(name) + ": " + error.what());
+    fail(std::string(name) + ": " + error.what());
   }
 }
 
@@ -199,7 +203,7 @@ long throw_error(const long& rank, const Vector& numbers) {
   std::string text;
   for (long k = 0; k < numbers->N() && (*numbers)[k] > 0; ++k)
     text += static_cast<char>(static_cast<unsigned char>((*numbers)[k]));
-  throw PluginError((mpisize > 1 ? "rank " + std::to_string(rank) + ": " : "") + text);
+  fail((mpisize > 1 ? "rank " + std::to_string(rank) + ": " : "") + text);
 }
 
 long throw_again() {
@@ -218,6 +222,7 @@ void add_array_functions() {
 }
 
 void add_functions() {
+  hear_last_words();
   Global.Add("grainlawCreate", "(", new OneOperator2_<long, string*, long>(create));
   add_array_functions<Vector>();
   add_array_functions<Matrix>();
@@ -236,7 +241,6 @@ void add_functions() {
   Global.Add("grainlawErrorText", "(", new OneOperator1_<long, Vector>(error_text));
   Global.Add("grainlawThrow", "(", new OneOperator2_<long, long, Vector>(throw_error));
   Global.Add("grainlawThrowAgain", "(", new OneOperator0<long>(throw_again));
-  ff_atend(end_all_ranks);
 }
 
 }  // namespace
