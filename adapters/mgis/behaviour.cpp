@@ -192,6 +192,7 @@ int integrate(PointTable& table, int dimension, grainlaw_mgis_data& data) {
                              (answer.report.message[0] != '\0' ? ": " : "") +
                              answer.report.message);
   }
+  if (from.is_new && !request.prediction) table.add(from.point);  // nothing fails any more
   if (request.want != 0) {
     const Tensor2 F0 = from.is_new ? identity : read_gradient(data.s0.gradients, dimension);
     write_tangent(request, dimension, response, F0, data.K);
@@ -201,7 +202,6 @@ int integrate(PointTable& table, int dimension, grainlaw_mgis_data& data) {
     return 1;
   }
   write_stress(request, dimension, response, data.s1.thermodynamic_forces);
-  if (from.is_new) table.add(from.point);
   data.s1.internal_state_variables[0] = point.name;
   data.s1.internal_state_variables[1] = static_cast<double>(point.step + 1);
   if (!answer.approximate) return 1;

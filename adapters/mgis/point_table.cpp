@@ -75,8 +75,8 @@ void PointTable::add(const std::shared_ptr<TablePoint>& point) {
   if (bytes_ == 0) bytes_ = static_cast<double>(point->bytes());
   const auto key = static_cast<std::uint64_t>(point->name);
   point->last_call = ++calls_;
+  new_.push_back(key);  // may stay alone, should there be no memory for the other
   points_.emplace(key, point);
-  new_.push_back(key);
   limit_new();
 }
 

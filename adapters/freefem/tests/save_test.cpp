@@ -1,30 +1,15 @@
 // A save in which any call of the system or any allocation fails: an error, the last good file, the
 // states as they were.
+#include "../../point/test/failing_allocation.hpp"
 #include "../../point/test/failing_calls.hpp"
 #include "../point_set.hpp"
 #include "temporary_directory.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <iterator>
-#include <new>
-
-namespace {
-
-long allocations = 0, failing = 0;  // the allocation of this number fails; 0: none does
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  if (++allocations == failing) throw std::bad_alloc();
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace grainlaw::test {
 namespace {
@@ -91,18 +76,13 @@ TEST_F(freefem_save, with_a_call_of_the_system_that_fails) {
 }
 
 TEST_F(freefem_save, with_an_allocation_that_fails) {
-  allocations = 0;
+  fail_allocation(0);
   points.save(path);
-  const long all = allocations;
+  const long all = allocations();
   EXPECT_GE(all, 5);
   int failed = 0;
   for (long allocation = 1; allocation <= all; ++allocation) {
-    failed += !tried(
-        [&] {
-          allocations = 0;
-          failing = allocation;
-        },
-        [] { failing = 0; });
+    failed += !tried([&] { fail_allocation(allocation); }, [] { fail_allocation(0); });
   }
   EXPECT_EQ(failed, all);
 }
