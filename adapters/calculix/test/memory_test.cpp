@@ -1,5 +1,5 @@
-// A call in which any one allocation fails asks for a cut with a stiffness that the solver can go on
-// with; the same call again gives what it would have given.
+// A call in which any one allocation fails asks for a cut with a stiffness that the solver can go
+// on with; the same call again gives what it would have given.
 #include "../../point/test/failing_allocation.hpp"
 
 #include <grainlaw/calculix.h>
