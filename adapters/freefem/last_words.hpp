@@ -18,9 +18,11 @@ class LastWords : public std::streambuf {
   // Of the error, also of exit(n), by which the script ends; 0: of none.
   [[nodiscard]] int code() const {
     constexpr std::string_view before = " err code ", after = " ,  mpirank ";
+    if (end_.find(after) == std::string::npos) return 0;
+    if (end_.find("Strange catch exception") != std::string::npos) return 1;  // no memory
     int code = 0;
     const std::size_t line = end_.rfind(before);
-    if (line == std::string::npos || end_.find(after, line) == std::string::npos) return 0;
+    if (line == std::string::npos) return 0;
     const char* const number = end_.data() + line + before.size();
     std::from_chars(number, end_.data() + end_.size(), code);
     return code;
