@@ -1,4 +1,5 @@
 // One call of CalculiX: the state of an element's point, the packing's answer, PK2 and 21 numbers.
+#include "floating_environment.hpp"
 #include "library_points.hpp"
 #include "material_file.hpp"
 #include "point.hpp"
@@ -160,30 +161,27 @@ void grainlaw_calculix_evaluate(grainlaw_calculix_material* material, int elemen
                                 const double* F0, const double* F1, int stress_only, double* stress,
                                 double* stiffness, double* pnewdt) {
   using namespace grainlaw::adapters;
-  std::string text;
+  const FloatingEnvironment environment;
+  PointMap* points = nullptr;
+  ElementPoint* found = nullptr;
   try {
-    PointMap& points = points_of<PointMap>(material);
-    ElementPoint* found = nullptr;
+    points = &points_of<PointMap>(material);
+    found = &points->find(element, point);
+    evaluate(*found, from_columns(F0), from_columns(F1), stress_only != 0, stress, stiffness,
+             pnewdt);
+  } catch (const std::exception& error) {
+    if (found == nullptr) give_soft(stress, stiffness);
+    cut(pnewdt, default_cut);
+    if (points == nullptr) return;  // no memory for anything
     try {
-      found = &points.find(element, point);
-    } catch (const std::exception& error) {
-      give_soft(stress, stiffness);
-      text = error.what();
-    }
-    if (found != nullptr) {
-      try {
-        evaluate(*found, from_columns(F0), from_columns(F1), stress_only != 0, stress, stiffness,
-                 pnewdt);
-        return;
-      } catch (const std::exception& error) {
-        text = "element " + std::to_string(element) + ", point " + std::to_string(point) + ": " +
-               error.what();
+      std::string text = error.what();
+      if (found != nullptr) {
+        text =
+            "element " + std::to_string(element) + ", point " + std::to_string(point) + ": " + text;
       }
+      points->tell(material->name, text);
+    } catch (const std::exception&) {  // nor for the text
     }
-    cut(pnewdt, default_cut);
-    points.tell(material->name, text);
-  } catch (...) {  // no memory for anything
-    cut(pnewdt, default_cut);
   }
 }
 

@@ -20,6 +20,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "../point/number_text.hpp"
+#include "../point/whole_file.hpp"
 #include "dealii_mesh.hpp"
 #include "dealii_points.hpp"
 
@@ -148,23 +150,32 @@ class Biaxial {
   std::unique_ptr<grainlaw_dealii::Points> points_;
 };
 
-struct Close {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
+// Written whole after every load step: on a full disk the steps before it stay.
+class Table {
+ public:
+  Table(const std::string& path, const std::string& head) : path_(path), text_(head + "\n") {
+    save();
+  }
+  void add(const std::vector<double>& row) {
+    for (std::size_t k = 0; k < row.size(); ++k)
+      text_ += (k == 0 ? "" : ",") + grainlaw::adapters::shown(row[k], 17);
+    text_ += "\n";
+  }
+  void save() const {
+    grainlaw::adapters::WholeFile file(path_);
+    file.write(text_.data(), text_.size());
+    file.keep();
+  }
 
-std::unique_ptr<std::FILE, Close> table(const std::string& path, const char* head) {
-  std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "w"));
-  if (!file) throw std::runtime_error(path + " cannot be written");
-  std::fprintf(file.get(), "%s\n", head);
-  return file;
-}
+ private:
+  std::string path_, text_;
+};
 
 void run(const char* material, const std::string& prefix, int steps) {
   if (steps < 1) throw std::runtime_error("expected a number of load steps >= 1");
   Biaxial problem(grainlaw::abi::Material::load(material));
-  const auto force =
-      table(prefix + "_force.csv", "step[-],fraction[-],top_y_displacement[m],top_y_force[N/m]");
-  const auto newton = table(prefix + "_newton.csv", "step[-],iteration[-],relative_residual[-]");
+  Table force(prefix + "_force.csv", "step[-],fraction[-],top_y_displacement[m],top_y_force[N/m]");
+  Table newton(prefix + "_newton.csv", "step[-],iteration[-],relative_residual[-]");
   std::vector<double> residuals;
   double done = 0, ratio = 1;
   for (int step = 0; step <= steps; ++step) {
@@ -183,10 +194,11 @@ void run(const char* material, const std::string& prefix, int steps) {
       done = next;
       next = goal;
     } while (done < goal);
-    std::fprintf(force.get(), "%d,%.17g,%.17g,%.17g\n", step, goal, -shortening * goal,
-                 problem.top_force());
+    force.add({double(step), goal, -shortening * goal, problem.top_force()});
     for (std::size_t k = 0; k < residuals.size(); ++k)
-      std::fprintf(newton.get(), "%d,%zu,%.17g\n", step, k + 1, residuals[k]);
+      newton.add({double(step), double(k + 1), residuals[k]});
+    force.save();
+    newton.save();
   }
 }
 

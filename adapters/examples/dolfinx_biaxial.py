@@ -15,6 +15,7 @@ from petsc4py import PETSc
 
 import grainlaw
 from dolfinx_points import Points
+from grainlaw_files import write_whole
 from grainlaw_steps import LoadSteps
 
 WIDTH, HEIGHT = 0.05, 0.1   # m
@@ -108,23 +109,23 @@ class Biaxial:
 def main(material, prefix="biaxial", count="20"):
     problem = Biaxial(grainlaw.Material(material))
     steps = LoadSteps([k / int(count) for k in range(int(count) + 1)])
-    with open(prefix + "_force.csv", "w", encoding="utf-8") as force, \
-            open(prefix + "_newton.csv", "w", encoding="utf-8") as newton:
-        force.write("step[-],fraction[-],top_y_displacement[m],top_y_force[N/m]\n")
-        newton.write("step[-],iteration[-],relative_residual[-]\n")
-        while steps:
-            converged, residuals, ratio = problem.advance(steps.load)
-            if not converged:
-                steps.cut(ratio)
-                continue
-            top = problem.forces()[0][problem.top_y].sum()
-            print(f"load {steps.load:.6g}: force {top:.6g} N/m, residuals "
-                  + ", ".join(f"{residual:.1e}" for residual in residuals), flush=True)
-            force.write(f"{steps.number},{steps.load:.17g},{-SHORTENING * steps.load:.17g},"
-                        f"{top:.17g}\n")
-            for iteration, residual in enumerate(residuals, 1):
-                newton.write(f"{steps.number},{iteration},{residual:.17g}\n")
-            steps.accept()
+    force = "step[-],fraction[-],top_y_displacement[m],top_y_force[N/m]\n"
+    newton = "step[-],iteration[-],relative_residual[-]\n"
+    while steps:
+        converged, residuals, ratio = problem.advance(steps.load)
+        if not converged:
+            steps.cut(ratio)
+            continue
+        top = problem.forces()[0][problem.top_y].sum()
+        print(f"load {steps.load:.6g}: force {top:.6g} N/m, residuals "
+              + ", ".join(f"{residual:.1e}" for residual in residuals), flush=True)
+        force += (f"{steps.number},{steps.load:.17g},{-SHORTENING * steps.load:.17g},"
+                  f"{top:.17g}\n")
+        for iteration, residual in enumerate(residuals, 1):
+            newton += f"{steps.number},{iteration},{residual:.17g}\n"
+        write_whole(prefix + "_force.csv", force)  # on a full disk the steps before stay
+        write_whole(prefix + "_newton.csv", newton)
+        steps.accept()
 
 
 if __name__ == "__main__":

@@ -14,14 +14,24 @@
 //   grainlawPoints(sand), grainlawDimension(sand), grainlawDestroy(sand)
 //
 // What cannot be done throws an ExecError, which `try ... catch(...)` catches; grainlawLastError()
-// has its text. What was committed stays as it was.
+// has its text, and grainlawThrowAgain() in the catch block goes on with it. What was committed
+// stays as it was. On several ranks one that ends by an error, or by exit(n), ends all of them; an
+// error that is to be caught on all has to be agreed first, as grainlaw.idp does:
+//
+//   grainlawErrorText(text), grainlawThrow(rank, text)  the last error as numbers in a real[int],
+//                                                       to be sent; the same error, of that rank
+#include "floating_environment.hpp"
+#include "last_words.hpp"
 #include "point_set.hpp"
 
 #include <ff++.hpp>
 
 #include <AFunction_ext.hpp>
 
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <iostream>
 #include <map>
 #include <memory>
 #include <string>
@@ -29,6 +39,7 @@
 namespace {
 
 using grainlaw_freefem::Array;
+using grainlaw_freefem::LastWords;
 using grainlaw_freefem::PointSet;
 
 using Vector = KN<double>*;   // real[int]
@@ -38,6 +49,7 @@ using Matrix = KNM<double>*;  // real[int,int]
 std::map<long, std::unique_ptr<PointSet>> sets;
 long last_number = 0;
 std::string last_error;
+LastWords* last_words = nullptr;  // on several ranks
 
 Array view(Vector array) {
   return {static_cast<double*>(*array), {static_cast<std::size_t>(array->N())}};
@@ -48,14 +60,40 @@ Array view(Matrix array) {
           {static_cast<std::size_t>(array->N()), static_cast<std::size_t>(array->M())}};
 }
 
+// FreeFEM's own error, with its text for the script.
+[[noreturn]] void fail(const std::string& text) {
+  last_error = text;
+  throw ErrorExec(last_error.c_str(), 1);
+}
+
+// A rank that ends by an error, of whatever kind, would wait in MPI_Finalize for others that wait
+// for it elsewhere. One that ends with a status and without MPI_Finalize makes mpirun end them all.
+void end_all_ranks() {
+  std::cerr.rdbuf(last_words->to());
+  const int code = last_words->code();
+  if (code == 0) return;
+  std::cerr << "grainlaw: the error of rank " << mpirank << " ends all " << mpisize << " ranks"
+            << std::endl;
+  std::cout.flush();
+  std::fflush(nullptr);
+  std::_Exit(code);
+}
+
+void hear_last_words() {
+  if (mpisize < 2) return;
+  last_words = new LastWords(std::cerr.rdbuf());  // the stream lives longer than the plugin
+  std::cerr.rdbuf(last_words);
+  ff_atend(end_all_ranks);
+}
+
 // Runs a command; whatever goes wrong becomes FreeFEM's own error.
 template <class Command>
 auto guarded(const char* name, Command&& command) {
+  const grainlaw::adapters::FloatingEnvironment environment;
   try {
     return command();
   } catch (const std::exception& error) {
-    last_error = std::string(name) + ": " + error.what();
-    throw ErrorExec(last_error.c_str(), 1);
+    fail(std::string(name) + ": " + error.what());
   }
 }
 
@@ -151,6 +189,28 @@ long destroy(const long& number) {
 
 string* text_of_last_error() { return &last_error; }
 
+// As much of it as there is room for, and zeros.
+long error_text(const Vector& numbers) {
+  for (long k = 0; k < numbers->N(); ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    (*numbers)[k] = at < last_error.size() ? static_cast<unsigned char>(last_error[at]) : 0;
+  }
+  return 0;
+}
+
+long throw_error(const long& rank, const Vector& numbers) {
+  const grainlaw::adapters::FloatingEnvironment environment;
+  std::string text;
+  for (long k = 0; k < numbers->N() && (*numbers)[k] > 0; ++k)
+    text += static_cast<char>(static_cast<unsigned char>((*numbers)[k]));
+  fail((mpisize > 1 ? "rank " + std::to_string(rank) + ": " : "") + text);
+}
+
+long throw_again() {
+  if (std::current_exception()) throw;
+  return 0;
+}
+
 template <class Field>
 void add_array_functions() {
   Global.Add("grainlawEvaluate", "(", new OneOperator3_<long, long, Field, Field>(evaluate<Field>));
@@ -162,6 +222,7 @@ void add_array_functions() {
 }
 
 void add_functions() {
+  hear_last_words();
   Global.Add("grainlawCreate", "(", new OneOperator2_<long, string*, long>(create));
   add_array_functions<Vector>();
   add_array_functions<Matrix>();
@@ -177,6 +238,9 @@ void add_functions() {
   Global.Add("grainlawDimension", "(", new OneOperator1_<long, long>(dimension));
   Global.Add("grainlawDestroy", "(", new OneOperator1_<long, long>(destroy));
   Global.Add("grainlawLastError", "(", new OneOperator0<string*>(text_of_last_error));
+  Global.Add("grainlawErrorText", "(", new OneOperator1_<long, Vector>(error_text));
+  Global.Add("grainlawThrow", "(", new OneOperator2_<long, long, Vector>(throw_error));
+  Global.Add("grainlawThrowAgain", "(", new OneOperator0<long>(throw_again));
 }
 
 }  // namespace

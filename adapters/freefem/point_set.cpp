@@ -1,5 +1,7 @@
 #include "point_set.hpp"
 
+#include "whole_file.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <climits>
@@ -65,8 +67,8 @@ grainlaw_measure measure_named(const std::string& name) {
 // A file of states: this text, the number of points, then size and bytes of each.
 constexpr char file_head[] = "grainlaw points 1\n";
 
-void write_number(std::ostream& stream, std::uint64_t number) {
-  stream.write(reinterpret_cast<const char*>(&number), sizeof number);
+void write_number(grainlaw::adapters::WholeFile& file, std::uint64_t number) {
+  file.write(&number, sizeof number);
 }
 
 std::uint64_t read_number(std::istream& stream) {
@@ -156,16 +158,15 @@ void PointSet::revert() {
 }
 
 void PointSet::save(const std::string& path) const {
-  std::ofstream stream(path, std::ios::binary);
-  stream.write(file_head, sizeof file_head);
-  write_number(stream, states_.size());
+  grainlaw::adapters::WholeFile file(path);
+  file.write(file_head, sizeof file_head);
+  write_number(file, states_.size());
   for (const grainlaw::abi::State& state : states_) {
     const std::vector<std::byte> bytes = state.save();
-    write_number(stream, bytes.size());
-    stream.write(reinterpret_cast<const char*>(bytes.data()),
-                 static_cast<std::streamsize>(bytes.size()));
+    write_number(file, bytes.size());
+    file.write(bytes.data(), bytes.size());
   }
-  if (!stream.flush()) throw std::runtime_error(path + ": cannot be written");
+  file.keep();
 }
 
 void PointSet::load(const std::string& path) {

@@ -15,6 +15,7 @@ import sys
 import numpy as np
 
 import grainlaw
+from grainlaw_files import write_whole
 from grainlaw_steps import LoadSteps
 
 FAILED, GO_ON, CUT, CONVERGED = 0, 1, 2, 3
@@ -52,7 +53,10 @@ class _Run:
         self.steps = LoadSteps(loads)
         self.tolerance = tolerance
         self.max_iterations = max_iterations
-        self.history = history
+        self.history = os.path.abspath(history) if history else None
+        self.lines = {"_force.csv": ["step[-],fraction[-],top_y_displacement[m],"
+                                     "top_x_force[N/m],top_y_force[N/m]"],
+                      "_newton.csv": ["step[-],iteration[-],relative_residual[-]"]}
         self.threads = int(os.environ.get("GRAINLAW_THREADS", len(os.sched_getaffinity(0))))
         self.rows = {}        # (element, point) -> number of the point
         self.states = None    # made when the first pass has told how many there are
@@ -87,14 +91,13 @@ def _current():
 @_guarded(FAILED)
 def start(material, loads, tolerance, max_iterations=12, history=None):
     """Read the material; loads as for LoadSteps; tolerance of |force on the unknowns| relative to
-    |nodal forces of the stresses|; history: prefix of HISTORY_force.csv and HISTORY_newton.csv."""
+    |nodal forces of the stresses|; history: prefix of HISTORY_force.csv and HISTORY_newton.csv,
+    which are written anew after every step, so that they always are whole."""
     global _run, failures
     _run, failures = None, 0
     run = _Run(material, loads, tolerance, int(max_iterations), history)
-    if history:
-        _write(run, "_force.csv", "w", "step[-],fraction[-],top_y_displacement[m],"
-               "top_x_force[N/m],top_y_force[N/m]")
-        _write(run, "_newton.csv", "w", "step[-],iteration[-],relative_residual[-]")
+    for ending in run.lines:
+        _record(run, ending, [])
     _run = run
     return GO_ON
 
@@ -187,11 +190,13 @@ def judge(arguments):
     iteration = len(run.residuals) - 1
     if iteration == 0:
         return GO_ON
-    if run.residuals[-1] <= run.tolerance:
+    lost = not np.isfinite(run.residuals[-1])  # not compared: GetDP may trap that
+    if not lost and run.residuals[-1] <= run.tolerance:
         return _accept(run)
     since = run.residuals[1:]
-    stalled = len(since) > PATIENCE and min(since[-PATIENCE:]) > 0.5 * min(since[:-PATIENCE])
-    if iteration >= run.max_iterations or stalled or not np.isfinite(run.residuals[-1]):
+    stalled = (not lost and len(since) > PATIENCE
+               and min(since[-PATIENCE:]) > 0.5 * min(since[:-PATIENCE]))
+    if iteration >= run.max_iterations or stalled or lost:
         return _cut(run, 0.5, f"Newton did not converge ({_shown(run.residuals)})")
     return GO_ON
 
@@ -203,8 +208,8 @@ def _shown(residuals):
 def _accept(run):
     _commit(run)
     print(f"grainlaw: load {run.steps.load:.6g}: {_shown(run.residuals)}", flush=True)
-    for iteration, residual in enumerate(run.residuals):
-        _write(run, "_newton.csv", "a", f"{run.steps.number},{iteration},{residual:.17g}")
+    _record(run, "_newton.csv", [f"{run.steps.number},{iteration},{residual:.17g}"
+                                 for iteration, residual in enumerate(run.residuals)])
     return CONVERGED
 
 
@@ -216,8 +221,8 @@ def finish(arguments):
     outcome, displacement, force_x, force_y = arguments
     run.residuals = []
     if int(outcome) == CONVERGED:
-        _write(run, "_force.csv", "a", f"{run.steps.number},{run.steps.load:.17g},"
-               f"{displacement:.17g},{force_x:.17g},{force_y:.17g}")
+        _record(run, "_force.csv", [f"{run.steps.number},{run.steps.load:.17g},"
+                                    f"{displacement:.17g},{force_x:.17g},{force_y:.17g}"])
         run.steps.accept()
     if failures:
         return FAILED
@@ -227,10 +232,10 @@ def finish(arguments):
     return CONVERGED
 
 
-def _write(run, ending, mode, line):
+def _record(run, ending, lines):
+    run.lines[ending] += lines
     if run.history:
-        with open(run.history + ending, mode, encoding="utf-8") as file:
-            file.write(line + "\n")
+        write_whole(run.history + ending, "\n".join(run.lines[ending]) + "\n")
 
 
 def _read(table, arguments, *components):

@@ -1,5 +1,7 @@
 // One call of an MGIS host: which state is meant, the packing's answer, in the host's measures.
+#include "floating_environment.hpp"
 #include "library_points.hpp"
+#include "number_text.hpp"
 #include "point_table.hpp"
 
 #include <grainlaw/mgis.h>
@@ -40,9 +42,8 @@ struct Request {
 
 int option(double value, int most, const char* what) {
   if (!(value > -0.5 && value < most + 0.5)) {
-    char text[128];
-    std::snprintf(text, sizeof text, "%s is %g; 0 to %d were expected", what, value, most);
-    throw std::runtime_error(text);
+    throw std::runtime_error(std::string(what) + " is " + shown(value) + "; 0 to " +
+                             std::to_string(most) + " were expected");
   }
   return static_cast<int>(std::lround(value));
 }
@@ -149,7 +150,7 @@ Start start(PointTable& table, const grainlaw_mgis_state& s0, int dimension) {
     ++point.step;
     table.keep(result.point);
   } else if (step != static_cast<double>(point.step)) {
-    throw std::runtime_error("GrainlawStep is " + std::to_string(step) +
+    throw std::runtime_error("GrainlawStep is " + shown(step, 16) +
                              ", but the point has gone through " + std::to_string(point.step) +
                              " increments: only the last one can be retried");
   } else if (!(Point::distance(F0, point.committed()) <= same_place)) {
@@ -191,6 +192,7 @@ int integrate(PointTable& table, int dimension, grainlaw_mgis_data& data) {
                              (answer.report.message[0] != '\0' ? ": " : "") +
                              answer.report.message);
   }
+  if (from.is_new && !request.prediction) table.add(from.point);  // nothing fails any more
   if (request.want != 0) {
     const Tensor2 F0 = from.is_new ? identity : read_gradient(data.s0.gradients, dimension);
     write_tangent(request, dimension, response, F0, data.K);
@@ -200,7 +202,6 @@ int integrate(PointTable& table, int dimension, grainlaw_mgis_data& data) {
     return 1;
   }
   write_stress(request, dimension, response, data.s1.thermodynamic_forces);
-  if (from.is_new) table.add(from.point);
   data.s1.internal_state_variables[0] = point.name;
   data.s1.internal_state_variables[1] = static_cast<double>(point.step + 1);
   if (!answer.approximate) return 1;
@@ -220,6 +221,7 @@ extern "C" {
 int grainlaw_mgis_integrate(grainlaw_mgis_behaviour* behaviour, int dimension,
                             grainlaw_mgis_data* data) {
   using namespace grainlaw::adapters;
+  const FloatingEnvironment environment;
   if (behaviour == nullptr || data == nullptr) return -1;
   const auto tell = [&](const char* what) {
     if (data->error_message != nullptr) {

@@ -1,5 +1,7 @@
 #include "point_table.hpp"
 
+#include "number_text.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 #include <iterator>
@@ -17,13 +19,12 @@ constexpr double default_budget = 1024;  // MiB
 double budget_from_environment() {
   const char* text = std::getenv("GRAINLAW_IDLE_MEMORY");
   if (text == nullptr) return default_budget * mebibyte;
-  char* end = nullptr;
-  const double value = std::strtod(text, &end);
-  if (end == text || *end != '\0' || !(value >= 0)) {
+  const std::optional<double> value = number(text);
+  if (!value || !(*value >= 0)) {
     throw std::runtime_error(std::string("GRAINLAW_IDLE_MEMORY is '") + text +
                              "'; a number of MiB was expected");
   }
-  return value * mebibyte;
+  return *value * mebibyte;
 }
 
 [[noreturn]] void unknown() {
@@ -74,8 +75,8 @@ void PointTable::add(const std::shared_ptr<TablePoint>& point) {
   if (bytes_ == 0) bytes_ = static_cast<double>(point->bytes());
   const auto key = static_cast<std::uint64_t>(point->name);
   point->last_call = ++calls_;
+  new_.push_back(key);  // may stay alone, should there be no memory for the other
   points_.emplace(key, point);
-  new_.push_back(key);
   limit_new();
 }
 

@@ -3,6 +3,9 @@
 
 #include <grainlaw/grainlaw.hpp>
 
+#include <atomic>
+#include <chrono>
+#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -12,17 +15,36 @@ namespace grainlaw::adapters {
 class MaterialFile {
  public:
   // path as written into the library that holds the address in_library. The environment variable
-  // GRAINLAW_MATERIAL_<name> goes before it; a relative path starts at that library's folder.
+  // GRAINLAW_MATERIAL_<name> goes before it. A relative path starts at that library's folder, the
+  // variable's at the working directory in which the adapter was loaded, wherever the host is by
+  // now.
   MaterialFile(const char* name, const char* path, const void* in_library);
 
   // Reads the file at the first call; threads that come meanwhile wait. Throws abi::StatusError
-  // with the library's message, and tries again at the next call.
+  // with the library's message. A failure is kept, and thrown again at once, until the file changes
+  // or a hundred times what the try took has passed: what the file names may be mended, too.
   const abi::Material& material();
 
  private:
+  struct Version {
+    std::filesystem::file_time_type time;
+    std::uintmax_t size;
+    bool operator==(const Version&) const = default;
+  };
+  struct Failure {
+    abi::StatusError error;
+    Version version;
+    std::chrono::steady_clock::time_point keep_until;
+  };
+
+  [[nodiscard]] Version version() const;
+  const abi::Material& load();
+
   std::string path_;
-  std::once_flag once_;
+  std::mutex loading_;
+  std::atomic<const abi::Material*> loaded_ = nullptr;  // material_, once it is there
   std::optional<abi::Material> material_;
+  std::optional<Failure> failure_;
 };
 
 }  // namespace grainlaw::adapters

@@ -1,20 +1,16 @@
 #include "point.hpp"
 
+#include "number_text.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <limits>
 #include <stdexcept>
 
 namespace grainlaw::adapters {
 namespace {
 
 constexpr double rounding = 1e-12;  // of F in a host that computes it twice [-]
-
-[[noreturn]] void refuse(const char* format, const std::string& component, double value) {
-  char text[256];
-  std::snprintf(text, sizeof text, format, component.c_str(), value);
-  throw std::runtime_error(text);
-}
 
 }  // namespace
 
@@ -28,7 +24,8 @@ double Point::distance(const Tensor2& F, const Tensor2& other) {
   double largest = 0;
   for (std::size_t k = 0; k < F.size(); ++k) {
     const double difference = std::abs(F[k] - other[k]);
-    if (!(difference <= largest)) largest = difference;  // NaN is far away
+    if (std::isnan(difference)) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, difference);
   }
   return largest;
 }
@@ -41,16 +38,16 @@ Answer Point::evaluate(const Tensor2& F, unsigned want, Response& response) {
   for (int k = 0; k < 9; ++k) {
     const double value = F[static_cast<std::size_t>(k)];
     if (!std::isfinite(value)) {
-      refuse("%s of the deformation gradient is %g; a finite number was expected",
-             component_name(k), value);
+      throw std::runtime_error(component_name(k) + " of the deformation gradient is " +
+                               shown(value) + "; a finite number was expected");
     }
   }
   double reduced[9], P[9], A[81];
   if (const int wrong = reduce(dimension_, F, reduced); wrong >= 0) {
-    refuse(
-        "%s is %.9g, but this packing of discs is plane strain in the 1-2 plane: F33 = 1 and "
-        "F13, F23, F31, F32 = 0 were expected; hold the displacements along 3",
-        component_name(wrong), F[static_cast<std::size_t>(wrong)]);
+    throw std::runtime_error(
+        component_name(wrong) + " is " + shown(F[static_cast<std::size_t>(wrong)], 9) +
+        ", but this packing of discs is plane strain in the 1-2 plane: F33 = 1 and F13, F23, F31, "
+        "F32 = 0 were expected; hold the displacements along 3");
   }
   has_trial_ = false;
   Answer answer;
@@ -77,10 +74,9 @@ Answer Point::evaluate_symmetric(const Tensor2& F, unsigned want, Response& resp
     }
   }
   revert();
-  char differ[32];
-  std::snprintf(differ, sizeof differ, "%.1g", response.asymmetry);
   throw std::runtime_error(
-      std::string("the stress of this packing is not symmetric (S12 and S21 differ by ") + differ +
+      "the stress of this packing is not symmetric (S12 and S21 differ by " +
+      shown(response.asymmetry, 1) +
       " of |S|): moments act on it, or components of F are found; a host of the second "
       "Piola-Kirchhoff or Cauchy stress cannot be given it: use rotation = true and a periodic "
       "cell or frame-p, or the first Piola-Kirchhoff stress");

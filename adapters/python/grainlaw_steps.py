@@ -8,6 +8,8 @@
             steps.cut(answer.step_ratio)        # after revert
 """
 
+import math
+
 SMALLEST_CUT, USUAL_CUT = 0.1, 0.5   # of a part that failed, in one go
 GROWTH = 2.0                         # of the part after one that went well
 
@@ -25,8 +27,10 @@ class LoadSteps:
         if isinstance(loads, int):
             loads = [(k + 1) / loads for k in range(loads)]
         self._goals = [float(load) for load in loads]
-        ascending = all(a < b for a, b in zip(self._goals, self._goals[1:]))
-        if not self._goals or not ascending or not all(0 <= goal <= 1 for goal in self._goals):
+        # A NaN is not compared: a host may trap that.
+        if (not self._goals or not all(math.isfinite(goal) for goal in self._goals)
+                or not all(a < b for a, b in zip(self._goals, self._goals[1:]))
+                or not 0 <= self._goals[0] <= self._goals[-1] <= 1):
             raise ValueError("expected a number of load steps >= 1, or ascending fractions of the "
                              f"load from 0 to 1, got {loads!r}")
         self._max_cuts = max_cuts
@@ -59,7 +63,8 @@ class LoadSteps:
 
     def cut(self, ratio):
         step = self._goals[self.number] - self._start
-        part = (self.load - self.done) * max(SMALLEST_CUT, min(USUAL_CUT, ratio))
+        ratio = max(SMALLEST_CUT, min(USUAL_CUT, ratio)) if math.isfinite(ratio) else USUAL_CUT
+        part = (self.load - self.done) * ratio
         if part <= step / 2**(self._max_cuts + 1) or step == 0:
             raise StepTooSmall(f"load step {self.number} fails at fraction {self.load:.6g} of the "
                                f"load even in parts of {self.load - self.done:.1e}")

@@ -2,3 +2,4 @@
 #include <grainlaw/calculix.h>
 
 GRAINLAW_CALCULIX_MATERIAL(MISSING, "no_such_material.toml")
+GRAINLAW_CALCULIX_MATERIAL(BESIDE, "../small.toml")

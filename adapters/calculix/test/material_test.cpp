@@ -1,10 +1,12 @@
 // The material of CalculiX, called as the solver calls it.
+#include "../../point/test/traps.hpp"
 #include "ccx_host.hpp"
 #include "reference.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <thread>
@@ -149,7 +151,11 @@ class calculix_bad_input : public calculix_material {
   // The call asks for a cut and prints the text; the state is as it was.
   void refused(Host point, const std::array<double, 9>& F1, const char* text) {
     testing::internal::CaptureStdout();
-    EXPECT_FALSE(point.call(F1));
+    {
+      const Traps traps;
+      EXPECT_FALSE(point.call(F1));
+      EXPECT_TRUE(Traps::there());
+    }
     const std::string output = testing::internal::GetCapturedStdout();
     EXPECT_NE(output.find("*ERROR in grainlaw"), std::string::npos) << output;
     EXPECT_NE(output.find(text), std::string::npos) << output;
@@ -166,6 +172,9 @@ TEST_F(calculix_bad_input, leaves_the_state_as_it_was) {
   auto F = columns(path[1]);
   F[3] = std::numeric_limits<double>::quiet_NaN();
   refused(point, F, "element 1, point 1: F12 of the deformation gradient is nan");
+  Host lost = point;
+  lost.F0[4] = std::numeric_limits<double>::quiet_NaN();
+  refused(lost, columns(path[1]), "F22 of the deformation gradient is nan");
   F = columns(path[1]);
   F[8] = 1.02;
   refused(point, F, "F33 is 1.02");
@@ -237,6 +246,16 @@ TEST_F(calculix_bad_input, of_very_many_points_is_told_for_the_first_thousand) {
   EXPECT_NE(output.find("element 1000, "), std::string::npos);
   EXPECT_EQ(output.find("element 1001, "), std::string::npos);
   EXPECT_NE(output.find("no more errors are printed"), std::string::npos);
+}
+
+TEST_F(calculix_material, is_found_beside_a_library_of_a_relative_path_from_elsewhere) {
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(materials);
+  const MaterialLibrary by_hand("./libBYHAND.so");
+  std::filesystem::current_path("/");
+  Host point(by_hand.function("BESIDE"), 1, 1);
+  EXPECT_TRUE(point.call(columns(path[0])));
+  std::filesystem::current_path(before);
 }
 
 TEST_F(calculix_bad_input, a_missing_material_file_is_told_once) {

@@ -1,11 +1,15 @@
 // What a host may get wrong: -1 and a text in error_message, nothing of the host's changed, and the
 // state as it was committed.
+#include "../../point/test/traps.hpp"
 #include "mgis_host.hpp"
+#include "temporary_directory.hpp"
 
 #include <gtest/gtest.h>
 
+#include <clocale>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <limits>
 
@@ -35,14 +39,19 @@ class mgis_bad_input : public testing::Test {
     good_ = host.s1;
   }
 
-  // The wrong call fails with the text; afterwards the right one gives what it gave before.
+  // The wrong call fails with the text, and without a signal where the host traps; afterwards the
+  // right one gives what it gave before.
   void refused(const char* text, const std::function<void(Manager&)>& spoil,
                double request = consistent) {
     Manager wrong = host;
     spoil(wrong);
     const Manager::State before = wrong.s1;
     const std::vector<double> K = wrong.K;
-    EXPECT_EQ(wrong.integrate(0, request), -1) << text;
+    {
+      const Traps traps;
+      EXPECT_EQ(wrong.integrate(0, request), -1) << text;
+      EXPECT_TRUE(Traps::there());
+    }
     EXPECT_NE(wrong.message.find(text), std::string::npos) << wrong.message;
     EXPECT_EQ(wrong.message.rfind("Rve400: ", 0), 0u) << wrong.message;
     EXPECT_EQ(wrong.s1.forces, before.forces);
@@ -63,6 +72,17 @@ TEST_F(mgis_bad_input, gradients_that_are_no_numbers) {
   refused("F12 of the deformation gradient is nan", [](Manager& m) { m.s1.gradients[3] = nan; });
   refused("F33 of the deformation gradient is inf",
           [](Manager& m) { m.s1.gradients[2] = std::numeric_limits<double>::infinity(); });
+}
+
+TEST_F(mgis_bad_input, gradients_at_the_start_that_are_no_numbers) {
+  for (std::size_t k = 0; k < host.tensor; ++k) {
+    refused("of the deformation gradient is nan", [k](Manager& m) {
+      m.s0.gradients = m.s1.gradients;  // an accepted step
+      m.s0.internal = m.s1.internal;
+      m.s0.gradients[k] = nan;
+    });
+    refused("not those of the point's state", [k](Manager& m) { m.s0.gradients[k] = nan; });
+  }
 }
 
 TEST_F(mgis_bad_input, gradients_out_of_the_plane_of_discs) {
@@ -98,6 +118,7 @@ TEST_F(mgis_bad_input, requests_that_are_not_known) {
 }
 
 TEST_F(mgis_bad_input, null_pointers) {
+  const Traps traps;
   auto* integrate = library.symbol<int(mfront_gb_BehaviourData*)>("Rve400_PlaneStrain");
   EXPECT_EQ(integrate(nullptr), -1);
   mfront_gb_BehaviourData data{};
@@ -197,6 +218,61 @@ TEST(mgis_material, rounding_in_a_stress_of_nothing_is_no_moment) {
     host.set_F(0, {1, 1e-6, 0, 1});
     EXPECT_EQ(host.integrate(0, request), 1) << host.message;
   }
+}
+
+// A host whose working directory is another by the time it first asks.
+class mgis_elsewhere : public testing::Test {
+ protected:
+  ~mgis_elsewhere() override { std::filesystem::current_path(before); }
+
+  static int first_answer(const BehaviourLibrary& library, const char* behaviour,
+                          std::string& message) {
+    std::filesystem::current_path("/");
+    Manager host(library, behaviour, "PlaneStrain", 1, cauchy, dsigma_dF);
+    const int result = host.integrate(0);
+    message = host.message;
+    return result;
+  }
+  const std::filesystem::path before = std::filesystem::current_path();
+  // The adapter itself is loaded before.
+  BehaviourLibrary another{std::string(GRAINLAW_BEHAVIOURS) + "/libSmall.so"};
+  std::string message;
+};
+
+TEST_F(mgis_elsewhere, a_library_found_by_a_relative_path_finds_its_material) {
+  std::filesystem::current_path(GRAINLAW_BEHAVIOURS "/..");
+  const BehaviourLibrary library("./behaviours/libByHand.so");
+  EXPECT_EQ(first_answer(library, "Beside", message), 1) << message;
+}
+
+TEST_F(mgis_elsewhere, a_relative_name_in_the_environment_starts_where_the_host_did) {
+  const auto path = std::filesystem::path(GRAINLAW_TEST_DATA "/bonded100.toml");
+  setenv("GRAINLAW_MATERIAL_Named", path.lexically_relative(before).c_str(), 1);
+  const BehaviourLibrary library(GRAINLAW_BEHAVIOURS "/libByHand.so");
+  EXPECT_EQ(first_answer(library, "Named", message), 1) << message;
+  unsetenv("GRAINLAW_MATERIAL_Named");
+}
+
+// Of a locale that writes a comma; made here, since few machines have one.
+TEST(mgis_material, numbers_are_the_same_in_any_locale) {
+  const TemporaryDirectory directory;
+  const std::string name = "de_DE.UTF-8";
+  const std::string make =
+      "localedef --no-archive -i de_DE -f UTF-8 " + (directory / name).string();
+  if (std::system((make + " 2>/dev/null").c_str()) != 0) GTEST_SKIP() << "no localedef";
+  setenv("LOCPATH", directory.string().c_str(), 1);
+  ASSERT_NE(std::setlocale(LC_ALL, name.c_str()), nullptr);
+  ASSERT_STREQ(std::localeconv()->decimal_point, ",");
+  setenv("GRAINLAW_IDLE_MEMORY", "0.5", 1);
+  const BehaviourLibrary library(GRAINLAW_BEHAVIOURS "/libSmall.so");
+  Manager host(library, "Small", "Tridimensional", 1, cauchy, dsigma_dF);
+  EXPECT_EQ(host.integrate(0), 1) << host.message;
+  host.s1.gradients[2] = 1.5;
+  EXPECT_EQ(host.integrate(0), -1);
+  EXPECT_NE(host.message.find("F33 is 1.5"), std::string::npos) << host.message;
+  std::setlocale(LC_ALL, "C");
+  unsetenv("GRAINLAW_IDLE_MEMORY");
+  unsetenv("LOCPATH");
 }
 
 TEST(mgis_material, a_missing_file_is_named_and_may_come_later) {

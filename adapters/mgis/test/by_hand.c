@@ -2,4 +2,5 @@
 #include <grainlaw/mgis.h>
 
 GRAINLAW_MGIS_BEHAVIOUR(Missing, "no_such_material.toml")
+GRAINLAW_MGIS_BEHAVIOUR(Beside, "../small.toml")
 GRAINLAW_MGIS_BEHAVIOUR(Named, "no_such_material.toml") /* named by GRAINLAW_MATERIAL_Named */

@@ -17,7 +17,8 @@
  *     *STEP, NLGEOM
  *
  * A relative path starts at the folder of the library; the environment variable
- * GRAINLAW_MATERIAL_SAND, when set, goes before it. No *DEPVAR is needed.
+ * GRAINLAW_MATERIAL_SAND, when set, goes before it, a relative one from the working directory in
+ * which libgrainlaw_calculix was loaded. No *DEPVAR is needed.
  *
  * A packing of discs is plane strain: use CPE elements, or solid elements with all displacements
  * along 3 held. The stress is that of the packing from the start, so loads have to balance it

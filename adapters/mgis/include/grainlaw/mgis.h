@@ -12,7 +12,8 @@
  * Tridimensional. One behaviour per material file, because library and behaviour are the only texts
  * that every MGIS host lets its users write: material properties and parameters are numbers. A
  * relative path starts at the folder of the library; the environment variable
- * GRAINLAW_MATERIAL_Sand, when set, goes before it. A library may hold several behaviours.
+ * GRAINLAW_MATERIAL_Sand, when set, goes before it, a relative one from the working directory in
+ * which libgrainlaw_mgis was loaded. A library may hold several behaviours.
  *
  * What the host sees: gradient DeformationGradient, force Stress (Cauchy, PK2 or PK1 as it asks),
  * any of the four tangents dsigma/dF, dS/dE, dP/dF, dtau/d(dF), elastic tangent for the elastic and
