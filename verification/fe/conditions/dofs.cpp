@@ -111,8 +111,10 @@ class Linker {
         refuse(tie.place, node, tie.component,
                fmt::format("bound by {} already", tied_by_[d]->place), "one tie or platen for it");
       tied_by_[d] = &tie;
+      // A platen that keeps its direction moves as the condition on any part of it says.
       const PrescribedDisplacement* other = prescribed_by_[d];
-      if (other != nullptr && !(tie.platen && other->set == tie.set))
+      const bool follows = tie.platen && (tie.arms.empty() || (other && other->set == tie.set));
+      if (other != nullptr && !follows)
         refuse(tie.place, node, tie.component,
                fmt::format("both bound and prescribed by {}", other->place),
                tie.platen ? "the whole platen prescribed, by its own set" : "one of them");
