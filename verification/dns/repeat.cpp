@@ -1,5 +1,6 @@
 #include "dns/repeat.hpp"
 
+#include "app/atomic_file.hpp"
 #include "app/csv.hpp"
 #include "app/library.hpp"
 
@@ -136,12 +137,6 @@ std::vector<std::string> frame_columns(const FramePacking& frame) {
   return text;
 }
 
-void write_lines(const std::string& path, const std::string& text) {
-  std::ofstream file(path);
-  if (!(file << text << std::flush))
-    throw ComputationError(fmt::format("{}: cannot be written", path));
-}
-
 }  // namespace
 
 FramePacking read_frame(const std::string& prefix) {
@@ -201,7 +196,7 @@ void write_frame(const FramePacking& frame, const std::string& prefix) {
   std::string text = "id,x,y,r,role,partner,frame_order\n";
   for (std::size_t p = 0; p < frame.size(); ++p)
     text += fmt::format("{},{},{},{},{}\n", p, frame.x[p], frame.y[p], frame.radius[p], columns[p]);
-  write_lines(prefix + "_particles.csv", text);
+  write_atomically(prefix + "_particles.csv", text);
 
   const auto any = [&](auto&& has) {
     return std::any_of(frame.contacts.begin(), frame.contacts.end(), has);
@@ -217,10 +212,10 @@ void write_frame(const FramePacking& frame, const std::string& prefix) {
     if (bonds) text += fmt::format(",{},{}", c.bonded.value_or(false) ? 1 : 0, c.bond_gap);
     text += '\n';
   }
-  write_lines(prefix + "_contacts.csv", text);
+  write_atomically(prefix + "_contacts.csv", text);
 
   const auto& h = frame.cell;
-  write_lines(prefix + "_cell.csv",
+  write_atomically(prefix + "_cell.csv",
               fmt::format("H00,H01,H10,H11,thickness,rho\n{},{},{},{},{},{}\n", h[0], h[1], h[2],
                           h[3], frame.thickness, frame.density));
 }

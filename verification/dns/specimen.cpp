@@ -1,6 +1,7 @@
 #include "dns/specimen.hpp"
 
 #include "app/cpu_time.hpp"
+#include "app/interrupt.hpp"
 #include "app/packing_source.hpp"
 #include "dns/repeat.hpp"
 
@@ -91,7 +92,8 @@ void Specimen::bring_to_start() {
   }
 }
 
-SpecimenEnd Specimen::run(const Observer& observe, const CutObserver& observe_cut) {
+SpecimenEnd Specimen::run(const Observer& observe, const CutObserver& observe_cut,
+                          std::exception_ptr& stopped) {
   const auto clock = std::chrono::steady_clock::now();
   double cpu = cpu_seconds();
   for (const SpecimenSegment& segment : scene_.segments) end_.steps_wanted += segment.steps;
@@ -106,8 +108,8 @@ SpecimenEnd Specimen::run(const Observer& observe, const CutObserver& observe_cu
     if (observe) observe(state_.get(), record_);
     cpu = cpu_seconds();
   };
-  show();
   const auto lead = [&] {
+    show();
     for (const SpecimenSegment& segment : scene_.segments) {
       const Tensor F = deformation_, P = evaluation_.stress;
       for (int k = 1; k <= segment.steps; ++k) {
@@ -116,10 +118,9 @@ SpecimenEnd Specimen::run(const Observer& observe, const CutObserver& observe_cu
         try {
           step(segment, F, P, static_cast<double>(k - 1) / segment.steps,
                static_cast<double>(k) / segment.steps, number, observe_cut);
-        } catch (const StepError& error) {
-          end_.text = error.what();
+        } catch (...) {
           end_.effort.add(record_.effort);
-          return;
+          throw;
         }
         end_.effort.add(record_.effort);
         record_.step = end_.steps = number;
@@ -127,7 +128,14 @@ SpecimenEnd Specimen::run(const Observer& observe, const CutObserver& observe_cu
       }
     }
   };
-  lead();
+  try {
+    lead();
+  } catch (const StepError& error) {
+    end_.text = error.what();
+  } catch (const Interrupted& stop) {
+    stopped = std::current_exception();
+    end_.text = fmt::format("{} after step {} of {}", stop.text(), end_.steps, end_.steps_wanted);
+  }
   end_.cpu += cpu_seconds() - cpu;
   end_.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
   return end_;

@@ -103,6 +103,7 @@ class Run {
     const Interrupt interrupt;
     const auto observe = [&](const LoadStep& step, const Solver&) { after(step); };
     solver_->observe_cuts([this](double part, const std::string& reason) {
+      ++cuts_;
       progress_.update(static_cast<double>(std::max(done_, 0)) / scene_.steps,
                        describe_cut(done_ + 1, part, reason));
     });
@@ -114,24 +115,34 @@ class Run {
         run_load_steps(*solver_, scene_.solver.duration(), scene_.steps, last, observe, done_ + 1);
     } catch (const ComputationError& error) {
       try {
-        finish();
+        finish(true);
       } catch (const std::exception&) {  // says no more than the error that is reported
       }
       throw ComputationError(fmt::format("{}: {}", file_.string(), error.what()));
+    } catch (const Interrupted&) {
+      finish();
+      throw;
     }
     finish();
   }
 
  private:
-  void finish() {
-    if (done_ < 0) return;
+  // `failed`: in the step after the last that is done, which has cost something too.
+  void finish(bool failed = false) {
     progress_.clear();
+    Effort unfinished;
+    if (failed) {
+      unfinished = solver_->points().effort();
+      unfinished.cuts = cuts_;
+      output_->add_unfinished(done_ + 1, unfinished);
+    }
     output_->finish();
-    fmt::print("{}: {}wrote {}\n", scene_.name, output_->summary(), output_->written());
+    fmt::print("{}: {}{}\n", scene_.name, output_->summary(unfinished), output_->written());
   }
 
   void after(const LoadStep& step) {
     done_ = step.record.step;
+    cuts_ = 0;
     const bool turned_enough = cycle_ && cycle_->finished();
     const bool last = done_ == scene_.steps || turned_enough;
     output_->add(step, turned_enough && done_ < scene_.steps);
@@ -180,6 +191,7 @@ class Run {
   std::optional<RunOutput> output_;
   Progress progress_;
   int done_ = -1;  // last step that is done
+  int cuts_ = 0;   // since then
 };
 
 }  // namespace
