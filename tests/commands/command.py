@@ -58,7 +58,7 @@ time_step = 1e-6
 rows = 20
 sections = [0.02]
 pulse = {{ amplitude = 1e-6, period = 2e-5 }}
-""" + PERIODIC + """
+""" + PERIODIC.replace("{", "{{").replace("}", "}}") + """
 [mesh]
 divisions = [2]
 time_step = 1e-6

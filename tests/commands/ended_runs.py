@@ -144,9 +144,8 @@ class EndedRuns(unittest.TestCase):
         self.assertIn(f" {evaluations} evaluations", out)
 
     def test_failed_start_of_solve(self):
-        scene = self.place.write("s.toml", "steps = 2\n[newton]\nmax_cuts = 2\n" + PERIODIC
-                                 + SOLVE.format(value=-2e-5).replace(
-                                     "value = -2e-05", "path = [[0, -0.9], [1, -0.9]]"))
+        scene = self.place.write("s.toml", "steps = 2\n" + PERIODIC
+                                 + SOLVE.format(value=-2e-5).replace("100e3", "1e12"))
         status, out, err = self.place.run("solve", scene, "--output", "out")
         self.assertEqual(status, 1, out)
         self.assertIn("core-seconds", out)
@@ -170,11 +169,9 @@ class EndedRuns(unittest.TestCase):
         scene = self.place.write("w.toml", WAVE.format(repeat=40, duration=1.0)
                                  + "[[case]]\nname = 'a'\n[[case]]\nname = 'b'\n")
         process = self.place.start("wave", scene, "--output", "out")
-        path = self.place.path / "out" / "w_a_cost.csv"
-        end = time.monotonic() + 60
-        while not path.exists() and process.poll() is None and time.monotonic() < end:
+        while not (self.place.path / "out").exists() and process.poll() is None:
             time.sleep(0.005)
-        time.sleep(0.2)
+        time.sleep(0.5)
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=120)
         self.assertEqual(process.returncode, 130, err)

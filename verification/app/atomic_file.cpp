@@ -11,7 +11,9 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace verification {
 namespace {
@@ -67,41 +69,67 @@ void write_in_place(const std::filesystem::path& path, std::string_view bytes) {
   if (error != 0) fail(path, error);
 }
 
-void replace(const std::filesystem::path& name, std::string_view bytes, bool wait) {
-  struct stat old {};
-  const bool exists = ::stat(name.c_str(), &old) == 0;
-  if (exists && !S_ISREG(old.st_mode)) return write_in_place(name, bytes);
-  if (exists && ::access(name.c_str(), W_OK) != 0) fail(name, errno);
-  // Of a link, the file that it leads to.
-  const std::filesystem::path path = exists ? std::filesystem::canonical(name) : name;
-  const std::string temporary = path.string() + ".new";
-  Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
-  if (!file.valid()) fail(name, errno);
-  int error = file.write(bytes);
-  if (error == 0 && exists) error = file.keep_mode(old.st_mode & 07777U);
-  if (error == 0 && wait) error = file.sync();
-  const int closing = file.close();
-  if (error == 0) error = closing;
-  if (error == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
-  if (error != 0) {
-    ::unlink(temporary.c_str());
-    fail(name, error);
+// The whole new file, beside the one that it replaces.
+class Beside {
+ public:
+  Beside(const NewFile& file, bool wait) : name_(file.path), target_(file.path), wait_(wait) {
+    struct stat old {};
+    const bool exists = ::stat(name_.c_str(), &old) == 0;
+    if (exists && !S_ISREG(old.st_mode)) {
+      write_in_place(name_, file.bytes);
+      return;
+    }
+    if (exists && ::access(name_.c_str(), W_OK) != 0) fail(name_, errno);
+    if (exists) target_ = std::filesystem::canonical(name_);  // of a link
+    temporary_ = target_.string() + ".new";
+    Descriptor beside(temporary_, O_WRONLY | O_CREAT | O_TRUNC);
+    if (!beside.valid()) fail(name_, errno);
+    int error = beside.write(file.bytes);
+    if (error == 0 && exists) error = beside.keep_mode(old.st_mode & 07777U);
+    if (error == 0 && wait) error = beside.sync();
+    const int closing = beside.close();
+    if (error == 0) error = closing;
+    if (error == 0) return;
+    ::unlink(temporary_.c_str());
+    fail(name_, error);
   }
-  if (!wait) return;
-  // The name itself is on the disk once its directory is; some file systems cannot be asked to.
-  const auto parent = path.parent_path();
-  Descriptor directory(parent.empty() ? "." : parent, O_RDONLY | O_DIRECTORY);
-  if (directory.valid()) directory.sync();
-}
+  ~Beside() {
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  }
+  Beside(const Beside&) = delete;
+  Beside& operator=(const Beside&) = delete;
+
+  void take_place() {
+    if (temporary_.empty()) return;
+    if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(name_, errno);
+    temporary_.clear();
+    if (!wait_) return;
+    // The name itself is on the disk once its directory is; some file systems cannot be asked to.
+    const auto parent = target_.parent_path();
+    Descriptor directory(parent.empty() ? "." : parent, O_RDONLY | O_DIRECTORY);
+    if (directory.valid()) directory.sync();
+  }
+
+ private:
+  std::filesystem::path name_, target_;
+  std::string temporary_;  // "" : in its place
+  bool wait_;
+};
 
 }  // namespace
 
 void write_atomically(const std::filesystem::path& path, std::string_view bytes) {
-  replace(path, bytes, true);
+  Beside({path, bytes}, true).take_place();
+}
+
+void write_together(std::initializer_list<NewFile> files) {
+  std::vector<std::unique_ptr<Beside>> whole;
+  for (const NewFile& file : files) whole.push_back(std::make_unique<Beside>(file, true));
+  for (const auto& file : whole) file->take_place();
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {
-  replace(path, bytes, false);
+  Beside({path, bytes}, false).take_place();
 }
 
 void sync_file(const std::filesystem::path& path) {

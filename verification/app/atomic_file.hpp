@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <string_view>
 
 namespace verification {
@@ -13,7 +14,14 @@ namespace verification {
 // e.g. /dev/stdout, is written to.
 void write_atomically(const std::filesystem::path& path, std::string_view bytes);
 
-// The same without waiting for the disk, for what can be written again when the machine stopped.
+// Files that belong to each other: all are whole and on the disk before the first gets its name.
+struct NewFile {
+  std::filesystem::path path;
+  std::string_view bytes;
+};
+void write_together(std::initializer_list<NewFile> files);
+
+// As write_atomically without waiting for the disk, for what can be written again when the machine stopped.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 // Waits until what was written to the file is on the disk. Throws ComputationError.

@@ -3,6 +3,7 @@
 #include "app/cpu_time.hpp"
 #include "app/interrupt.hpp"
 #include "app/packing_source.hpp"
+#include "app/snapshot.hpp"
 #include "dns/repeat.hpp"
 
 #include <fmt/format.h>
@@ -39,12 +40,14 @@ Specimen::Specimen(const SpecimenScene& scene, const std::filesystem::path& stem
   MaterialSource frame = unfold(scene.material);
   frame.changes.insert_or_assign("boundary", toml::table{{"type", "frame-p"}});
   const std::string prefix = stem.string() + "_specimen";
+  const std::string one = stem.string() + "_state_frame";
+  const SnapshotFiles files(one);
   {
     const Material material = make_material(frame);
     const State state = make_state(material);
-    check(grainlaw_state_write_packing(state.get(), prefix.c_str()), "writing " + prefix);
+    check(grainlaw_state_write_packing(state.get(), one.c_str()), "writing " + one);
   }
-  const FramePacking packing = repeat(read_frame(prefix), scene.repeat[0], scene.repeat[1]);
+  const FramePacking packing = repeat(read_frame(one), scene.repeat[0], scene.repeat[1]);
   write_frame(packing, prefix);
   end_.particles = static_cast<int>(packing.size());
   end_.boundary = static_cast<int>(packing.boundary.size());

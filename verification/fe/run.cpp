@@ -114,6 +114,7 @@ class Run {
       else
         run_load_steps(*solver_, scene_.solver.duration(), scene_.steps, last, observe, done_ + 1);
     } catch (const ComputationError& error) {
+      if (dynamic_cast<const StepError*>(&error) != nullptr) ++cuts_;  // the smallest part's
       try {
         finish(true);
       } catch (const std::exception&) {  // says no more than the error that is reported

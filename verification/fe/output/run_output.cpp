@@ -142,10 +142,7 @@ void RunOutput::draw(const LoadStep& step) {
 }
 
 void RunOutput::add_unfinished(int step, const Effort& effort) {
-  LoadStep unfinished;
-  unfinished.record.step = step;
-  unfinished.record.effort = effort;
-  cost_.add(unfinished, costs_);
+  cost_.add_unfinished(step, effort, costs_);
 }
 
 void RunOutput::finish() {
