@@ -82,9 +82,7 @@ CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::s
                      std::uintmax_t length)
     : file_(path, checked(path, columns, length)), columns_(columns.size()) {}
 
-void CsvWriter::row(const std::vector<double>& values) {
-  file_.append(line(values, columns_));
-}
+void CsvWriter::row(const std::vector<double>& values) { file_.append(line(values, columns_)); }
 
 void write_csv(const std::filesystem::path& path, const std::vector<std::string>& columns,
                const std::vector<std::vector<double>>& rows) {

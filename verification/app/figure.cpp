@@ -45,10 +45,9 @@ std::string plot_command(const Panel& panel, std::size_t number) {
   std::vector<std::string> items;
   for (std::size_t c = 0; c < panel.curves.size(); ++c) {
     const Curve& curve = panel.curves[c];
-    items.push_back(fmt::format("$p{}c{} with {} {}", number, c, style(curve),
-                                curve.title.empty()
-                                    ? "notitle"
-                                    : "title " + gnuplot_text(curve.title) + " noenhanced"));
+    items.push_back(fmt::format(
+        "$p{}c{} with {} {}", number, c, style(curve),
+        curve.title.empty() ? "notitle" : "title " + gnuplot_text(curve.title) + " noenhanced"));
   }
   return fmt::format("plot {}\n", fmt::join(items, ", "));
 }
@@ -131,8 +130,8 @@ bool draw(const Figure& figure, const std::filesystem::path& stem) {
   body += fmt::format("set lmargin at screen {}\n", left);
   body += common_range(figure);
   if (!figure.title.empty())
-    body += fmt::format("set label 1 {} at screen {},0.968 left noenhanced\n", gnuplot_text(figure.title),
-                        left);
+    body += fmt::format("set label 1 {} at screen {},0.968 left noenhanced\n",
+                        gnuplot_text(figure.title), left);
   double upper = top;
   for (std::size_t p = 0; p < figure.panels.size(); ++p) {
     const Panel& panel = figure.panels[p];
@@ -147,7 +146,8 @@ bool draw(const Figure& figure, const std::filesystem::path& stem) {
     body += log_commands(figure, panel);
     body += range_command(panel);
     const bool last = p + 1 == figure.panels.size();
-    body += last ? fmt::format("set format x '%g'\nset xlabel {} noenhanced\n", gnuplot_text(figure.abscissa))
+    body += last ? fmt::format("set format x '%g'\nset xlabel {} noenhanced\n",
+                               gnuplot_text(figure.abscissa))
                  : std::string("set format x ''\nunset xlabel\n");
     body += plot_command(panel, p) + "unset label 1\n";
     upper = lower - gap;

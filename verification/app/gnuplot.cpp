@@ -70,8 +70,8 @@ class Attributes {
     for (const int number : {SIGPIPE, SIGXFSZ}) sigaddset(&usual, number);
     posix_spawnattr_setsigdefault(&attributes_, &usual);
     posix_spawnattr_setpgroup(&attributes_, 0);
-    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF |
-                                               POSIX_SPAWN_SETPGROUP);
+    posix_spawnattr_setflags(
+        &attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   }
   ~Attributes() { posix_spawnattr_destroy(&attributes_); }
   Attributes(const Attributes&) = delete;
@@ -100,8 +100,7 @@ Answer answer_of_gnuplot(const std::string& script) {
   char* const arguments[] = {program, defaults, nullptr};
   Answer answer;
   pid_t child = 0;
-  answer.error =
-      ::posix_spawnp(&child, program, &files, Attributes().get(), arguments, ::environ);
+  answer.error = ::posix_spawnp(&child, program, &files, Attributes().get(), arguments, ::environ);
   posix_spawn_file_actions_destroy(&files);
   if (answer.error != 0) return answer;
   int status = 0;
@@ -124,8 +123,7 @@ bool run_gnuplot(const std::string& body, const std::filesystem::path& stem, int
     if (!answer.done || answer.output.empty()) {
       tell(terminal_text(
           fmt::format("no picture {}: {}\n", stem.string(),
-                      answer.error == ENOENT
-                          ? "gnuplot was not found (Debian package gnuplot-nox)"
+                      answer.error == ENOENT ? "gnuplot was not found (Debian package gnuplot-nox)"
                       : answer.error != 0
                           ? fmt::format("gnuplot does not start: {}", std::strerror(answer.error))
                           : "gnuplot failed")));

@@ -65,8 +65,8 @@ std::string history_summary(const CsvTable& table, const Effort& unfinished) {
   return fmt::format(
       "{:.0f} steps, {:.0f} iterations, {:.0f} evaluations, {:.0f} relaxation steps, "
       "{:.0f} factorisations, {:.0f} cuts, {:.0f} loose, {:.0f} with advanced history",
-      table.rows() == 0 ? 0 : table["step"].back(),
-      sum("newton_iterations", unfinished.iterations), sum("evaluations", unfinished.evaluations),
+      table.rows() == 0 ? 0 : table["step"].back(), sum("newton_iterations", unfinished.iterations),
+      sum("evaluations", unfinished.evaluations),
       sum("relaxation_steps", static_cast<double>(unfinished.relaxation_steps)),
       sum("factorisations", unfinished.factorisations), sum("step_cuts", unfinished.cuts),
       sum("loose_parts", unfinished.loose), sum("history_advanced", unfinished.history_advanced));

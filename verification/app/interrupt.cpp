@@ -35,7 +35,10 @@ Interrupt::Interrupt() {
   handle(note);
 }
 
-Interrupt::~Interrupt() { handle(SIG_DFL); }
+Interrupt::~Interrupt() {
+  handle(SIG_DFL);
+  received = 0;
+}
 
 int Interrupt::signal() { return received; }
 

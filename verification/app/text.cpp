@@ -94,6 +94,16 @@ std::string csv_field(std::string_view text) {
   return result + '"';
 }
 
+std::string shell_text(std::string_view text) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
+  if (!text.empty() && text.find_first_not_of(plain) == std::string_view::npos)
+    return std::string(text);
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
 std::string terminal_text(std::string_view text) {
   std::string result;
   each_character(text, [&](std::uint32_t character, std::string_view bytes) {

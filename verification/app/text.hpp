@@ -15,6 +15,9 @@ std::string xml_text(std::string_view text);
 // A field of a comma-separated table (RFC 4180): in quotes where it has to be.
 std::string csv_field(std::string_view text);
 
+// One word of a shell's command.
+std::string shell_text(std::string_view text);
+
 // For a terminal: control characters but line breaks as \x1b, so that they do nothing there.
 std::string terminal_text(std::string_view text);
 

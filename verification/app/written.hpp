@@ -1,6 +1,8 @@
 // What a run has written, for the user.
 #pragma once
 
+#include "app/text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +28,7 @@ class Written {
   }
   [[nodiscard]] std::string text() const {
     return ends_.empty() ? "wrote nothing"
-                         : fmt::format("wrote {}{}", stem_, fmt::join(ends_, ", "));
+                         : fmt::format("wrote {}{}", terminal_text(stem_), fmt::join(ends_, ", "));
   }
 
  private:

@@ -195,15 +195,16 @@ void write_frame(const FramePacking& frame, const std::string& prefix) {
   const std::vector<std::string> columns = frame_columns(frame);
   std::string particles = "id,x,y,r,role,partner,frame_order\n";
   for (std::size_t p = 0; p < frame.size(); ++p)
-    particles += fmt::format("{},{},{},{},{}\n", p, frame.x[p], frame.y[p], frame.radius[p], columns[p]);
+    particles +=
+        fmt::format("{},{},{},{},{}\n", p, frame.x[p], frame.y[p], frame.radius[p], columns[p]);
 
   const auto any = [&](auto&& has) {
     return std::any_of(frame.contacts.begin(), frame.contacts.end(), has);
   };
   const bool moments = any([](const FrameContact& c) { return c.moment != 0; });
   const bool bonds = any([](const FrameContact& c) { return c.bonded.has_value(); });
-  std::string text = fmt::format("i,j,shift_x,shift_y,fn,ftx_on_j,fty_on_j{}{}\n", moments ? ",moment" : "",
-                     bonds ? ",bonded,bond_gap" : "");
+  std::string text = fmt::format("i,j,shift_x,shift_y,fn,ftx_on_j,fty_on_j{}{}\n",
+                                 moments ? ",moment" : "", bonds ? ",bonded,bond_gap" : "");
   for (const FrameContact& c : frame.contacts) {
     text += fmt::format("{},{},0,0,{},{},{}", c.i, c.j, c.normal_force, c.tangential_force[0],
                         c.tangential_force[1]);
@@ -212,9 +213,8 @@ void write_frame(const FramePacking& frame, const std::string& prefix) {
     text += '\n';
   }
   const auto& h = frame.cell;
-  const std::string cell =
-      fmt::format("H00,H01,H10,H11,thickness,rho\n{},{},{},{},{},{}\n", h[0], h[1], h[2], h[3],
-                  frame.thickness, frame.density);
+  const std::string cell = fmt::format("H00,H01,H10,H11,thickness,rho\n{},{},{},{},{},{}\n", h[0],
+                                       h[1], h[2], h[3], frame.thickness, frame.density);
   write_together({{prefix + "_particles.csv", particles},
                   {prefix + "_contacts.csv", text},
                   {prefix + "_cell.csv", cell}});

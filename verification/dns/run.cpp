@@ -21,14 +21,15 @@ double axial_strain(const Record& record, const Record& start) {
 
 void write_cost(const SpecimenEnd& end, const std::filesystem::path& path) {
   const Effort& effort = end.effort;
-  write_csv(path, {"particles[-]", "boundary[-]", "steps[-]", "steps_wanted[-]",
-                         "evaluations[-]", "relaxation_steps[-]", "factorisations[-]", "cuts[-]",
-                         "history_advanced[-]", "cpu[s]", "elapsed[s]"},
+  write_csv(path,
+            {"particles[-]", "boundary[-]", "steps[-]", "steps_wanted[-]", "evaluations[-]",
+             "relaxation_steps[-]", "factorisations[-]", "cuts[-]", "history_advanced[-]", "cpu[s]",
+             "elapsed[s]"},
             {{static_cast<double>(end.particles), static_cast<double>(end.boundary),
-             static_cast<double>(end.steps), static_cast<double>(end.steps_wanted),
-             static_cast<double>(effort.evaluations), static_cast<double>(effort.relaxation_steps),
-             static_cast<double>(effort.factorisations), static_cast<double>(effort.cuts),
-             static_cast<double>(effort.history_advanced), end.cpu, end.elapsed}});
+              static_cast<double>(end.steps), static_cast<double>(end.steps_wanted),
+              static_cast<double>(effort.evaluations), static_cast<double>(effort.relaxation_steps),
+              static_cast<double>(effort.factorisations), static_cast<double>(effort.cuts),
+              static_cast<double>(effort.history_advanced), end.cpu, end.elapsed}});
 }
 
 std::string description(const SpecimenEnd& end) {

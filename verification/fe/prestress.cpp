@@ -22,8 +22,7 @@ MaterialSource prestressed(const MaterialSource& source, const std::vector<Segme
   try {
     for (const Segment& segment : path) driver.run(segment, {});
   } catch (const ComputationError& error) {
-    throw ComputationError(
-        fmt::format("{}: prestress: {}", source.scene.string(), error.what()));
+    throw ComputationError(fmt::format("{}: prestress: {}", source.scene.string(), error.what()));
   }
   const std::string prefix = stem.string() + "_prestress";
   check(grainlaw_state_write_packing(driver.state(), prefix.c_str()), "writing " + prefix);

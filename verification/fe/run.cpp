@@ -4,6 +4,7 @@
 #include "app/interrupt.hpp"
 #include "app/output.hpp"
 #include "app/progress.hpp"
+#include "app/text.hpp"
 #include "fe/output/run_output.hpp"
 
 #include <fmt/format.h>
@@ -156,7 +157,7 @@ class Run {
       fmt::print(
           "{}: ended after step {} of {} as asked; go on with\n  grainlaw solve {} "
           "--output {} --restart\n",
-          scene_.name, done_, scene_.steps, file_.string(), directory_);
+          scene_.name, done_, scene_.steps, shell_text(file_.string()), shell_text(directory_));
     }
     if (signal != 0) throw Interrupted{signal};
     if (!stops)

@@ -153,12 +153,12 @@ void run_pack(const PackArguments& arguments) {
   }
   fmt::print("{}\n", made.stem.filename().string());
   print_packing(made);
-  written.add_pictures(draw_packing(
-      made.written, made.stem,
-               fmt::format("{}: {} particles, volume fraction {:.3f}, coordination {:.2f}; bar "
-                           "width: normal force",
-                           made.stem.filename().string(), made.written.radius.size(),
-                           made.volume_fraction(), made.scalar(GRAINLAW_COORDINATION))));
+  written.add_pictures(
+      draw_packing(made.written, made.stem,
+                   fmt::format("{}: {} particles, volume fraction {:.3f}, coordination {:.2f}; bar "
+                               "width: normal force",
+                               made.stem.filename().string(), made.written.radius.size(),
+                               made.volume_fraction(), made.scalar(GRAINLAW_COORDINATION))));
   fmt::print("{}\n", written.text());
 }
 

@@ -128,7 +128,8 @@ bool draw_packing(const WrittenPacking& packing, const std::filesystem::path& st
       "set xrange [{}:{}]\nset yrange [{}:{}]\n"
       "set border 15 lc rgb '#aaaaaa'\nset tics out nomirror scale 0.6 tc rgb '#333333'\n"
       "set xlabel 'x [mm]'\nset ylabel 'y [mm]'\nunset key\n",
-      gnuplot_text(title), 1 - 0.5 * head / height, left, upper, low.x(), high.x(), low.y(), high.y());
+      gnuplot_text(title), 1 - 0.5 * head / height, left, upper, low.x(), high.x(), low.y(),
+      high.y());
   body +=
       "plot $inner using 1:2:3 with circles fs solid border lc rgb '#b5ac9a' fc rgb '#ece8df', "
       "$boundary using 1:2:3 with circles fs solid border lc rgb '#b58a4a' fc rgb '#f3d19c', "

@@ -25,9 +25,9 @@ std::map<std::string, CaseCost> read_costs(const std::filesystem::path& path) {
   const CsvTable table = read_csv(path);
   const std::vector<std::string> names = read_csv_names(path);
   for (std::size_t k = 0; k < names.size(); ++k)
-    costs[names[k]] = {
-        table["particles"][k],         table["steps"][k],          table["relaxation_steps"][k],
-        table["servo_corrections"][k], table["factorisations"][k], table["cpu"][k]};
+    costs[names[k]] = {table["particles"][k],        table["steps"][k],
+                       table["relaxation_steps"][k], table["servo_corrections"][k],
+                       table["factorisations"][k],   table["cpu"][k]};
   return costs;
 }
 

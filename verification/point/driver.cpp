@@ -182,8 +182,7 @@ void PointDriver::run(const Segment& segment, const PointObserver& observe,
     const auto attempt = [&](double next, bool loose) {
       fraction = (step - 1 + next) / segment.steps;
       const Goal goal = goal_at(segment, start, fraction);
-      const Iterate last =
-          iterate(goal, loose ? options_.loose_tolerance : options_.tolerance);
+      const Iterate last = iterate(goal, loose ? options_.loose_tolerance : options_.tolerance);
       if (last.converged) {
         committed = deformation_;
         accept(last, goal.mixed);

@@ -138,8 +138,8 @@ void run_point(const PointScene& scene, const std::filesystem::path& stem, Point
     end.text = error.what();
   } catch (const Interrupted& stop) {
     stopped = std::current_exception();
-    end.text = fmt::format("{} after step {} of {}", stop.text(), driver.record().step,
-                           end.steps_wanted);
+    end.text =
+        fmt::format("{} after step {} of {}", stop.text(), driver.record().step, end.steps_wanted);
   }
   end.cpu += cpu_seconds() - start;
   end.effort.add(driver.unfinished());

@@ -49,8 +49,7 @@ RunOutput::RunOutput(const FiniteElementScene& scene, RunTables tables, const So
       costs_(open("_cost.csv", cost_columns())),
       cost_(solver),
       series_(scene.model, tables_.stem(), scene.output.packings) {
-  if (scene.solver.kind == SolverKind::dynamics)
-    energies_ = &open("_energy.csv", energy_columns());
+  if (scene.solver.kind == SolverKind::dynamics) energies_ = &open("_energy.csv", energy_columns());
   if (!scene.probes.empty()) probes_ = &open("_probes.csv", probe_columns(scene.probes));
   for (const std::size_t point : scene.output.points)
     points_.push_back(&open(fmt::format("_point{}.csv", point), point_columns(), "_pointN.csv"));
@@ -123,8 +122,7 @@ void RunOutput::draw(const LoadStep& step) {
   std::vector<SnapshotPanel> packings;
   const SnapshotFiles files(stem + "_state");
   for (const std::size_t point : scene_.output.pictures.packings)
-    packings.push_back(
-        {fmt::format("point {}", point), files.take(points.state(point))});
+    packings.push_back({fmt::format("point {}", point), files.take(points.state(point))});
   for (const std::string& name : scene_.output.pictures.extremes) {
     const Field& shown = field(name);
     const std::string unit = shown.unit == "-" ? "" : fmt::format(" {}", shown.unit);
@@ -146,8 +144,8 @@ void RunOutput::add_unfinished(int step, const Effort& effort) {
 }
 
 void RunOutput::finish() {
-  written_.add_pictures(draw_history(read_csv(history_.path()), scene_.abscissa, scene_.name,
-                                     tables_.stem()));
+  written_.add_pictures(
+      draw_history(read_csv(history_.path()), scene_.abscissa, scene_.name, tables_.stem()));
 }
 
 std::string RunOutput::summary(const Effort& unfinished) const {
