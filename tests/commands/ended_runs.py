@@ -1,8 +1,6 @@
 """Runs of the command `grainlaw` that fail or are stopped tell what they took and which files there
 are, leave no others, and keep what the other cases have done."""
 import csv
-import os
-import pathlib
 import re
 import signal
 import time
