@@ -256,14 +256,16 @@ GRAINLAW_API grainlaw_status grainlaw_state_measure(const grainlaw_state*, grain
                                                     double* value, size_t* count);
 
 /* Particles (radius, rotation) and force chains (normal and tangential force, moment, bonded or not)
- * of the trial state, or of the committed one, as one VTK PolyData file (.vtp) for ParaView. Errors:
+ * of the trial state, or of the committed one, as one VTK PolyData file (.vtp) for ParaView. A file
+ * of that name is replaced when the new one is whole, and stays when it cannot be written. Errors:
  * NULL_POINTER, BAD_HANDLE, FILE_ERROR. */
 GRAINLAW_API grainlaw_status grainlaw_state_write_vtk(const grainlaw_state*, const char* path);
 
 /* Write the same state as a packing: prefix_particles.csv, prefix_contacts.csv (forces, moments and
- * bonds included) and prefix_cell.csv, which a material file reads back to the same equilibrium.
- * Errors: NULL_POINTER, BAD_HANDLE, FILE_ERROR, BAD_PACKING (the boundary of a frame has crossed
- * itself, or its sides are copies no more). */
+ * bonds included) and prefix_cell.csv, which a material file reads back to the same equilibrium. All
+ * three are whole and on the disk before the first replaces a file of its name. Errors: NULL_POINTER,
+ * BAD_HANDLE, FILE_ERROR, BAD_PACKING (the boundary of a frame has crossed itself, or its sides are
+ * copies no more). */
 GRAINLAW_API grainlaw_status grainlaw_state_write_packing(const grainlaw_state*,
                                                           const char* prefix);
 

@@ -87,8 +87,9 @@ class CsvTable {
   [[nodiscard]] unsigned line() const { return reader_.get_file_line(); }
 
  private:
-  using Reader = io::CSVReader<columns, io::trim_chars<' ', '\t'>, io::no_quote_escape<','>,
-                               io::throw_on_overflow, io::empty_line_comment>;
+  using Reader =
+      io::CSVReader<columns, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
+                    io::throw_on_overflow, io::empty_line_comment>;
 
   // The whole file, ending in a line break: the reader looks one byte past the last line.
   static std::string read(const std::string& path) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -318,7 +319,7 @@ void write_packing(const std::string& prefix, const Packing& packing) {
   for (std::size_t p = 0; p < n; ++p)
     fmt::format_to(out, "{},{},{},{}{}\n", p, packing.position[p], packing.position[n + p],
                    packing.radius[p], framed[p]);
-  write_text(prefix + "_particles.csv", {text.data(), text.size()});
+  const std::string particles = fmt::to_string(text);
 
   text.clear();
   const auto& contacts = packing.contacts;
@@ -335,13 +336,15 @@ void write_packing(const std::string& prefix, const Packing& packing) {
     if (bonds) fmt::format_to(out, ",{},{}", c.bonded.value_or(false) ? 1 : 0, c.bond_gap);
     fmt::format_to(out, "\n");
   }
-  write_text(prefix + "_contacts.csv", {text.data(), text.size()});
+  const std::string touching = fmt::to_string(text);
 
   text.clear();
   const auto& h = packing.cell;
   fmt::format_to(out, "H00,H01,H10,H11,thickness,rho\n{},{},{},{},{},{}\n", h[0], h[1], h[2], h[3],
                  packing.thickness, packing.density);
-  write_text(prefix + "_cell.csv", {text.data(), text.size()});
+  write_together(std::array<TextFile, 3>{{{prefix + "_particles.csv", particles},
+                                          {prefix + "_contacts.csv", touching},
+                                          {prefix + "_cell.csv", fmt::to_string(text)}}});
 }
 
 }  // namespace grainlaw

@@ -204,7 +204,9 @@ TEST(interrupt, notes_the_first_signal_and_ends_at_the_second) {
     EXPECT_EQ(Interrupt::signal(), 0);
     std::raise(SIGTERM);
     EXPECT_EQ(Interrupt::signal(), SIGTERM);
+    EXPECT_THROW(Interrupt::check(), Interrupted);
   }
+  Interrupt::check();  // of the next command nothing was asked
   EXPECT_EXIT(
       {
         const Interrupt interrupt;

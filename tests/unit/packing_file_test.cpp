@@ -74,6 +74,15 @@ void expect_equal(const Packing& a, const Packing& b) {
   }
 }
 
+TEST_F(packing_file, fields_in_quotes_are_read_and_other_columns_may_hold_commas) {
+  const Packing packing = read(
+      "\"id\",material,\"x\",y,r\n\"7\",\"sand, \"\"fine\"\"\",\"0.1\",0.1,0.1\n"
+      "-3,gravel,0.3,0.1,0.1\n",
+      good_contacts, good_cell);
+  EXPECT_EQ(packing.size(), 2U);
+  EXPECT_EQ(packing.position, (std::vector<double>{0.1, 0.3, 0.1, 0.1}));
+}
+
 TEST_F(packing_file, of_yade_is_read_in_equilibrium) {
   const Packing packing =
       read_packing({data + "particles.csv", data + "contacts.csv", data + "cell.csv"});

@@ -1,6 +1,10 @@
 #include "app/cases.hpp"
 
+#include "app/interrupt.hpp"
+#include "app/library.hpp"
 #include "app/material.hpp"
+#include "app/progress.hpp"
+#include "app/text.hpp"
 
 #include <fmt/format.h>
 
@@ -20,12 +24,12 @@ void as_table(toml::table& scene) {
 
 std::vector<toml::table> scene_cases(const SceneFile& file) {
   SceneTable root = file.root();
-  const std::string name = root.text_or("name", file.path.stem().string());
+  const std::string name = root.file_name_or("name", file.path.stem().string());
   if (root.has("seeds")) root.fail("seeds", "a key of the scene", "one of a [[case]]");
   std::set<std::string> names;
   std::vector<toml::table> scenes;
   for (SceneTable& one : root.tables("case")) {
-    const std::string case_name = one.text("name");
+    const std::string case_name = one.file_name("name");
     if (!names.insert(case_name).second)
       one.fail("name", '"' + case_name + '"', "a name that no other case has");
     toml::table content = file.content;
@@ -46,6 +50,47 @@ std::vector<toml::table> scene_cases(const SceneFile& file) {
     }
   }
   return scenes;
+}
+
+std::string CaseFailures::guard(std::size_t number, const std::string& name,
+                                const std::function<void()>& run) {
+  Failure& failure = failures_[number];
+  const std::string prefix = failures_.size() > 1 ? name + ": " : "";
+  try {
+    Interrupt::check();
+    run();
+    return {};
+  } catch (const Interrupted& stop) {
+    failure = {Kind::interrupted, stop.text(), stop.signal};
+    return failure.text;
+  } catch (const InputError& error) {
+    failure = {Kind::input, prefix + error.what()};
+    return error.what();
+  } catch (const std::exception& error) {
+    failure = {Kind::computation, prefix + error.what()};
+    return error.what();
+  }
+}
+
+void CaseFailures::check(const std::string& file) const {
+  std::string text;
+  int signal = 0;
+  bool input = true;
+  for (const Failure& failure : failures_) {
+    if (failure.kind == Kind::interrupted) signal = failure.signal;
+    if (failure.kind == Kind::none || failure.kind == Kind::interrupted) continue;
+    input = input && failure.kind == Kind::input;
+    // A message about the file says so.
+    const bool named = failures_.size() == 1 && failure.text.starts_with(file + ":");
+    text += (text.empty() ? (named ? "" : file + ": ") : "\n  ") + failure.text;
+  }
+  if (signal != 0) {
+    if (!text.empty()) tell("grainlaw: " + terminal_text(text) + "\n");
+    throw Interrupted{signal};
+  }
+  if (text.empty()) return;
+  if (input) throw InputError(text);
+  throw ComputationError(text);
 }
 
 }  // namespace verification

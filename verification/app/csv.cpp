@@ -1,66 +1,94 @@
 #include "app/csv.hpp"
 
 #include "app/library.hpp"
+#include "app/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <fstream>
 #include <limits>
-#include <sstream>
 
 namespace verification {
 namespace {
 
-std::vector<std::string> split(const std::string& line) {
+// The fields of the next record; empty at the end.
+std::vector<std::string> next_record(std::istream& stream) {
   std::vector<std::string> fields;
-  std::istringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
+  bool quoted = false;
+  for (int c = stream.get(); c != EOF; c = stream.get()) {
+    if (fields.empty()) fields.emplace_back();
+    std::string& field = fields.back();
+    if (c == '"' && quoted && stream.peek() == '"') {
+      field += static_cast<char>(stream.get());
+    } else if (c == '"' && (quoted || field.empty())) {
+      quoted = !quoted;
+    } else if (quoted) {
+      field += static_cast<char>(c);
+    } else if (c == ',') {
+      fields.emplace_back();
+    } else if (c == '\n') {
+      break;
+    } else if (c != '\r' || stream.peek() != '\n') {
+      field += static_cast<char>(c);
+    }
+  }
   return fields;
 }
 
 std::string header(const std::vector<std::string>& columns) {
-  return fmt::format("{}\n", fmt::join(columns, ","));
+  std::vector<std::string> fields;
+  for (const std::string& column : columns) fields.push_back(csv_field(column));
+  return fmt::format("{}\n", fmt::join(fields, ","));
+}
+
+std::string line(const std::vector<double>& values, std::size_t columns) {
+  if (values.size() != columns) throw std::logic_error("csv: a row of another length");
+  return fmt::format("{:.12g}\n", fmt::join(values, ","));
+}
+
+// "name" of "name[unit]"; a name may have brackets of its own.
+std::string without_unit(const std::string& column) {
+  return column.ends_with(']') ? column.substr(0, column.rfind('[')) : column;
+}
+
+// The length, if the table there can go on from it.
+std::uintmax_t checked(const std::filesystem::path& path, const std::vector<std::string>& columns,
+                       std::uintmax_t length) {
+  const std::string expected = header(columns);
+  std::string found(expected.size(), '\0');
+  std::ifstream old(path);
+  old.read(found.data(), static_cast<std::streamsize>(found.size()));
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error || size < length || found != expected)
+    throw InputError(fmt::format(
+        "{}: cannot be continued: found {}, expected the table of the "
+        "interrupted run with at least {} bytes",
+        path.string(), error ? error.message() : fmt::format("{} bytes", size), length));
+  return length;
 }
 
 }  // namespace
 
 CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns)
-    : path_(path), stream_(path), columns_(columns.size()) {
-  write(header(columns));
+    : file_(path), columns_(columns.size()) {
+  file_.append(header(columns));
 }
 
 CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns,
                      std::uintmax_t length)
-    : path_(path), length_(length), columns_(columns.size()) {
-  std::ifstream old(path);
-  std::string line;
-  std::getline(old, line);
-  std::error_code error;
-  const std::uintmax_t found = std::filesystem::file_size(path, error);
-  if (error || found < length || line + "\n" != header(columns))
-    throw InputError(fmt::format(
-        "{}: cannot be continued: found {}, expected the table of the "
-        "interrupted run with at least {} bytes",
-        path.string(), error ? error.message() : fmt::format("{} bytes", found), length));
-  std::filesystem::resize_file(path, length);
-  stream_.open(path, std::ios::app);
-  if (!stream_) throw ComputationError(fmt::format("{}: cannot be written", path.string()));
-}
+    : file_(path, checked(path, columns, length)), columns_(columns.size()) {}
 
-void CsvWriter::write(const std::string& line) {
-  // Flushed, so that an interrupted run leaves all of its finished steps.
-  if (!(stream_ << line << std::flush))
-    throw ComputationError(
-        fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(errno)));
-  length_ += line.size();
-}
+void CsvWriter::row(const std::vector<double>& values) { file_.append(line(values, columns_)); }
 
-void CsvWriter::row(const std::vector<double>& values) {
-  if (values.size() != columns_) throw std::logic_error("csv: a row of another length");
-  write(fmt::format("{:.12g}\n", fmt::join(values, ",")));
+void write_csv(const std::filesystem::path& path, const std::vector<std::string>& columns,
+               const std::vector<std::vector<double>>& rows) {
+  std::string text = header(columns);
+  for (const std::vector<double>& row : rows) text += line(row, columns.size());
+  write_atomically(path, text);
 }
 
 const std::vector<double>& CsvTable::operator[](std::string_view name) const {
@@ -70,16 +98,13 @@ const std::vector<double>& CsvTable::operator[](std::string_view name) const {
 }
 
 CsvTable read_csv(const std::filesystem::path& path) {
-  std::ifstream stream(path);
-  std::string line;
-  if (!stream || !std::getline(stream, line))
-    throw InputError(fmt::format("{}: cannot be read", path.string()));
+  std::ifstream stream(path, std::ios::binary);
   CsvTable table;
-  for (const std::string& field : split(line))
-    table.names.push_back(field.substr(0, field.find('[')));
+  for (const std::string& field : next_record(stream)) table.names.push_back(without_unit(field));
+  if (table.names.empty()) throw InputError(fmt::format("{}: cannot be read", path.string()));
   table.columns.resize(table.names.size());
-  for (int number = 2; std::getline(stream, line); ++number) {
-    const std::vector<std::string> fields = split(line);
+  std::vector<std::string> fields;
+  for (int number = 2; !(fields = next_record(stream)).empty(); ++number) {
     if (fields.size() != table.names.size())
       throw InputError(fmt::format("{}:{}: found {} fields, expected {}", path.string(), number,
                                    fields.size(), table.names.size()));
@@ -87,6 +112,15 @@ CsvTable read_csv(const std::filesystem::path& path) {
       table.columns[k].push_back(std::strtod(fields[k].c_str(), nullptr));
   }
   return table;
+}
+
+std::vector<std::string> read_csv_names(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::vector<std::string> names;
+  next_record(stream);
+  for (std::vector<std::string> fields; !(fields = next_record(stream)).empty();)
+    names.push_back(fields.front());
+  return names;
 }
 
 double interpolate(const std::vector<double>& xs, const std::vector<double>& ys, double x) {

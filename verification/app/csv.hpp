@@ -1,9 +1,10 @@
-// Tables on disk: comma-separated values with one header line of "name[unit]" columns.
+// Tables on disk: comma-separated values (RFC 4180) with one header of "name[unit]" columns.
 #pragma once
+
+#include "app/atomic_file.hpp"
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,20 +22,21 @@ class CsvWriter {
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns,
             std::uintmax_t length);
 
-  // One line; values in the order of the columns. Throws ComputationError when it cannot be written.
+  // One line, at once, so that an interrupted run leaves all of its finished steps; values in the order
+  // of the columns. Throws ComputationError when it cannot be written.
   void row(const std::vector<double>& values);
   // Bytes written so far, header included.
-  [[nodiscard]] std::uintmax_t length() const { return length_; }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::uintmax_t length() const { return file_.length(); }
+  [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
 
  private:
-  void write(const std::string& line);
-
-  std::filesystem::path path_;
-  std::uintmax_t length_ = 0;
-  std::ofstream stream_;
+  GrowingFile file_;
   std::size_t columns_;
 };
+
+// A whole table at once: the old one stays until the new one is on the disk. Throws ComputationError.
+void write_csv(const std::filesystem::path& path, const std::vector<std::string>& columns,
+               const std::vector<std::vector<double>>& rows);
 
 struct CsvTable {
   std::vector<std::string> names;            // without the unit
@@ -47,6 +49,9 @@ struct CsvTable {
 
 // Throws InputError for a file that cannot be read or a line that does not fit the header.
 CsvTable read_csv(const std::filesystem::path& path);
+
+// The first column as the text that it is.
+std::vector<std::string> read_csv_names(const std::filesystem::path& path);
 
 // Value of y at x by linear interpolation between the rows around x, where xs increases; NaN
 // outside.

@@ -1,25 +1,17 @@
 #include "app/figure.hpp"
 
-#include <fmt/format.h>
+#include "app/gnuplot.hpp"
+#include "app/text.hpp"
 
-#include <sys/wait.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numeric>
 
 namespace verification {
 namespace {
-
-constexpr int not_found = 127;  // what a shell returns for a missing program
-
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
-  return result + "'";
-}
 
 // The curves of a panel as gnuplot data blocks $p<panel>c<curve>.
 std::string data_blocks(const Figure& figure) {
@@ -53,8 +45,9 @@ std::string plot_command(const Panel& panel, std::size_t number) {
   std::vector<std::string> items;
   for (std::size_t c = 0; c < panel.curves.size(); ++c) {
     const Curve& curve = panel.curves[c];
-    items.push_back(fmt::format("$p{}c{} with {} {}", number, c, style(curve),
-                                curve.title.empty() ? "notitle" : "title " + quoted(curve.title)));
+    items.push_back(fmt::format(
+        "$p{}c{} with {} {}", number, c, style(curve),
+        curve.title.empty() ? "notitle" : "title " + gnuplot_text(curve.title) + " noenhanced"));
   }
   return fmt::format("plot {}\n", fmt::join(items, ", "));
 }
@@ -116,33 +109,6 @@ bool titled(const Panel& panel) {
 
 }  // namespace
 
-bool run_gnuplot(const std::string& body, const std::filesystem::path& stem, int width,
-                 int height) {
-  FILE* pipe = popen("command -v gnuplot >/dev/null 2>&1 || exit 127; exec gnuplot", "w");
-  if (pipe == nullptr) return false;
-  std::string text = "set encoding utf8\n";
-  const std::string font = "DejaVu Sans,14";
-  for (const std::string kind : {"svg", "png"}) {
-    text += kind == "svg"
-                ? fmt::format("set terminal svg size {},{} font '{}' background '#ffffff'\n", width,
-                              height, font)
-                : fmt::format("set terminal pngcairo size {},{} font '{}' background '#ffffff'\n",
-                              width, height, font);
-    text += fmt::format("set output {}\n", quoted(stem.string() + "." + kind));
-    text += body;
-    text += "unset output\nreset session\nset encoding utf8\n";
-  }
-  std::fwrite(text.data(), 1, text.size(), pipe);
-  const int status = pclose(pipe);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return true;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == not_found)
-    fmt::print(stderr, "no picture {}: gnuplot was not found (Debian package gnuplot-nox)\n",
-               stem.string());
-  else
-    fmt::print(stderr, "no picture {}: gnuplot failed\n", stem.string());
-  return false;
-}
-
 bool draw(const Figure& figure, const std::filesystem::path& stem) {
   constexpr double gap = 0.022;
   const double top = figure.title.empty() ? 0.975 : 0.935;
@@ -164,8 +130,8 @@ bool draw(const Figure& figure, const std::filesystem::path& stem) {
   body += fmt::format("set lmargin at screen {}\n", left);
   body += common_range(figure);
   if (!figure.title.empty())
-    body += fmt::format("set label 1 {} at screen {},0.968 left noenhanced\n", quoted(figure.title),
-                        left);
+    body += fmt::format("set label 1 {} at screen {},0.968 left noenhanced\n",
+                        gnuplot_text(figure.title), left);
   double upper = top;
   for (std::size_t p = 0; p < figure.panels.size(); ++p) {
     const Panel& panel = figure.panels[p];
@@ -173,14 +139,15 @@ bool draw(const Figure& figure, const std::filesystem::path& stem) {
     body +=
         fmt::format("set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n", upper, lower);
     body += fmt::format("set label 2 {} at screen 0.02,{:.4f} center rotate by 90 noenhanced\n",
-                        quoted(panel.ordinate), 0.5 * (upper + lower));
+                        gnuplot_text(panel.ordinate), 0.5 * (upper + lower));
     body += titled(panel)
                 ? fmt::format("set key inside {} samplen 2.5 spacing 1.15\n", panel.legend)
                 : std::string("unset key\n");
     body += log_commands(figure, panel);
     body += range_command(panel);
     const bool last = p + 1 == figure.panels.size();
-    body += last ? fmt::format("set format x '%g'\nset xlabel {}\n", quoted(figure.abscissa))
+    body += last ? fmt::format("set format x '%g'\nset xlabel {} noenhanced\n",
+                               gnuplot_text(figure.abscissa))
                  : std::string("set format x ''\nunset xlabel\n");
     body += plot_command(panel, p) + "unset label 1\n";
     upper = lower - gap;

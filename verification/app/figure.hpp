@@ -46,12 +46,7 @@ inline constexpr const char* sky = "#56b4e9";
 inline constexpr const char* amber = "#e69f00";
 }  // namespace colour
 
-// Writes stem.svg and stem.png. Without gnuplot says so on stderr and returns false; the tables are
-// complete without it.
+// Writes stem.svg and stem.png. Returns what run_gnuplot does, and fails as it does.
 bool draw(const Figure& figure, const std::filesystem::path& stem);
-
-// Runs `body` once for stem.svg and once for stem.png, each of width x height points, with a plain
-// style set up. Same return value as draw.
-bool run_gnuplot(const std::string& body, const std::filesystem::path& stem, int width, int height);
 
 }  // namespace verification

@@ -11,14 +11,17 @@ namespace verification {
 History::History(std::filesystem::path stem)
     : stem_(std::move(stem)), csv_(stem_.string() + ".csv", record_columns()) {}
 
-void History::draw_figure(const std::string& abscissa, const std::string& title) const {
-  draw_history(read_csv(csv_.path()), abscissa, title, stem_);
+bool History::draw_figure(const std::string& abscissa, const std::string& title) const {
+  return draw_history(read_csv(csv_.path()), abscissa, title, stem_);
 }
 
-std::string History::summary() const { return history_summary(read_csv(csv_.path())); }
+std::string History::summary(const Effort& unfinished) const {
+  return history_summary(read_csv(csv_.path()), unfinished);
+}
 
-void draw_history(const CsvTable& table, const std::string& abscissa, const std::string& title,
+bool draw_history(const CsvTable& table, const std::string& abscissa, const std::string& title,
                   const std::filesystem::path& stem) {
+  if (table.rows() == 0) return false;
   constexpr double percent = 100;
   constexpr double kilopascal = 1e-3;
   const bool shear = abscissa == shear_abscissa;
@@ -41,7 +44,6 @@ void draw_history(const CsvTable& table, const std::string& abscissa, const std:
                             {"σ12", x, shear_stress, colour::green, Stroke::solid}},
                            1.3,
                            "top left"});
-  if (table.rows() == 0) return;
   const auto [least, most] = std::minmax_element(volumetric.begin(), volumetric.end());
   constexpr double isochoric = 1e-9;  // %, below this there is nothing to see
   if (*most - *least > isochoric)
@@ -52,20 +54,22 @@ void draw_history(const CsvTable& table, const std::string& abscissa, const std:
                            {{"all particles", x, coordination, colour::blue, Stroke::solid},
                             {"without rattlers", x, mechanical, colour::orange, Stroke::dashed}},
                            1});
-  draw(figure, stem);
+  return draw(figure, stem);
 }
 
-std::string history_summary(const CsvTable& table) {
-  const auto sum = [&](const char* name) {
+std::string history_summary(const CsvTable& table, const Effort& unfinished) {
+  const auto sum = [&](const char* name, double more) {
     const std::vector<double>& values = table[name];
-    return std::accumulate(values.begin(), values.end(), 0.0);
+    return std::accumulate(values.begin(), values.end(), more);
   };
   return fmt::format(
       "{:.0f} steps, {:.0f} iterations, {:.0f} evaluations, {:.0f} relaxation steps, "
       "{:.0f} factorisations, {:.0f} cuts, {:.0f} loose, {:.0f} with advanced history",
-      table.rows() == 0 ? 0 : table["step"].back(), sum("newton_iterations"), sum("evaluations"),
-      sum("relaxation_steps"), sum("factorisations"), sum("step_cuts"), sum("loose_parts"),
-      sum("history_advanced"));
+      table.rows() == 0 ? 0 : table["step"].back(), sum("newton_iterations", unfinished.iterations),
+      sum("evaluations", unfinished.evaluations),
+      sum("relaxation_steps", static_cast<double>(unfinished.relaxation_steps)),
+      sum("factorisations", unfinished.factorisations), sum("step_cuts", unfinished.cuts),
+      sum("loose_parts", unfinished.loose), sum("history_advanced", unfinished.history_advanced));
 }
 
 void write_vtk(const grainlaw_state* state, const std::filesystem::path& stem, int step) {

@@ -16,12 +16,12 @@ inline constexpr const char* axial_abscissa = "axial_strain";
 inline constexpr const char* shear_abscissa = "F12";
 
 // Of a table with record_columns(): stem.svg and stem.png with stress, volumetric strain and
-// coordination number.
-void draw_history(const CsvTable& table, const std::string& abscissa, const std::string& title,
+// coordination number. False without a picture.
+bool draw_history(const CsvTable& table, const std::string& abscissa, const std::string& title,
                   const std::filesystem::path& stem);
 
-// One line about what the run of such a table cost.
-std::string history_summary(const CsvTable& table);
+// One line about what the run of such a table cost, with that of a step that did not end.
+std::string history_summary(const CsvTable& table, const Effort& unfinished = {});
 
 class History {
  public:
@@ -29,8 +29,8 @@ class History {
   explicit History(std::filesystem::path stem);
 
   void add(const Record& record) { csv_.row(record_values(record)); }
-  void draw_figure(const std::string& abscissa, const std::string& title) const;
-  [[nodiscard]] std::string summary() const;
+  bool draw_figure(const std::string& abscissa, const std::string& title) const;
+  [[nodiscard]] std::string summary(const Effort& unfinished = {}) const;
 
  private:
   std::filesystem::path stem_;

@@ -1,7 +1,10 @@
 #include "app/interrupt.hpp"
 
+#include <unistd.h>
+
 #include <csignal>
 #include <initializer_list>
+#include <string_view>
 
 namespace verification {
 namespace {
@@ -10,6 +13,8 @@ volatile std::sig_atomic_t received = 0;
 
 extern "C" void note(int number) {
   received = number;
+  constexpr std::string_view told = "\ngrainlaw: ends after this step; once more ends it at once\n";
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, told.data(), told.size());
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
 }
@@ -30,8 +35,19 @@ Interrupt::Interrupt() {
   handle(note);
 }
 
-Interrupt::~Interrupt() { handle(SIG_DFL); }
+Interrupt::~Interrupt() {
+  handle(SIG_DFL);
+  received = 0;
+}
 
 int Interrupt::signal() { return received; }
+
+void Interrupt::check() {
+  if (received != 0) throw Interrupted{received};
+}
+
+const char* Interrupted::text() const {
+  return signal == SIGINT ? "stopped by Ctrl-C (SIGINT)" : "stopped by SIGTERM";
+}
 
 }  // namespace verification

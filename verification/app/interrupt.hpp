@@ -3,8 +3,8 @@
 
 namespace verification {
 
-// While it lives, the first SIGINT or SIGTERM is noted; a second one ends the process at once, as
-// both do without it.
+// While it lives, the first SIGINT or SIGTERM is noted, and the user told; a second one ends the
+// process at once, as both do without it.
 class Interrupt {
  public:
   Interrupt();
@@ -14,12 +14,16 @@ class Interrupt {
 
   // The signal that has come, 0: none.
   [[nodiscard]] static int signal();
+  // Throws Interrupted when one has come.
+  static void check();
 };
 
 // A run that ended early because it was asked to; what it says is for the user. The command ends
 // with exit code 128 + signal, as a shell counts it.
 struct Interrupted {
   int signal;
+
+  [[nodiscard]] const char* text() const;  // for the user: by what it was stopped
 };
 
 }  // namespace verification

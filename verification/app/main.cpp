@@ -5,15 +5,16 @@
 #include "app/interrupt.hpp"
 #include "app/library.hpp"
 #include "app/progress.hpp"
-
-#include <fmt/format.h>
+#include "app/text.hpp"
 
 #include <csignal>
 #include <exception>
 #include <string>
 
 int main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);  // gnuplot may be missing; writing to it must not end the run
+  // What cannot be written is an error that says so.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app("A constitutive law made of grains: drivers that verify it", "grainlaw");
   app.set_version_flag("--version", std::string(grainlaw_version()));
   app.require_subcommand(1);
@@ -30,10 +31,10 @@ int main(int argc, char** argv) {
   } catch (const verification::Interrupted& interrupted) {
     return 128 + interrupted.signal;
   } catch (const verification::InputError& error) {
-    verification::tell(fmt::format("grainlaw: {}\n", error.what()));
+    verification::tell("grainlaw: " + verification::terminal_text(error.what()) + "\n");
     return 2;
   } catch (const std::exception& error) {
-    verification::tell(fmt::format("grainlaw: {}\n", error.what()));
+    verification::tell("grainlaw: " + verification::terminal_text(error.what()) + "\n");
     return 1;
   }
   return 0;

@@ -1,5 +1,7 @@
 #include "app/scene.hpp"
 
+#include "app/text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -110,6 +112,19 @@ std::string SceneTable::text(std::string_view key) {
 
 std::string SceneTable::text_or(std::string_view key, std::string_view fallback) {
   return find(key) == nullptr ? std::string(fallback) : text(key);
+}
+
+std::string SceneTable::file_name(std::string_view key) {
+  const std::string name = text(key);
+  if (!is_file_name(name)) fail(key, '"' + name + '"', file_name_rule);
+  return name;
+}
+
+std::string SceneTable::file_name_or(std::string_view key, std::string_view fallback) {
+  if (find(key) != nullptr) return file_name(key);
+  if (!is_file_name(fallback))
+    fail(key, fmt::format("nothing, and the file is called \"{}\"", fallback), file_name_rule);
+  return std::string(fallback);
 }
 
 std::string SceneTable::choice_or(std::string_view key, std::string_view fallback,

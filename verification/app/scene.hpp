@@ -40,6 +40,9 @@ class SceneTable {
   bool flag_or(std::string_view key, bool fallback);
   std::string text(std::string_view key);
   std::string text_or(std::string_view key, std::string_view fallback);
+  // Becomes part of the names of files.
+  std::string file_name(std::string_view key);
+  std::string file_name_or(std::string_view key, std::string_view fallback);
   std::string choice_or(std::string_view key, std::string_view fallback,
                         const std::vector<std::string_view>& choices);
   // Exactly `count` numbers.

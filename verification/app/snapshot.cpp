@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <system_error>
 
 namespace verification {
 namespace {
@@ -82,6 +83,12 @@ Snapshot take_snapshot(const grainlaw_state* state, const std::filesystem::path&
     snapshot.contacts.push_back(contact);
   }
   return snapshot;
+}
+
+SnapshotFiles::~SnapshotFiles() {
+  std::error_code error;
+  for (const char* end : {"_particles.csv", "_contacts.csv", "_cell.csv", ".vtp"})
+    std::filesystem::remove(stem_.string() + end, error);
 }
 
 double normalised_overlap(const Snapshot& snapshot) {

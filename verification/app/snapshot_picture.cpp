@@ -1,5 +1,6 @@
-#include "app/figure.hpp"
+#include "app/gnuplot.hpp"
 #include "app/snapshot.hpp"
+#include "app/text.hpp"
 
 #include <fmt/format.h>
 
@@ -114,13 +115,6 @@ std::vector<Layer> layers(const Snapshot& snapshot, double width_per_force) {
 
 long breaks(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
 
-// As gnuplot writes line breaks.
-std::string quoted(const std::string& title) {
-  std::string text;
-  for (const char c : title) text += c == '\n' ? "\\n" : std::string(1, c);
-  return fmt::format("\"{}\"", text);
-}
-
 }  // namespace
 
 bool draw_snapshots(const std::vector<SnapshotPanel>& panels, double force,
@@ -150,8 +144,8 @@ bool draw_snapshots(const std::vector<SnapshotPanel>& panels, double force,
   const double high = scale * highest + heading + foot;
 
   std::string body = "set multiplot\nunset border\nunset tics\nunset key\n";
-  body += fmt::format("set label 1 \"{}\" at screen {:.5f},{:.5f} left noenhanced\n", title,
-                      gap / wide, 1 - 16 / high);
+  body += fmt::format("set label 1 {} at screen {:.5f},{:.5f} left noenhanced\n",
+                      gnuplot_text(title), gap / wide, 1 - 16 / high);
   double left = gap;
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const Extent& e = extents[k];
@@ -170,7 +164,7 @@ bool draw_snapshots(const std::vector<SnapshotPanel>& panels, double force,
                         millimetre * e.low[0], millimetre * e.high[0], millimetre * e.low[1],
                         millimetre * e.high[1]);
     body += fmt::format("set label 2 {} at screen {:.5f},{:.5f} left noenhanced\n",
-                        quoted(panels[k].title), left / wide, 1 - 40 / high);
+                        gnuplot_text(panels[k].title), left / wide, 1 - 40 / high);
     body += fmt::format("plot {}\nunset label 1\n", fmt::join(items, ", "));
     left = right + gap;
   }

@@ -1,5 +1,6 @@
 #include "dns/repeat.hpp"
 
+#include "app/atomic_file.hpp"
 #include "app/csv.hpp"
 #include "app/library.hpp"
 
@@ -136,12 +137,6 @@ std::vector<std::string> frame_columns(const FramePacking& frame) {
   return text;
 }
 
-void write_lines(const std::string& path, const std::string& text) {
-  std::ofstream file(path);
-  if (!(file << text << std::flush))
-    throw ComputationError(fmt::format("{}: cannot be written", path));
-}
-
 }  // namespace
 
 FramePacking read_frame(const std::string& prefix) {
@@ -198,18 +193,18 @@ FramePacking read_frame(const std::string& prefix) {
 
 void write_frame(const FramePacking& frame, const std::string& prefix) {
   const std::vector<std::string> columns = frame_columns(frame);
-  std::string text = "id,x,y,r,role,partner,frame_order\n";
+  std::string particles = "id,x,y,r,role,partner,frame_order\n";
   for (std::size_t p = 0; p < frame.size(); ++p)
-    text += fmt::format("{},{},{},{},{}\n", p, frame.x[p], frame.y[p], frame.radius[p], columns[p]);
-  write_lines(prefix + "_particles.csv", text);
+    particles +=
+        fmt::format("{},{},{},{},{}\n", p, frame.x[p], frame.y[p], frame.radius[p], columns[p]);
 
   const auto any = [&](auto&& has) {
     return std::any_of(frame.contacts.begin(), frame.contacts.end(), has);
   };
   const bool moments = any([](const FrameContact& c) { return c.moment != 0; });
   const bool bonds = any([](const FrameContact& c) { return c.bonded.has_value(); });
-  text = fmt::format("i,j,shift_x,shift_y,fn,ftx_on_j,fty_on_j{}{}\n", moments ? ",moment" : "",
-                     bonds ? ",bonded,bond_gap" : "");
+  std::string text = fmt::format("i,j,shift_x,shift_y,fn,ftx_on_j,fty_on_j{}{}\n",
+                                 moments ? ",moment" : "", bonds ? ",bonded,bond_gap" : "");
   for (const FrameContact& c : frame.contacts) {
     text += fmt::format("{},{},0,0,{},{},{}", c.i, c.j, c.normal_force, c.tangential_force[0],
                         c.tangential_force[1]);
@@ -217,12 +212,12 @@ void write_frame(const FramePacking& frame, const std::string& prefix) {
     if (bonds) text += fmt::format(",{},{}", c.bonded.value_or(false) ? 1 : 0, c.bond_gap);
     text += '\n';
   }
-  write_lines(prefix + "_contacts.csv", text);
-
   const auto& h = frame.cell;
-  write_lines(prefix + "_cell.csv",
-              fmt::format("H00,H01,H10,H11,thickness,rho\n{},{},{},{},{},{}\n", h[0], h[1], h[2],
-                          h[3], frame.thickness, frame.density));
+  const std::string cell = fmt::format("H00,H01,H10,H11,thickness,rho\n{},{},{},{},{},{}\n", h[0],
+                                       h[1], h[2], h[3], frame.thickness, frame.density);
+  write_together({{prefix + "_particles.csv", particles},
+                  {prefix + "_contacts.csv", text},
+                  {prefix + "_cell.csv", cell}});
 }
 
 FramePacking repeat(const FramePacking& frame, int columns, int rows) {

@@ -66,7 +66,7 @@ SpecimenTarget read_target(SceneTable& segment, std::size_t k) {
 
 SpecimenScene read_scene(SceneTable table, const std::string& name) {
   SpecimenScene scene;
-  scene.name = table.text_or("name", name);
+  scene.name = table.file_name_or("name", name);
   scene.material = read_material_source(table);
   constexpr Range counts{1, 100, false, "an integer from 1 to 100"};
   const std::vector<double> repeat = table.numbers("repeat", 2, counts);

@@ -1,7 +1,9 @@
 #include "dns/specimen.hpp"
 
 #include "app/cpu_time.hpp"
+#include "app/interrupt.hpp"
 #include "app/packing_source.hpp"
+#include "app/snapshot.hpp"
 #include "dns/repeat.hpp"
 
 #include <fmt/format.h>
@@ -38,12 +40,14 @@ Specimen::Specimen(const SpecimenScene& scene, const std::filesystem::path& stem
   MaterialSource frame = unfold(scene.material);
   frame.changes.insert_or_assign("boundary", toml::table{{"type", "frame-p"}});
   const std::string prefix = stem.string() + "_specimen";
+  const std::string one = stem.string() + "_state_frame";
+  const SnapshotFiles files(one);
   {
     const Material material = make_material(frame);
     const State state = make_state(material);
-    check(grainlaw_state_write_packing(state.get(), prefix.c_str()), "writing " + prefix);
+    check(grainlaw_state_write_packing(state.get(), one.c_str()), "writing " + one);
   }
-  const FramePacking packing = repeat(read_frame(prefix), scene.repeat[0], scene.repeat[1]);
+  const FramePacking packing = repeat(read_frame(one), scene.repeat[0], scene.repeat[1]);
   write_frame(packing, prefix);
   end_.particles = static_cast<int>(packing.size());
   end_.boundary = static_cast<int>(packing.boundary.size());
@@ -91,7 +95,8 @@ void Specimen::bring_to_start() {
   }
 }
 
-SpecimenEnd Specimen::run(const Observer& observe, const CutObserver& observe_cut) {
+SpecimenEnd Specimen::run(const Observer& observe, const CutObserver& observe_cut,
+                          std::exception_ptr& stopped) {
   const auto clock = std::chrono::steady_clock::now();
   double cpu = cpu_seconds();
   for (const SpecimenSegment& segment : scene_.segments) end_.steps_wanted += segment.steps;
@@ -106,8 +111,8 @@ SpecimenEnd Specimen::run(const Observer& observe, const CutObserver& observe_cu
     if (observe) observe(state_.get(), record_);
     cpu = cpu_seconds();
   };
-  show();
   const auto lead = [&] {
+    show();
     for (const SpecimenSegment& segment : scene_.segments) {
       const Tensor F = deformation_, P = evaluation_.stress;
       for (int k = 1; k <= segment.steps; ++k) {
@@ -116,10 +121,9 @@ SpecimenEnd Specimen::run(const Observer& observe, const CutObserver& observe_cu
         try {
           step(segment, F, P, static_cast<double>(k - 1) / segment.steps,
                static_cast<double>(k) / segment.steps, number, observe_cut);
-        } catch (const StepError& error) {
-          end_.text = error.what();
+        } catch (...) {
           end_.effort.add(record_.effort);
-          return;
+          throw;
         }
         end_.effort.add(record_.effort);
         record_.step = end_.steps = number;
@@ -127,7 +131,14 @@ SpecimenEnd Specimen::run(const Observer& observe, const CutObserver& observe_cu
       }
     }
   };
-  lead();
+  try {
+    lead();
+  } catch (const StepError& error) {
+    end_.text = error.what();
+  } catch (const Interrupted& stop) {
+    stopped = std::current_exception();
+    end_.text = fmt::format("{} after step {} of {}", stop.text(), end_.steps, end_.steps_wanted);
+  }
   end_.cpu += cpu_seconds() - cpu;
   end_.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
   return end_;

@@ -7,6 +7,7 @@
 #include "app/record.hpp"
 #include "dns/scene.hpp"
 
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -37,8 +38,14 @@ class Specimen {
   // Throws InputError for a wrong scene, ComputationError when there is no equilibrium.
   Specimen(const SpecimenScene& scene, const std::filesystem::path& stem);
 
-  // All segments. A path that ends early is told in the result. Throws InputError.
-  SpecimenEnd run(const Observer& observe, const CutObserver& observe_cut = {});
+  // All segments. A path that ends early is told in the result; so is one that an observer ends by
+  // Interrupted, which is left in `stopped`. Throws InputError.
+  SpecimenEnd run(const Observer& observe, const CutObserver& observe_cut,
+                  std::exception_ptr& stopped);
+  SpecimenEnd run(const Observer& observe) {
+    std::exception_ptr stopped;
+    return run(observe, {}, stopped);
+  }
 
  private:
   using Stresses = std::array<std::optional<double>, 4>;  // P that is prescribed [Pa]

@@ -1,15 +1,19 @@
 // `grainlaw wave SCENE.toml`: a pulse through a specimen of particles, and through meshes of the same
 // representative volumes.
 
+#include "app/cases.hpp"
 #include "app/commands.hpp"
 #include "app/csv.hpp"
 #include "app/figure.hpp"
+#include "app/interrupt.hpp"
 #include "app/output.hpp"
+#include "app/written.hpp"
 #include "dns/wave_run.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,7 +22,7 @@
 namespace verification {
 namespace {
 
-void draw_case(const WaveCase& one, const std::vector<WaveRun>& runs,
+bool draw_case(const WaveCase& one, const std::vector<WaveRun>& runs,
                const std::filesystem::path& stem) {
   constexpr std::array<const char*, 5> colours{colour::sky, colour::blue, colour::green,
                                                colour::purple, colour::amber};
@@ -62,7 +66,7 @@ void draw_case(const WaveCase& one, const std::vector<WaveRun>& runs,
         fmt::format("-P22 at {:.4g} to {:.4g} mm [kPa]", 1e3 * one.windows[k][0],
                     1e3 * one.windows[k][1]),
         [&](const WaveRow& row) { return -1e-3 * row.stress[k]; }, false);
-  draw(figure, stem);
+  return draw(figure, stem);
 }
 
 // Particles first: meshes are compared with them as they finish.
@@ -77,9 +81,14 @@ void run_case(const WaveCase& one, const std::string& directory) {
     columns.push_back(fmt::format("rms_error_{}[-]", k + 1));
   }
   CsvWriter table(stem.string() + "_cost.csv", columns);
+  Written written(stem);
+  written.add("_cost.csv");
+  // Tells of a run, and whether it is whole.
   const auto finish = [&](const WaveRun& run) {
     const bool particles = run.points == 0;
-    write_rows(run, one, stem.string() + (particles ? "_dns.csv" : "_fe" + run.name + ".csv"));
+    const std::string end = particles ? "_dns.csv" : "_fe" + run.name + ".csv";
+    write_rows(run, one, stem.string() + end);
+    written.add(end);
     std::vector<double> row{static_cast<double>(run.points),
                             static_cast<double>(run.particles),
                             static_cast<double>(run.steps),
@@ -95,17 +104,25 @@ void run_case(const WaveCase& one, const std::string& directory) {
       errors += fmt::format(" {:.2e}", error.largest);
     }
     table.row(row);
-    fmt::print("{}: {}, {} particles, {} steps, {:.2f} core-seconds{}\n", one.name,
+    fmt::print("{}: {}, {} particles, {} steps, {:.2f} core-seconds{}{}\n", one.name,
                particles ? "particles" : run.name + " elements", run.particles, run.steps, run.cpu,
-               particles ? "" : "; largest |du| / A against particles:" + errors);
+               particles ? "" : "; largest |du| / A against particles:" + errors,
+               run.stopped ? fmt::format("\n  ended after {:.4g} of {:.4g} ms: {}",
+                                         run.rows.empty() ? 0 : 1e3 * run.rows.back().time,
+                                         1e3 * one.duration, run.reason())
+                           : "");
+    return !run.stopped;
   };
-  finish(runs.front());
-  for (const int divisions : one.divisions) {
-    runs.push_back(run_mesh(one, domain, divisions));
-    finish(runs.back());
+  bool whole = finish(runs.front());
+  for (std::size_t k = 0; whole && k < one.divisions.size(); ++k) {
+    runs.push_back(run_mesh(one, domain, one.divisions[k]));
+    whole = finish(runs.back());
   }
-  draw_case(one, runs, stem);
-  fmt::print("wrote {}_*.csv, .svg, .png\n", stem.string());
+  const std::exception_ptr stopped = runs.back().stopped;
+  std::erase_if(runs, [](const WaveRun& run) { return run.rows.empty(); });
+  if (!runs.empty()) written.add_pictures(draw_case(one, runs, stem));
+  fmt::print("{}\n", written.text());
+  if (stopped) std::rethrow_exception(stopped);
 }
 
 }  // namespace
@@ -122,13 +139,15 @@ void add_wave_command(CLI::App& app) {
   command->add_option("--case", *only, "this case alone");
   command->callback([scene, output, only] {
     const WaveScene waves = read_wave_scene(SceneFile(*scene));
-    bool found = false;
-    for (const WaveCase& one : waves.cases) {
-      if (!only->empty() && one.name != waves.name + "_" + *only) continue;
-      found = true;
-      run_case(one, *output);
-    }
-    if (!found) throw InputError(fmt::format("{}: there is no case {}", *scene, *only));
+    std::vector<const WaveCase*> chosen;
+    for (const WaveCase& one : waves.cases)
+      if (only->empty() || one.name == waves.name + "_" + *only) chosen.push_back(&one);
+    if (chosen.empty()) throw InputError(fmt::format("{}: there is no case {}", *scene, *only));
+    CaseFailures failures(chosen.size());
+    const Interrupt interrupt;
+    for (std::size_t k = 0; k < chosen.size(); ++k)
+      failures.guard(k, chosen[k]->name, [&] { run_case(*chosen[k], *output); });
+    failures.check(*scene);
   });
 }
 

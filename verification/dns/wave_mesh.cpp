@@ -1,5 +1,6 @@
 // The meshes' side of a wave run: one row of elements with one point each, as the thesis has them.
 
+#include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "dns/wave_run.hpp"
 #include "fe/solver/dynamics.hpp"
@@ -108,32 +109,32 @@ WaveRun run_mesh(const WaveCase& one, const WaveDomain& domain, int divisions) {
   options.duration = one.duration;
   options.density = domain.density;
   options.time_step = run.time_step;
-  const CostClock cost;
-  const auto solver = make_dynamics_solver(model, material, options, one.threads);
   const double of_points = domain.length * domain.height * domain.thickness / domain.volume;
   double at_rest = 0;
   Progress progress(fmt::format("{}, {} elements", one.name, divisions));
   const auto rows = static_cast<int>(one.rows);
-  run_load_steps(*solver, one.duration, rows, rows, [&](const LoadStep& step, const Solver& now) {
-    WaveRow row;
-    row.time = step.time;
-    row.end = one.pulse.at(step.time);
-    gauges.read(now, row);
-    const Energies energies = step.energies.value_or(Energies{});
-    const double stored = of_points * step.record.elastic_energy;
-    if (step.record.step == 0) at_rest = stored;
-    row.work = domain.thickness * energies.external;
-    row.kinetic = row.coherent = domain.thickness * energies.kinetic;
-    row.stored = stored - at_rest;
-    row.dissipated = domain.thickness * energies.internal - row.stored;
-    row.contacts = step.record.contacts;
-    run.rows.push_back(row);
-    run.steps += step.record.effort.iterations;
-    run.cuts += step.record.effort.cuts;
-    progress.update(step.time / one.duration, fmt::format("{:.2f} ms", 1e3 * step.time));
+  lead_wave(run, [&] {
+    const auto solver = make_dynamics_solver(model, material, options, one.threads);
+    run_load_steps(*solver, one.duration, rows, rows, [&](const LoadStep& step, const Solver& now) {
+      WaveRow row;
+      row.time = step.time;
+      row.end = one.pulse.at(step.time);
+      gauges.read(now, row);
+      const Energies energies = step.energies.value_or(Energies{});
+      const double stored = of_points * step.record.elastic_energy;
+      if (step.record.step == 0) at_rest = stored;
+      row.work = domain.thickness * energies.external;
+      row.kinetic = row.coherent = domain.thickness * energies.kinetic;
+      row.stored = stored - at_rest;
+      row.dissipated = domain.thickness * energies.internal - row.stored;
+      row.contacts = step.record.contacts;
+      run.rows.push_back(row);
+      run.steps += step.record.effort.iterations;
+      run.cuts += step.record.effort.cuts;
+      if (step.record.step < rows) Interrupt::check();
+      progress.update(step.time / one.duration, fmt::format("{:.2f} ms", 1e3 * step.time));
+    });
   });
-  run.cpu = cost.cpu();
-  run.wall = cost.wall();
   return run;
 }
 

@@ -1,5 +1,6 @@
 // The particles' side of a wave run: from a material to the rows of a table.
 
+#include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "dns/wave_motion.hpp"
 #include "dns/wave_run.hpp"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 namespace verification {
 namespace {
@@ -121,28 +123,30 @@ WaveRun run_particles(const WaveCase& one) {
   const RowClock clock(run.steps, one.rows);
   const double at_rest = motion.energy(slice).stored;
   Progress progress(one.name + ", particles");
-  const CostClock cost;
-  for (long step = 0; step <= run.steps; ++step) {
-    const double time = static_cast<double>(step) * one.time_step;
-    if (step > 0) motion.step(-one.pulse.at(time));
-    if (!clock.due(step)) continue;
-    WaveRow row;
-    row.time = time;
-    row.end = one.pulse.at(time);
-    gauges.read(motion, row);
-    const WaveEnergy energy = motion.energy(slice);
-    row.work = energy.work;
-    row.kinetic = energy.kinetic;
-    row.coherent = energy.coherent;
-    row.stored = energy.stored - at_rest;
-    row.dissipated = energy.dissipated;
-    row.contacts = motion.touching();
-    run.rows.push_back(row);
-    progress.update(static_cast<double>(step) / static_cast<double>(run.steps),
-                    fmt::format("{:.2f} ms", 1e3 * time));
-  }
-  run.cpu = cost.cpu();
-  run.wall = cost.wall();
+  const long steps = std::exchange(run.steps, 0);
+  lead_wave(run, [&] {
+    for (long step = 0; step <= steps; ++step) {
+      if (step < steps) Interrupt::check();
+      const double time = static_cast<double>(step) * one.time_step;
+      if (step > 0) motion.step(-one.pulse.at(time));
+      run.steps = step;
+      if (!clock.due(step)) continue;
+      WaveRow row;
+      row.time = time;
+      row.end = one.pulse.at(time);
+      gauges.read(motion, row);
+      const WaveEnergy energy = motion.energy(slice);
+      row.work = energy.work;
+      row.kinetic = energy.kinetic;
+      row.coherent = energy.coherent;
+      row.stored = energy.stored - at_rest;
+      row.dissipated = energy.dissipated;
+      row.contacts = motion.touching();
+      run.rows.push_back(row);
+      progress.update(static_cast<double>(step) / static_cast<double>(steps),
+                      fmt::format("{:.2f} ms", 1e3 * time));
+    }
+  });
   return run;
 }
 

@@ -1,6 +1,7 @@
 #include "dns/wave_run.hpp"
 
 #include "app/csv.hpp"
+#include "app/interrupt.hpp"
 
 #include <fmt/format.h>
 
@@ -23,6 +24,17 @@ double CostClock::wall() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
+std::string WaveRun::reason() const {
+  if (!stopped) return {};
+  try {
+    std::rethrow_exception(stopped);
+  } catch (const Interrupted& stop) {
+    return stop.text();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
 void write_rows(const WaveRun& run, const WaveCase& one, const std::filesystem::path& path) {
   std::vector<std::string> columns{"time[s]", "end[m]"};
   for (std::size_t k = 0; k < one.sections.size(); ++k)
@@ -32,7 +44,7 @@ void write_rows(const WaveRun& run, const WaveCase& one, const std::filesystem::
   for (const char* name :
        {"work[J]", "kinetic[J]", "coherent[J]", "stored[J]", "dissipated[J]", "contacts[-]"})
     columns.emplace_back(name);
-  CsvWriter csv(path, columns);
+  std::vector<std::vector<double>> rows;
   for (const WaveRow& row : run.rows) {
     std::vector<double> values{row.time, row.end};
     values.insert(values.end(), row.displacement.begin(), row.displacement.end());
@@ -40,8 +52,9 @@ void write_rows(const WaveRun& run, const WaveCase& one, const std::filesystem::
     for (const double value :
          {row.work, row.kinetic, row.coherent, row.stored, row.dissipated, row.contacts})
       values.push_back(value);
-    csv.row(values);
+    rows.push_back(values);
   }
+  write_csv(path, columns, rows);
 }
 
 WaveError difference(const WaveRun& run, const WaveRun& reference, std::size_t section,

@@ -5,11 +5,24 @@
 
 #include <chrono>
 #include <cstddef>
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace verification {
+
+// Processor and elapsed time since it was made.
+class CostClock {
+ public:
+  CostClock();
+  [[nodiscard]] double cpu() const;   // of all threads [s]
+  [[nodiscard]] double wall() const;  // [s]
+
+ private:
+  double cpu_;
+  std::chrono::steady_clock::time_point start_;
+};
 
 struct WaveRow {
   double time = 0;                   // [s]
@@ -33,7 +46,24 @@ struct WaveRun {
   double cpu = 0;        // of all threads [s]
   double wall = 0;       // [s]
   std::vector<WaveRow> rows;
+  std::exception_ptr stopped;  // by an error or Interrupted; the rows are those before
+
+  // Why it was stopped, empty when it was not.
+  [[nodiscard]] std::string reason() const;
 };
+
+// Calls lead(), and keeps what ends it early.
+template <class Lead>
+void lead_wave(WaveRun& run, Lead&& lead) {
+  const CostClock cost;
+  try {
+    lead();
+  } catch (...) {
+    run.stopped = std::current_exception();
+  }
+  run.cpu = cost.cpu();
+  run.wall = cost.wall();
+}
 
 // The particles (dns/wave_motion.hpp), made of the material's representative volumes.
 WaveRun run_particles(const WaveCase& one);
@@ -60,18 +90,6 @@ class RowClock {
 
  private:
   long steps_, rows_;
-};
-
-// Processor and elapsed time since it was made.
-class CostClock {
- public:
-  CostClock();
-  [[nodiscard]] double cpu() const;   // of all threads [s]
-  [[nodiscard]] double wall() const;  // [s]
-
- private:
-  double cpu_;
-  std::chrono::steady_clock::time_point start_;
 };
 
 void write_rows(const WaveRun& run, const WaveCase& one, const std::filesystem::path& path);

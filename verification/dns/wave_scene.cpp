@@ -31,7 +31,7 @@ std::vector<int> read_divisions(SceneTable& table) {
 
 WaveCase read_case(SceneTable table, const std::string& name) {
   WaveCase one;
-  one.name = table.text_or("name", name);
+  one.name = table.file_name_or("name", name);
   one.material = read_material_source(table);
   one.repeat = static_cast<std::size_t>(table.integer("repeat", 1));
   one.duration = table.number("duration", positive);
@@ -71,7 +71,7 @@ double Pulse::at(double time) const {
 WaveScene read_wave_scene(const SceneFile& file) {
   SceneTable root = file.root();
   WaveScene scene;
-  scene.name = root.text_or("name", file.path.stem().string());
+  scene.name = root.file_name_or("name", file.path.stem().string());
   const std::vector<toml::table> cases = scene_cases(file);
   if (cases.empty()) scene.cases.push_back(read_case(root, scene.name));
   for (const toml::table& one : cases)

@@ -171,27 +171,32 @@ void PointField::restore(CheckpointReader& in) {
     in.fail();
 }
 
-Record PointField::record() {
-  std::vector<Record> records;
+Effort PointField::effort() const {
   Effort sum;
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    Point& point = points_[p];
-    records.push_back(make_record(handles_[p], deformation_[p], stress_[p], reports_[p]));
-    records.back().external_work = point.work;
+  for (const Point& point : points_) {
     sum.evaluations = std::max(sum.evaluations, point.effort.evaluations);
     sum.subincrements = std::max(sum.subincrements, point.effort.subincrements);
     sum.history_advanced = std::max(sum.history_advanced, point.effort.history_advanced);
     sum.relaxation_steps += point.effort.relaxation_steps;
     sum.servo_corrections += point.effort.servo_corrections;
     sum.factorisations += point.effort.factorisations;
-    point.effort = {};
   }
   const auto count = static_cast<int>(points_.size());
   sum.relaxation_steps /= count;
   sum.servo_corrections /= count;
   sum.factorisations /= count;
+  return sum;
+}
+
+Record PointField::record() {
+  std::vector<Record> records;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    records.push_back(make_record(handles_[p], deformation_[p], stress_[p], reports_[p]));
+    records.back().external_work = points_[p].work;
+  }
   Record record = mean(records);
-  record.effort = sum;
+  record.effort = effort();
+  for (Point& point : points_) point.effort = {};
   return record;
 }
 

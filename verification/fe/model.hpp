@@ -58,6 +58,8 @@ class PointField {
   [[nodiscard]] std::size_t size() const { return points_.size(); }
   // Mean over the points of the last evaluation; the effort since the last call of this function.
   Record record();
+  // That effort, without its end.
+  [[nodiscard]] Effort effort() const;
   [[nodiscard]] const std::vector<int>& nodes(std::size_t point) const {
     return points_[point].nodes;
   }

@@ -4,6 +4,7 @@
 #include "app/interrupt.hpp"
 #include "app/output.hpp"
 #include "app/progress.hpp"
+#include "app/text.hpp"
 #include "fe/output/run_output.hpp"
 
 #include <fmt/format.h>
@@ -103,6 +104,7 @@ class Run {
     const Interrupt interrupt;
     const auto observe = [&](const LoadStep& step, const Solver&) { after(step); };
     solver_->observe_cuts([this](double part, const std::string& reason) {
+      ++cuts_;
       progress_.update(static_cast<double>(std::max(done_, 0)) / scene_.steps,
                        describe_cut(done_ + 1, part, reason));
     });
@@ -113,25 +115,36 @@ class Run {
       else
         run_load_steps(*solver_, scene_.solver.duration(), scene_.steps, last, observe, done_ + 1);
     } catch (const ComputationError& error) {
+      if (dynamic_cast<const StepError*>(&error) != nullptr) ++cuts_;  // the smallest part's
       try {
-        finish();
+        finish(true);
       } catch (const std::exception&) {  // says no more than the error that is reported
       }
       throw ComputationError(fmt::format("{}: {}", file_.string(), error.what()));
+    } catch (const Interrupted&) {
+      finish();
+      throw;
     }
     finish();
   }
 
  private:
-  void finish() {
-    if (done_ < 0) return;
+  // `failed`: in the step after the last that is done, which has cost something too.
+  void finish(bool failed = false) {
     progress_.clear();
+    Effort unfinished;
+    if (failed) {
+      unfinished = solver_->points().effort();
+      unfinished.cuts = cuts_;
+      output_->add_unfinished(done_ + 1, unfinished);
+    }
     output_->finish();
-    fmt::print("{}: {}wrote {}\n", scene_.name, output_->summary(), output_->written());
+    fmt::print("{}: {}{}\n", scene_.name, output_->summary(unfinished), output_->written());
   }
 
   void after(const LoadStep& step) {
     done_ = step.record.step;
+    cuts_ = 0;
     const bool turned_enough = cycle_ && cycle_->finished();
     const bool last = done_ == scene_.steps || turned_enough;
     output_->add(step, turned_enough && done_ < scene_.steps);
@@ -144,7 +157,7 @@ class Run {
       fmt::print(
           "{}: ended after step {} of {} as asked; go on with\n  grainlaw solve {} "
           "--output {} --restart\n",
-          scene_.name, done_, scene_.steps, file_.string(), directory_);
+          scene_.name, done_, scene_.steps, shell_text(file_.string()), shell_text(directory_));
     }
     if (signal != 0) throw Interrupted{signal};
     if (!stops)
@@ -180,6 +193,7 @@ class Run {
   std::optional<RunOutput> output_;
   Progress progress_;
   int done_ = -1;  // last step that is done
+  int cuts_ = 0;   // since then
 };
 
 }  // namespace

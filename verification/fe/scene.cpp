@@ -12,7 +12,7 @@ namespace verification {
 FiniteElementScene read_fe_scene(const SceneFile& file) {
   SceneTable table = file.root();
   FiniteElementScene scene;
-  scene.name = table.text_or("name", file.path.stem().string());
+  scene.name = table.file_name_or("name", file.path.stem().string());
   scene.material = read_material_source(table);
   scene.prestress = read_prestress(table);
   scene.solver = read_solver(table);

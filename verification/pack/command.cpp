@@ -3,9 +3,11 @@
 #include "app/bounds.hpp"
 #include "app/commands.hpp"
 #include "app/cpu_time.hpp"
-#include "app/history.hpp"
+#include "app/interrupt.hpp"
 #include "app/material.hpp"
 #include "app/output.hpp"
+#include "app/text.hpp"
+#include "app/written.hpp"
 #include "pack/picture.hpp"
 #include "pack/rose.hpp"
 #include "pack/written.hpp"
@@ -13,6 +15,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -45,18 +48,33 @@ struct Made {
   [[nodiscard]] double volume_fraction() const { return 1 / (1 + scalar(GRAINLAW_VOID_RATIO)); }
 };
 
+std::string name_of(const PackArguments& arguments) {
+  const std::string of_recipe = std::filesystem::path(arguments.recipe).stem().string();
+  const std::string& name = arguments.name.empty() ? of_recipe : arguments.name;
+  if (!is_file_name(name))
+    throw InputError(fmt::format("{}: --name: found {}\"{}\", expected {}", arguments.recipe,
+                                 arguments.name.empty() ? "nothing, and the recipe is called " : "",
+                                 name, file_name_rule));
+  return name;
+}
+
 Made make(const PackArguments& arguments, std::optional<long> seed) {
   MaterialSource source;
   source.file = arguments.recipe;
   source.base = source.file.parent_path();
   if (seed) change(source, "packing", "seed", *seed);
   const double start = cpu_seconds();
-  const Material material = make_material(source);
+  Material material;
+  try {
+    material = make_material(source);
+  } catch (const ComputationError& error) {
+    throw ComputationError(
+        fmt::format("{}; after {:.2f} s of CPU", error.what(), cpu_seconds() - start));
+  }
   const double seconds = cpu_seconds() - start;
   State state = make_state(material);
-  std::string name = arguments.name.empty() ? source.file.stem().string() : arguments.name;
-  const auto stem = output_stem(arguments.output, name);
-  check(grainlaw_state_write_packing(state.get(), stem.c_str()), "writing the packing");
+  const auto stem = output_stem(arguments.output, name_of(arguments));
+  check(grainlaw_state_write_packing(state.get(), stem.c_str()), "writing " + stem.string());
   WrittenPacking written = read_written(stem.string());
   return {std::move(state), std::move(written), stem, seconds};
 }
@@ -89,12 +107,16 @@ void print_packing(const Made& made) {
 
 // One line for each seed, to choose one; each is written as NAME_sSEED.
 void compare_seeds(PackArguments arguments, long first) {
-  const std::string name = arguments.name.empty()
-                               ? std::filesystem::path(arguments.recipe).stem().string()
-                               : arguments.name;
+  const std::string name = name_of(arguments);
+  const Interrupt interrupt;
+  long failed = 0;
   fmt::print("{:>6} {:>9} {:>9} {:>9} {:>9} {:>11} {:>9} {:>8}\n", "seed", "particles", "boundary",
              "fraction", "coordin.", "no rattlers", "anisotr.", "CPU [s]");
   for (long seed = first; seed < first + arguments.seeds; ++seed) {
+    if (Interrupt::signal() != 0) {
+      fmt::print("  {} before seed {}\n", Interrupted{Interrupt::signal()}.text(), seed);
+      Interrupt::check();
+    }
     try {
       arguments.name = fmt::format("{}_s{}", name, seed);
       const Made made = make(arguments, seed);
@@ -104,30 +126,40 @@ void compare_seeds(PackArguments arguments, long first) {
                  made.scalar(GRAINLAW_ANISOTROPY), made.seconds);
     } catch (const ComputationError& error) {
       fmt::print("{:>6} {}\n", seed, error.what());
+      ++failed;
     }
+    std::fflush(stdout);
   }
+  if (failed > 0)
+    throw ComputationError(fmt::format("{}: {} of {} seeds have no packing, as told beside them",
+                                       arguments.recipe, failed, arguments.seeds));
 }
 
 void run_pack(const PackArguments& arguments) {
   const SceneFile recipe(arguments.recipe);
+  name_of(arguments);
   const auto packing = recipe.content["packing"];
   if ((arguments.seed || arguments.seeds > 0) && !packing["seed"])
     throw InputError(arguments.recipe + ": --seed needs a [packing] with a generator and a seed");
   if (arguments.seeds > 0)
     return compare_seeds(arguments, arguments.seed.value_or(packing["seed"].value_or(1L)));
   const Made made = make(arguments, arguments.seed);
-  if (arguments.vtk)
-    check(grainlaw_state_write_vtk(made.state.get(), (made.stem.string() + ".vtp").c_str()),
-          "writing the particles");
+  Written written(made.stem);
+  for (const char* end : {"_particles.csv", "_contacts.csv", "_cell.csv"}) written.add(end);
+  if (arguments.vtk) {
+    const std::string path = made.stem.string() + ".vtp";
+    check(grainlaw_state_write_vtk(made.state.get(), path.c_str()), "writing " + path);
+    written.add(".vtp");
+  }
   fmt::print("{}\n", made.stem.filename().string());
   print_packing(made);
-  draw_packing(made.written, made.stem,
-               fmt::format("{}: {} particles, volume fraction {:.3f}, coordination {:.2f}; bar "
-                           "width: normal force",
-                           made.stem.filename().string(), made.written.radius.size(),
-                           made.volume_fraction(), made.scalar(GRAINLAW_COORDINATION)));
-  fmt::print("wrote {0}_particles.csv, _contacts.csv, _cell.csv, .svg, .png{1}\n",
-             made.stem.string(), arguments.vtk ? ", .vtp" : "");
+  written.add_pictures(
+      draw_packing(made.written, made.stem,
+                   fmt::format("{}: {} particles, volume fraction {:.3f}, coordination {:.2f}; bar "
+                               "width: normal force",
+                               made.stem.filename().string(), made.written.radius.size(),
+                               made.volume_fraction(), made.scalar(GRAINLAW_COORDINATION))));
+  fmt::print("{}\n", written.text());
 }
 
 }  // namespace

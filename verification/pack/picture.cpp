@@ -1,6 +1,7 @@
 #include "pack/picture.hpp"
 
-#include "app/figure.hpp"
+#include "app/gnuplot.hpp"
+#include "app/text.hpp"
 #include "pack/rose.hpp"
 
 #include <fmt/format.h>
@@ -106,7 +107,7 @@ std::string block(const char* name, const std::string& lines) {
 
 }  // namespace
 
-void draw_packing(const WrittenPacking& packing, const std::filesystem::path& stem,
+bool draw_packing(const WrittenPacking& packing, const std::filesystem::path& stem,
                   const std::string& title) {
   constexpr int size = 760;  // of the picture's side [points]
   constexpr int rose_size = 400;
@@ -122,12 +123,13 @@ void draw_packing(const WrittenPacking& packing, const std::filesystem::path& st
   std::string body = block("inner", drawing.inner) + block("boundary", drawing.boundary) +
                      block("bars", drawing.bars) + block("outline", drawing.outline);
   body += fmt::format(
-      "set multiplot\nset label 1 '{}' at screen 0.02,{:.4f} left noenhanced\n"
+      "set multiplot\nset label 1 {} at screen 0.02,{:.4f} left noenhanced\n"
       "set origin 0,0\nset size {:.4f},{:.4f}\nset size ratio -1\n"
       "set xrange [{}:{}]\nset yrange [{}:{}]\n"
       "set border 15 lc rgb '#aaaaaa'\nset tics out nomirror scale 0.6 tc rgb '#333333'\n"
       "set xlabel 'x [mm]'\nset ylabel 'y [mm]'\nunset key\n",
-      title, 1 - 0.5 * head / height, left, upper, low.x(), high.x(), low.y(), high.y());
+      gnuplot_text(title), 1 - 0.5 * head / height, left, upper, low.x(), high.x(), low.y(),
+      high.y());
   body +=
       "plot $inner using 1:2:3 with circles fs solid border lc rgb '#b5ac9a' fc rgb '#ece8df', "
       "$boundary using 1:2:3 with circles fs solid border lc rgb '#b58a4a' fc rgb '#f3d19c', "
@@ -141,7 +143,7 @@ void draw_packing(const WrittenPacking& packing, const std::filesystem::path& st
       rose.direction * 180 / M_PI, 0.5 * upper - 0.5 * rose_size / height - 0.005, left,
       0.5 * upper - 0.5 * rose_size / height, 1 - left, static_cast<double>(rose_size) / height);
   body += plot_rose(rose) + "unset multiplot\n";
-  run_gnuplot(body, stem, size + rose_size, height);
+  return run_gnuplot(body, stem, size + rose_size, height);
 }
 
 }  // namespace verification

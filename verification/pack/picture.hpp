@@ -10,7 +10,8 @@
 namespace verification {
 
 // Draws stem.svg and stem.png. With a periodic cell the discs across its sides are drawn again.
-void draw_packing(const WrittenPacking& packing, const std::filesystem::path& stem,
+// Returns what run_gnuplot does, and fails as it does.
+bool draw_packing(const WrittenPacking& packing, const std::filesystem::path& stem,
                   const std::string& title);
 
 }  // namespace verification

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 namespace verification {
 
@@ -46,11 +45,7 @@ std::optional<PaperRun> load_run(const std::filesystem::path& directory, const s
 CaseEnds::CaseEnds(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path)) return;
   table = read_csv(path);
-  // The first column is text, which read_csv takes for a number.
-  std::ifstream file(path);
-  std::string line;
-  std::getline(file, line);
-  while (std::getline(file, line)) name.push_back(line.substr(0, line.find(',')));
+  name = read_csv_names(path);
 }
 
 std::optional<std::size_t> CaseEnds::find(const std::string& wanted) const {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -24,13 +23,11 @@ std::map<std::string, CaseCost> read_costs(const std::filesystem::path& path) {
   std::map<std::string, CaseCost> costs;
   if (!std::filesystem::is_regular_file(path)) return costs;
   const CsvTable table = read_csv(path);
-  std::ifstream file(path);
-  std::string line;
-  std::getline(file, line);
-  for (std::size_t k = 0; std::getline(file, line); ++k)
-    costs[line.substr(0, line.find(','))] = {
-        table["particles"][k],         table["steps"][k],          table["relaxation_steps"][k],
-        table["servo_corrections"][k], table["factorisations"][k], table["cpu"][k]};
+  const std::vector<std::string> names = read_csv_names(path);
+  for (std::size_t k = 0; k < names.size(); ++k)
+    costs[names[k]] = {table["particles"][k],        table["steps"][k],
+                       table["relaxation_steps"][k], table["servo_corrections"][k],
+                       table["factorisations"][k],   table["cpu"][k]};
   return costs;
 }
 

@@ -1,16 +1,19 @@
 // `grainlaw point SCENE.toml`: representative volumes along paths of strain and stress.
 
+#include "app/atomic_file.hpp"
 #include "app/bounds.hpp"
+#include "app/cases.hpp"
 #include "app/commands.hpp"
+#include "app/interrupt.hpp"
 #include "app/jobs.hpp"
 #include "app/output.hpp"
+#include "app/text.hpp"
 #include "point/run.hpp"
 #include "point/scene.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <memory>
 #include <string>
 
@@ -43,25 +46,21 @@ std::vector<PointScene> chosen(std::vector<PointScene> scenes, const std::string
 
 void write_ends(const std::vector<PointScene>& scenes, const std::vector<PointEnd>& ends,
                 const std::filesystem::path& path) {
-  std::ofstream file(path);
-  file << "case,particles[-],steps[-],steps_wanted[-],F11[-],F12[-],F21[-],F22[-],"
-          "relaxation_steps[-],servo_corrections[-],factorisations[-],evaluations[-],"
-          "history_advanced[-],cpu[s],status[-],end\n";
+  std::string table =
+      "case,particles[-],steps[-],steps_wanted[-],F11[-],F12[-],F21[-],F22[-],"
+      "relaxation_steps[-],servo_corrections[-],factorisations[-],evaluations[-],"
+      "history_advanced[-],cpu[s],status[-],end\n";
   for (std::size_t k = 0; k < scenes.size(); ++k) {
     const PointEnd& end = ends[k];
-    std::string text = end.text;
-    std::replace(text.begin(), text.end(), ',', ';');
-    std::replace(text.begin(), text.end(), '\n', ' ');
     const Tensor& F = end.deformation;
-    file << fmt::format("{},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{},{},{},{},{},{:.4g},{},{}\n",
-                        scenes[k].name, end.particles, end.steps, end.steps_wanted, F(0, 0),
-                        F(0, 1), F(1, 0), F(1, 1), end.effort.relaxation_steps,
-                        end.effort.servo_corrections, end.effort.factorisations,
-                        end.effort.evaluations, end.effort.history_advanced, end.cpu,
-                        static_cast<int>(end.status), text);
+    table += fmt::format("{},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{},{},{},{},{},{:.4g},{},{}\n",
+                         csv_field(scenes[k].name), end.particles, end.steps, end.steps_wanted,
+                         F(0, 0), F(0, 1), F(1, 0), F(1, 1), end.effort.relaxation_steps,
+                         end.effort.servo_corrections, end.effort.factorisations,
+                         end.effort.evaluations, end.effort.history_advanced, end.cpu,
+                         static_cast<int>(end.status), csv_field(end.text));
   }
-  file.close();
-  if (!file) throw ComputationError(fmt::format("{}: cannot be written", path.string()));
+  write_atomically(path, table);
 }
 
 void run_command(const PointArguments& arguments) {
@@ -70,16 +69,17 @@ void run_command(const PointArguments& arguments) {
   std::vector<PointScene> scenes = chosen(read_point_scenes(file), prefix, arguments.cases);
   for (PointScene& scene : scenes) scene.options.max_steps = arguments.steps;
   std::vector<PointEnd> ends(scenes.size());
+  CaseFailures failures(scenes.size());
+  const Interrupt interrupt;
   run_jobs(scenes.size(), arguments.jobs, [&](std::size_t k) {
-    ends[k] = run_point(scenes[k], output_stem(arguments.output, scenes[k].name));
+    const std::string text = failures.guard(k, scenes[k].name, [&] {
+      run_point(scenes[k], output_stem(arguments.output, scenes[k].name), ends[k]);
+    });
+    if (!text.empty() && ends[k].text == PointEnd().text) ends[k].text = text;
   });
   if (file.content.contains("case"))
     write_ends(scenes, ends, output_stem(arguments.output, prefix + "_cases.csv"));
-  std::string failed;
-  for (std::size_t k = 0; k < scenes.size(); ++k)
-    if (ends[k].steps < ends[k].steps_wanted && !scenes[k].may_end)
-      failed += fmt::format("{}{}: {}", failed.empty() ? "" : "\n", scenes[k].name, ends[k].text);
-  if (!failed.empty()) throw ComputationError(fmt::format("{}: {}", arguments.scene, failed));
+  failures.check(arguments.scene);
 }
 
 }  // namespace

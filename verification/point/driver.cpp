@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace verification {
 namespace {
@@ -91,7 +92,7 @@ PointDriver::Goal PointDriver::goal_at(const Segment& segment, const Vector4& st
 // prescribed increment over to the unknowns by the tangent of the last step. An exact tangent is
 // renewed at every iterate; any other serves as the start of Broyden's updates, which need no more
 // than a fair matrix.
-PointDriver::Iterate PointDriver::iterate(const Goal& goal, double tolerance, Effort& effort) {
+PointDriver::Iterate PointDriver::iterate(const Goal& goal, double tolerance) {
   Iterate result;
   const unsigned want = goal.mixed ? options_.tangent : 0;
   const Controlled before = controlled(goal.control, deformation_, evaluation_);
@@ -106,8 +107,8 @@ PointDriver::Iterate PointDriver::iterate(const Goal& goal, double tolerance, Ef
     deformation += correction;
     result.deformation = to_tensor(deformation);
     result.evaluation = evaluate(state_.get(), result.deformation, want);
-    effort.add(result.evaluation.report);
-    if (goal.mixed) ++effort.iterations;
+    effort_.add(result.evaluation.report);
+    if (goal.mixed) ++effort_.iterations;
     if (result.evaluation.status != GRAINLAW_OK) {
       result.status = result.evaluation.status;
       result.ratio = result.evaluation.report.step_ratio;
@@ -158,7 +159,10 @@ PointDriver::Iterate PointDriver::iterate(const Goal& goal, double tolerance, Ef
 // from one.
 void PointDriver::renew_tangent() {
   const Evaluation again = evaluate(state_.get(), deformation_, options_.tangent);
-  check(again.status, "evaluating the tangent at the start of a segment");
+  if (again.status != GRAINLAW_OK)
+    throw StepError(again.status, fmt::format("evaluating the tangent at the start of a segment, "
+                                              "after step {}, failed: {}",
+                                              record_.step, again.report.message));
   check(grainlaw_revert(state_.get()), "dropping a trial");
   evaluation_.tangent = again.tangent;
   has_tangent_ = true;
@@ -174,17 +178,17 @@ void PointDriver::accept(const Iterate& iterate, bool has_tangent) {
 }
 
 // From an attempt that stalled before a jump, and from what it saw beyond.
-PointDriver::Iterate PointDriver::cross_jumps(const Goal& goal, Iterate last, Effort& effort) {
+PointDriver::Iterate PointDriver::cross_jumps(const Goal& goal, Iterate last) {
   for (int crossing = 0; crossing < most_crossings && last.stalled; ++crossing) {
     Iterate beyond = last;
     beyond.deformation = last.far_deformation;
     beyond.evaluation = evaluate(state_.get(), beyond.deformation, options_.tangent);
-    effort.add(beyond.evaluation.report);
+    effort_.add(beyond.evaluation.report);
     if (beyond.evaluation.status != GRAINLAW_OK) return last;
     accept(beyond, true);
     check(grainlaw_commit(state_.get()), "committing beyond a jump of the stress");
-    ++effort.crossed;
-    last = iterate(goal, options_.tolerance, effort);
+    ++effort_.crossed;
+    last = iterate(goal, options_.tolerance);
   }
   if (last.stalled) last.converged = last.loose = true;  // the next part goes on from here
   return last;
@@ -199,24 +203,25 @@ void PointDriver::run(const Segment& segment, const PointObserver& observe,
   for (int step = 1; step <= segment.steps; ++step) {
     if (options_.max_steps > 0 && record_.step >= options_.max_steps) return;
     const int number = record_.step + 1;
-    Effort effort;
+    effort_ = {};
     double done = 0;
     double fraction = 0;
     Tensor committed;
     const auto attempt = [&](double next, bool loose) {
       fraction = (step - 1 + next) / segment.steps;
       const Goal goal = goal_at(segment, start, fraction);
-      Iterate last = iterate(goal, loose ? options_.loose_tolerance : options_.tolerance, effort);
+      Iterate last = iterate(goal, loose ? options_.loose_tolerance : options_.tolerance);
       if (last.stalled && options_.loose_tolerance == 0 && next - done <= crossing_part) {
-        last = cross_jumps(goal, last, effort);
+        last = cross_jumps(goal, last);
       }
       if (last.converged) {
         done = next;
         committed = deformation_;
         accept(last, goal.mixed);
-        effort.history_advanced += last.evaluation.report.history_advanced;
+        effort_.history_advanced += last.evaluation.report.history_advanced;
         if (next < 1) check(grainlaw_commit(state_.get()), "committing a part of a step");
       } else {
+        ++effort_.cuts;
         check(grainlaw_revert(state_.get()), "dropping a trial");
       }
       return Attempt(last);
@@ -225,12 +230,11 @@ void PointDriver::run(const Segment& segment, const PointObserver& observe,
                                          deformation_(1, 1), deformation_(0, 1));
     const Parts parts = solve_in_parts(0, 1, name, options_.max_cuts, options_.loose_tolerance > 0,
                                        attempt, observe_cut);
-    effort.cuts = parts.cuts;
-    effort.loose = parts.loose;
+    effort_.loose = parts.loose;
     record_ = make_record(state_.get(), deformation_, evaluation_.stress, evaluation_.report);
     record_.step = number;
     record_.external_work = work_;
-    record_.effort = effort;
+    record_.effort = std::exchange(effort_, {});
     if (observe) observe({state_.get(), committed, evaluation_, record_, fraction});
     check(grainlaw_commit(state_.get()), "committing a step");
   }

@@ -43,14 +43,16 @@ class PointDriver {
            const CutObserver& observe_cut = {});
 
   [[nodiscard]] const Record& record() const { return record_; }
+  // Of the step that did not end, after an error.
+  [[nodiscard]] const Effort& unfinished() const { return effort_; }
   [[nodiscard]] grainlaw_state* state() const { return state_.get(); }
 
  private:
   struct Goal;
   struct Iterate;
   Goal goal_at(const Segment& segment, const Vector4& start, double fraction) const;
-  Iterate iterate(const Goal& goal, double tolerance, Effort& effort);
-  Iterate cross_jumps(const Goal& goal, Iterate last, Effort& effort);
+  Iterate iterate(const Goal& goal, double tolerance);
+  Iterate cross_jumps(const Goal& goal, Iterate last);
   void accept(const Iterate& iterate, bool has_tangent);
   void renew_tangent();
 
@@ -60,6 +62,7 @@ class PointDriver {
   Tensor deformation_;     // committed F
   Evaluation evaluation_;  // that led to it
   Record record_;          // of the last step
+  Effort effort_;          // of the step that is being made
   bool has_tangent_ = true;
   double work_ = 0;  // external, since F = I [J]
 };

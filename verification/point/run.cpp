@@ -2,12 +2,15 @@
 
 #include "app/cpu_time.hpp"
 #include "app/history.hpp"
+#include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/snapshot.hpp"
+#include "app/written.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <optional>
 
 namespace verification {
@@ -20,21 +23,27 @@ double abscissa(const PointScene& scene, const Record& record) {
 // What is written and drawn beside the history of a run.
 class Observer {
  public:
-  Observer(const PointScene& scene, const std::filesystem::path& stem)
-      : scene_(scene), stem_(stem) {
-    if (scene.particle_measures)
-      measures_.emplace(stem.string() + "_particles.csv",
-                        std::vector<std::string>{"step[-]", "F12[-]", "normalised_overlap[-]",
-                                                 "mean_rotation_magnitude[rad]"});
+  Observer(const PointScene& scene, const std::filesystem::path& stem, Written& written)
+      : scene_(scene), stem_(stem), files_(stem.string() + "_state"), written_(written) {
+    if (!scene.particle_measures) return;
+    measures_.emplace(stem.string() + "_particles.csv",
+                      std::vector<std::string>{"step[-]", "F12[-]", "normalised_overlap[-]",
+                                               "mean_rotation_magnitude[rad]"});
+    written.add("_particles.csv");
+  }
+
+  [[nodiscard]] int particles(const grainlaw_state* state) const {
+    return static_cast<int>(files_.take(state).size());
   }
 
   void see(const grainlaw_state* state, const Record& record) {
-    if (scene_.vtk_every > 0 && record.step % scene_.vtk_every == 0)
+    if (scene_.vtk_every > 0 && record.step % scene_.vtk_every == 0) {
       write_vtk(state, stem_, record.step);
-    const std::string prefix = stem_.string() + "_state";
+      written_.add("_STEP.vtp");
+    }
     std::optional<Snapshot> snapshot;
     if (measures_) {
-      snapshot = take_snapshot(state, prefix);
+      snapshot = files_.take(state);
       measures_->row({static_cast<double>(record.step), record.deformation(0, 1),
                       normalised_overlap(*snapshot), mean_rotation_magnitude(*snapshot)});
     }
@@ -46,87 +55,104 @@ class Observer {
       const double wanted = backwards ? scene_.pictures[scene_.pictures.size() - 1 - panels_.size()]
                                       : scene_.pictures[panels_.size()];
       if (backwards ? strain > wanted + rounding : strain < wanted - rounding) break;
-      if (!snapshot) snapshot = take_snapshot(state, prefix);
+      if (!snapshot) snapshot = files_.take(state);
       const char* name = scene_.abscissa == shear_abscissa ? "F12" : "axial strain";
       panels_.push_back({fmt::format("{} = {:.3g}", name, strain), *snapshot});
     }
   }
 
   void draw() const {
-    if (!panels_.empty())
-      draw_snapshots(panels_, scene_.picture_force, scene_.name, stem_.string() + "_packing");
-    for (const char* end : {"_particles.csv", "_contacts.csv", "_cell.csv", ".vtp"})
-      std::filesystem::remove(stem_.string() + "_state" + end);
+    if (!panels_.empty() &&
+        draw_snapshots(panels_, scene_.picture_force, scene_.name, stem_.string() + "_packing"))
+      written_.add("_packing.svg");
   }
 
  private:
   const PointScene& scene_;
   std::filesystem::path stem_;
+  SnapshotFiles files_;
+  Written& written_;
   std::optional<CsvWriter> measures_;
   std::vector<SnapshotPanel> panels_;
 };
 
 }  // namespace
 
-PointEnd run_point(const PointScene& scene, const std::filesystem::path& stem) {
-  PointEnd end;
+void run_point(const PointScene& scene, const std::filesystem::path& stem, PointEnd& end) {
+  end = {};
   for (const Segment& segment : scene.segments) end.steps_wanted += segment.steps;
+  const int whole = end.steps_wanted;
   if (scene.options.max_steps > 0)
     end.steps_wanted = std::min(end.steps_wanted, scene.options.max_steps);
+  double start = cpu_seconds();
   Material material;
   try {
     material = make_material(scene.material);
   } catch (const ComputationError& error) {
-    if (!scene.may_end) throw;
     std::filesystem::remove(stem.string() + ".csv");  // of an earlier run
+    end.cpu = cpu_seconds() - start;
     end.status = GRAINLAW_NOT_CONVERGED;
     end.text = error.what();
-    fmt::print("{}: {}\n", scene.name, end.text);
-    return end;
+    fmt::print("{}: {:.2f} s of CPU\n  ended: {}\n", scene.name, end.cpu, end.text);
+    if (!scene.may_end) throw;
+    return;
   }
+  Written written(stem);
   History history(stem);
-  Observer observer(scene, stem);
-  double start = cpu_seconds();
+  written.add(".csv");
+  Observer observer(scene, stem, written);
+  start = cpu_seconds();
   PointDriver driver(material, scene.options);
   end.cpu += cpu_seconds() - start;
-  end.particles = static_cast<int>(take_snapshot(driver.state(), stem.string() + "_state").size());
+  end.particles = observer.particles(driver.state());
   history.add(driver.record());
   observer.see(driver.state(), driver.record());
 
-  Progress progress(scene.name);
+  std::optional<Progress> progress(scene.name);
   const auto observe = [&](const PointStep& step) {
     end.cpu += cpu_seconds() - start;
     const Record& record = step.record;
     end.effort.add(record.effort);
     history.add(record);
     observer.see(step.state, record);
-    progress.update(
+    progress->update(
         static_cast<double>(record.step) / end.steps_wanted,
         fmt::format("sigma22 {:.1f} kPa, F22 {:.4f}, F12 {:.4f}", record.cauchy(1, 1) / 1e3,
                     record.deformation(1, 1), record.deformation(0, 1)));
+    if (record.step < end.steps_wanted) Interrupt::check();
     start = cpu_seconds();
   };
   const auto observe_cut = [&](double part, const std::string& reason) {
     const int done = driver.record().step;
-    progress.update(static_cast<double>(done) / end.steps_wanted,
-                    describe_cut(done + 1, part, reason));
+    progress->update(static_cast<double>(done) / end.steps_wanted,
+                     describe_cut(done + 1, part, reason));
+    Interrupt::check();
   };
   start = cpu_seconds();
+  std::exception_ptr stopped;
   try {
     for (const Segment& segment : scene.segments) driver.run(segment, observe, observe_cut);
   } catch (const StepError& error) {
+    if (!scene.may_end) stopped = std::current_exception();
     end.status = error.status;
     end.text = error.what();
+  } catch (const Interrupted& stop) {
+    stopped = std::current_exception();
+    end.text =
+        fmt::format("{} after step {} of {}", stop.text(), driver.record().step, end.steps_wanted);
   }
   end.cpu += cpu_seconds() - start;
+  end.effort.add(driver.unfinished());
   end.steps = driver.record().step;
   end.deformation = driver.record().deformation;
-  if (scene.figure) history.draw_figure(scene.abscissa, scene.name);
+  if (end.steps == end.steps_wanted && end.steps < whole)
+    end.text = fmt::format("left after step {} of {} as asked", end.steps, whole);
+  progress.reset();
+  if (scene.figure) written.add_pictures(history.draw_figure(scene.abscissa, scene.name));
   observer.draw();
-  fmt::print("{}: {}{}\nwrote {}.csv{}\n", scene.name, history.summary(),
-             end.steps < end.steps_wanted ? "\n  ended: " + end.text : "", stem.string(),
-             scene.figure ? ", .svg, .png" : "");
-  return end;
+  fmt::print("{}: {}; {:.2f} s of CPU{}\n{}\n", scene.name, history.summary(driver.unfinished()),
+             end.cpu, end.text == PointEnd().text ? "" : "\n  ended: " + end.text, written.text());
+  if (stopped) std::rethrow_exception(stopped);
 }
 
 }  // namespace verification

@@ -17,12 +17,13 @@ struct PointEnd {
   Effort effort;                            // sum over the steps
   double cpu = 0;                           // of the thread, pictures left out [s]
   grainlaw_status status = GRAINLAW_OK;     // that ended it
-  std::string text = "done";
+  std::string text = "done";                // or why it is not
 };
 
-// Writes stem.csv, .svg, .png and what the scene asks for beside them. A path that ends early is
-// told in the result; what was reached stays written. Throws InputError, and ComputationError when
-// there is no equilibrium at the start.
-PointEnd run_point(const PointScene& scene, const std::filesystem::path& stem);
+// Writes stem.csv, .svg, .png and what the scene asks for beside them, and tells what the run took
+// and wrote. Of a path that ends early, or is asked to, what was reached stays written. Throws
+// InputError, Interrupted, and ComputationError where the scene does not allow for an early end;
+// `end` then holds what there is.
+void run_point(const PointScene& scene, const std::filesystem::path& stem, PointEnd& end);
 
 }  // namespace verification

@@ -19,7 +19,7 @@ std::vector<double> read_pictures(SceneTable& table) {
 
 PointScene read_scene(SceneTable table, const std::string& name) {
   PointScene scene;
-  scene.name = table.text_or("name", name);
+  scene.name = table.file_name_or("name", name);
   scene.material = read_material_source(table);
   scene.options.tangent =
       tangent_bit(table.choice_or("tangent", "exact", {"exact", "elastic", "perturbed"}));

@@ -37,13 +37,21 @@ CostReport::Reading CostReport::now() const {
 }
 
 void CostReport::add(const LoadStep& step, CsvWriter& table) {
+  without_contacts_ = points_without_contacts(solver_.points());
+  add(step.record.step, step.record.effort, table);
+}
+
+void CostReport::add_unfinished(int step, const Effort& effort, CsvWriter& table) {
+  add(step, effort, table);
+}
+
+void CostReport::add(int step, const Effort& effort, CsvWriter& table) {
   const Reading reading = now();
   const Spent total = reading.total - last_.total;
-  std::vector<double> row{static_cast<double>(step.record.step), total.elapsed, total.cpu};
+  std::vector<double> row{static_cast<double>(step), total.elapsed, total.cpu};
   for (std::size_t k = 0; k < stages; ++k) row.push_back((reading.stage[k] - last_.stage[k]).cpu);
-  const Effort& effort = step.record.effort;
   for (const int count : {effort.evaluations, effort.iterations, effort.cuts, effort.loose,
-                          effort.history_advanced, points_without_contacts(solver_.points())})
+                          effort.history_advanced, without_contacts_})
     row.push_back(count);
   table.row(row);
   last_ = reading;

@@ -20,6 +20,8 @@ class CostReport {
 
   // One row: what was spent since the last one.
   void add(const LoadStep& step, CsvWriter& table);
+  // The same of a step that did not end, whose points are as they were.
+  void add_unfinished(int step, const Effort& effort, CsvWriter& table);
 
  private:
   struct Reading {
@@ -27,9 +29,11 @@ class CostReport {
     std::array<Spent, stages> stage;
   };
   [[nodiscard]] Reading now() const;
+  void add(int step, const Effort& effort, CsvWriter& table);
 
   const Solver& solver_;
   Reading last_;
+  int without_contacts_ = 0;  // points, after the last step
 };
 
 // Of a whole table: cost per point and load step, where the time went, what it took. Lines, each with

@@ -1,6 +1,7 @@
 #include "fe/output/mesh_picture.hpp"
 
-#include "app/figure.hpp"
+#include "app/gnuplot.hpp"
+#include "app/text.hpp"
 
 #include <fmt/format.h>
 
@@ -113,8 +114,8 @@ bool draw_mesh(const std::vector<MeshPanel>& panels, const std::string& title,
       "set multiplot\nunset border\nunset tics\nunset key\n"
       "set palette defined (0 '#440154', 0.13 '#472c7a', 0.25 '#3b518b', 0.38 '#2c718e', "
       "0.5 '#21908d', 0.63 '#27ad81', 0.75 '#5cc863', 0.88 '#aadc32', 1 '#fde725')\n";
-  body += fmt::format("set label 1 \"{}\" at screen {:.5f},{:.5f} left noenhanced\n", title,
-                      gap / wide, 1 - 16 / high);
+  body += fmt::format("set label 1 {} at screen {:.5f},{:.5f} left noenhanced\n",
+                      gnuplot_text(title), gap / wide, 1 - 16 / high);
   double left = gap;
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const Box& b = boxes[k];
@@ -137,8 +138,8 @@ bool draw_mesh(const std::vector<MeshPanel>& panels, const std::string& title,
         "set colorbox user origin screen {:.5f},{:.5f} size screen {:.5f},{:.5f} "
         "border\n",
         (right + 12) / wide, foot / high, 12 / wide, std::min(size.y(), 260.0) / high);
-    body += fmt::format("set label 2 \"{}\" at screen {:.5f},{:.5f} left noenhanced\n",
-                        panels[k].title, left / wide, 1 - 42 / high);
+    body += fmt::format("set label 2 {} at screen {:.5f},{:.5f} left noenhanced\n",
+                        gnuplot_text(panels[k].title), left / wide, 1 - 42 / high);
     body += command + "unset label 1\n";
     left = right + gap + scale_room;
   }

@@ -30,27 +30,35 @@ std::vector<std::string> point_columns() {
 
 }  // namespace
 
+// Tables of a kind are shown by one name.
+CsvWriter& RunOutput::open(const std::string& suffix, const std::vector<std::string>& columns,
+                           const char* shown) {
+  CsvWriter& table = tables_.open(suffix, columns);
+  written_.add(shown != nullptr ? shown : suffix);
+  return table;
+}
+
 RunOutput::RunOutput(const FiniteElementScene& scene, RunTables tables, const Solver& solver)
     : scene_(scene),
       solver_(solver),
       tables_(std::move(tables)),
-      history_(tables_.open(".csv", record_columns())),
-      newton_(tables_.open("_newton.csv", {"step[-]", "iteration[-]", "relative_residual[-]"})),
-      forces_(tables_.open("_force.csv", force_columns(scene.model))),
-      costs_(tables_.open("_cost.csv", cost_columns())),
+      written_(tables_.stem()),
+      history_(open(".csv", record_columns())),
+      newton_(open("_newton.csv", {"step[-]", "iteration[-]", "relative_residual[-]"})),
+      forces_(open("_force.csv", force_columns(scene.model))),
+      costs_(open("_cost.csv", cost_columns())),
       cost_(solver),
       series_(scene.model, tables_.stem(), scene.output.packings) {
+  if (scene.solver.kind == SolverKind::dynamics) energies_ = &open("_energy.csv", energy_columns());
+  if (!scene.probes.empty()) probes_ = &open("_probes.csv", probe_columns(scene.probes));
   for (const std::size_t point : scene.output.points)
-    points_.push_back(&tables_.open(fmt::format("_point{}.csv", point), point_columns()));
+    points_.push_back(&open(fmt::format("_point{}.csv", point), point_columns(), "_pointN.csv"));
   for (const std::string& name : scene.output.every_point) {
     std::vector<std::string> columns{"step[-]"};
     for (std::size_t p = 0; p < solver.points().size(); ++p)
       columns.push_back(fmt::format("point{}[{}]", p, field(name).unit));
-    every_point_.push_back(&tables_.open(fmt::format("_every_{}.csv", name), columns));
+    every_point_.push_back(&open(fmt::format("_every_{}.csv", name), columns, "_every_FIELD.csv"));
   }
-  if (scene.solver.kind == SolverKind::dynamics)
-    energies_ = &tables_.open("_energy.csv", energy_columns());
-  if (!scene.probes.empty()) probes_ = &tables_.open("_probes.csv", probe_columns(scene.probes));
 }
 
 void RunOutput::add(const LoadStep& step, bool ends_before) {
@@ -81,7 +89,11 @@ void RunOutput::write(const LoadStep& step, bool ends_before) {
     row.insert(row.begin(), static_cast<double>(number));
     every_point_[k]->row(row);
   }
-  if (output.vtk_every > 0 && number % output.vtk_every == 0) series_.add(step, solver_);
+  if (output.vtk_every > 0 && number % output.vtk_every == 0) {
+    series_.add(step, solver_);
+    for (const char* end : {"_mesh.pvd", "_points.pvd"}) written_.add(end);
+    if (!output.packings.empty()) written_.add("_packingN.pvd");
+  }
   const std::vector<int>& drawn = output.pictures.steps;
   if (ends_before || std::find(drawn.begin(), drawn.end(), number) != drawn.end()) draw(step);
 }
@@ -99,18 +111,18 @@ void RunOutput::add_point(std::size_t point, const LoadStep& step, CsvWriter& ta
   table.row(row);
 }
 
-void RunOutput::draw(const LoadStep& step) const {
+void RunOutput::draw(const LoadStep& step) {
   const PointField& points = solver_.points();
   const std::string stem = fmt::format("{}_{:04d}", tables_.stem().string(), step.record.step);
   const std::string title = fmt::format("{}, step {}", scene_.name, step.record.step);
   for (const std::string& name : scene_.output.pictures.fields)
-    draw_mesh({mesh_panel(scene_.model.mesh, points, solver_.displacement(), field(name))}, title,
-              stem + "_" + name);
+    if (draw_mesh({mesh_panel(scene_.model.mesh, points, solver_.displacement(), field(name))},
+                  title, stem + "_" + name))
+      written_.add("_STEP_FIELD.svg");
   std::vector<SnapshotPanel> packings;
-  const std::string scratch = stem + "_state";
+  const SnapshotFiles files(stem + "_state");
   for (const std::size_t point : scene_.output.pictures.packings)
-    packings.push_back(
-        {fmt::format("point {}", point), take_snapshot(points.state(point), scratch)});
+    packings.push_back({fmt::format("point {}", point), files.take(points.state(point))});
   for (const std::string& name : scene_.output.pictures.extremes) {
     const Field& shown = field(name);
     const std::string unit = shown.unit == "-" ? "" : fmt::format(" {}", shown.unit);
@@ -120,38 +132,25 @@ void RunOutput::draw(const LoadStep& step) const {
       const auto point = static_cast<std::size_t>(end - all.begin());
       const double value = *end + 0.0;  // no -0
       packings.push_back({fmt::format("{} {}\npoint {}: {:.3g}{}", word, name, point, value, unit),
-                          take_snapshot(points.state(point), scratch)});
+                          files.take(points.state(point))});
     }
   }
-  if (packings.empty()) return;
-  draw_snapshots(packings, 0, title, stem + "_packings");
-  for (const char* end : {"_particles.csv", "_contacts.csv", "_cell.csv", ".vtp"})
-    std::filesystem::remove(scratch + end);
+  if (!packings.empty() && draw_snapshots(packings, 0, title, stem + "_packings"))
+    written_.add("_STEP_packings.svg");
 }
 
-void RunOutput::finish() const {
-  draw_history(read_csv(history_.path()), scene_.abscissa, scene_.name, tables_.stem());
+void RunOutput::add_unfinished(int step, const Effort& effort) {
+  cost_.add_unfinished(step, effort, costs_);
 }
 
-std::string RunOutput::summary() const {
-  return history_summary(read_csv(history_.path())) + "\n" +
+void RunOutput::finish() {
+  written_.add_pictures(
+      draw_history(read_csv(history_.path()), scene_.abscissa, scene_.name, tables_.stem()));
+}
+
+std::string RunOutput::summary(const Effort& unfinished) const {
+  return history_summary(read_csv(history_.path()), unfinished) + "\n" +
          cost_summary(read_csv(costs_.path()), solver_.points().size());
-}
-
-std::string RunOutput::written() const {
-  const OutputOptions& output = scene_.output;
-  std::string text = fmt::format("{}.csv, _newton.csv, _force.csv, _cost.csv, .svg, .png",
-                                 tables_.stem().string());
-  if (energies_ != nullptr) text += ", _energy.csv";
-  if (probes_ != nullptr) text += ", _probes.csv";
-  if (!output.points.empty()) text += ", _pointN.csv";
-  if (!output.every_point.empty()) text += ", _every_FIELD.csv";
-  if (output.vtk_every > 0) text += ", _mesh.pvd, _points.pvd";
-  if (!output.packings.empty()) text += ", _packingN.pvd";
-  if (!output.pictures.fields.empty()) text += ", _STEP_FIELD.svg";
-  if (!output.pictures.packings.empty() || !output.pictures.extremes.empty())
-    text += ", _STEP_packings.svg";
-  return text;
 }
 
 }  // namespace verification

@@ -1,6 +1,7 @@
 // The files of a run, written step by step.
 #pragma once
 
+#include "app/written.hpp"
 #include "fe/output/cost_report.hpp"
 #include "fe/output/run_tables.hpp"
 #include "fe/output/vtk_series.hpp"
@@ -18,25 +19,30 @@ class RunOutput {
 
   // `ends_before`: the last step of a run that ends before the scene's number of steps; it is drawn.
   void add(const LoadStep& step, bool ends_before = false);
+  // What a step took that did not end.
+  void add_unfinished(int step, const Effort& effort);
   // Draws what shows the whole run.
-  void finish() const;
+  void finish();
 
   void save_tables(CheckpointWriter& out) const { tables_.save(out); }
   void save(CheckpointWriter& out) const { series_.save(out); }
   void restore(CheckpointReader& in) { series_.restore(in); }
 
   // For the user: what the run took, and which files there are.
-  [[nodiscard]] std::string summary() const;
-  [[nodiscard]] std::string written() const;
+  [[nodiscard]] std::string summary(const Effort& unfinished) const;
+  [[nodiscard]] std::string written() const { return written_.text(); }
 
  private:
+  CsvWriter& open(const std::string& suffix, const std::vector<std::string>& columns,
+                  const char* shown = nullptr);
   void write(const LoadStep& step, bool ends_before);
   void add_point(std::size_t point, const LoadStep& step, CsvWriter& table) const;
-  void draw(const LoadStep& step) const;
+  void draw(const LoadStep& step);
 
   const FiniteElementScene& scene_;
   const Solver& solver_;
   RunTables tables_;
+  Written written_;
   CsvWriter& history_;
   CsvWriter& newton_;
   CsvWriter& forces_;

@@ -1,6 +1,7 @@
 #include "fe/output/vtk_file.hpp"
 
 #include "app/atomic_file.hpp"
+#include "app/text.hpp"
 
 #include <fmt/format.h>
 
@@ -43,7 +44,7 @@ std::string array(std::string_view type, std::string_view name, int components,
   return fmt::format(
       "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"binary\">\n{}\n"
       "</DataArray>\n",
-      type, name, components, names, values);
+      type, xml_text(name), components, names, values);
 }
 
 std::string data(std::string_view element, const std::vector<VtkArray>& arrays) {
@@ -102,7 +103,7 @@ void write_pvd(const std::filesystem::path& path, const std::vector<VtkSeriesEnt
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
   for (const VtkSeriesEntry& entry : entries)
     fmt::format_to(std::back_inserter(text), "<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n",
-                   entry.time, entry.file);
+                   entry.time, xml_text(entry.file));
   write_atomically(path, text + "</Collection>\n</VTKFile>\n");
 }
 

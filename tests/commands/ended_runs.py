@@ -1,0 +1,197 @@
+"""Runs of the command `grainlaw` that fail or are stopped tell what they took and which files there
+are, leave no others, and keep what the other cases have done."""
+import csv
+import re
+import signal
+import time
+import unittest
+
+from command import DNS, LATTICE, PERIODIC, POINT, SOLVE, WAVE, Place, written
+
+# Too far for a lattice that may not be cut, after a step that it can do.
+FAILING = "max_cuts = 0\n[[case.segment]]\nsteps = 1\nF22 = 0.9999\n[[case.segment]]\nsteps = 1\nF12 = 1.0\n"
+
+
+class EndedRuns(unittest.TestCase):
+    def setUp(self):
+        self.place = Place()
+
+    def tearDown(self):
+        self.place.temporary.cleanup()
+
+    def without_gnuplot(self):
+        self.place.environment["PATH"] = str(self.place.home)
+
+    def table(self, name):
+        with open(self.place.path / "out" / name, encoding="utf-8", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def check_files(self, out):
+        """What is named is there, and nothing else is left over."""
+        lines = [line for line in out.splitlines() if "wrote " in line]
+        self.assertTrue(lines, out)
+        for line in lines:
+            for name in written(line):
+                self.assertTrue((self.place.path / name).exists(), name)
+        for name in self.place.files("out"):
+            self.assertNotRegex(name, r"_state_|_state\.vtp|\.new$")
+
+    def stop(self, table, rows, *arguments, number=signal.SIGINT):
+        """Asks the command to end when that table has so many rows."""
+        process = self.place.start(*arguments, "--output", "out")
+        path = self.place.path / "out" / table
+        end = time.monotonic() + 60
+        while time.monotonic() < end and process.poll() is None:
+            if path.exists() and path.read_bytes().count(b"\n") > rows:
+                break
+            time.sleep(0.005)
+        process.send_signal(number)
+        out, err = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 128 + number, out + err)
+        return out, err
+
+    def test_one_case_that_fails_leaves_the_others(self):
+        for jobs in ("1", "3"):
+            with self.subTest(jobs=jobs):
+                scene = self.place.write("p.toml", PERIODIC + POINT.format(steps=3, stretch=0.9999)
+                                         + '[[case]]\nname = "wrong"\nmaterial = { thickness = -1 }\n'
+                                         + '[[case]]\nname = "far"\n' + FAILING
+                                         + '[[case]]\nname = "right"\n')
+                status, out, err = self.place.run("point", scene, "--output", "out", "--jobs", jobs)
+                self.assertEqual(status, 1, err)
+                self.assertIn("p_wrong: ", err)
+                self.assertIn("thickness", err)
+                self.assertRegex(err, r"p_far: step 2 \(from F22 = 0.999900, .*\) failed")
+                self.check_files(out)
+                wrong, far, right = self.table("p_cases.csv")
+                self.assertIn("thickness", wrong["end"])
+                self.assertEqual((far["steps[-]"], right["steps[-]"]), ("1", "3"))
+                self.assertIn("failed", far["end"])
+                self.assertEqual(right["end"], "done")
+                # What the step that failed took is in the sum.
+                self.assertEqual(far["evaluations[-]"], "2")
+                self.assertRegex(out, r"p_far: 1 steps, .* 3 evaluations, .* 1 cuts")
+                self.assertEqual(len(self.table("p_right.csv")), 4)
+
+    def test_wrong_cases_alone_are_wrong_input(self):
+        scene = self.place.write("p.toml", PERIODIC + POINT.format(steps=1, stretch=0.9999)
+                                 + '[[case]]\nname = "wrong"\nmaterial = { thickness = -1 }\n'
+                                 + '[[case]]\nname = "right"\n')
+        status, _, err = self.place.run("point", scene, "--output", "out")
+        self.assertEqual(status, 2, err)
+
+    def test_without_gnuplot_no_picture_is_named(self):
+        self.without_gnuplot()
+        self.place.write("p.toml", PERIODIC + POINT.format(steps=1, stretch=0.9999))
+        self.place.write("s.toml", "steps = 1\n" + PERIODIC + SOLVE.format(value=-1e-5))
+        self.place.write("d.toml", DNS.format(steps=1))
+        self.place.write("w.toml", WAVE.format(repeat=3, duration=1e-4))
+        self.place.write("r.toml", LATTICE)
+        for command, scene in (("point", "p"), ("solve", "s"), ("dns", "d"), ("wave", "w"),
+                               ("pack", "r")):
+            status, out, err = self.place.run(command, scene + ".toml", "--output", "out")
+            self.assertEqual(status, 0, err)
+            self.assertIn("gnuplot was not found", err)
+            self.assertNotIn(".svg", out)
+            self.check_files(out)
+
+    def test_stopped_point(self):
+        scene = self.place.write("p.toml", "pictures = [0.0]\n" + PERIODIC
+                                 + POINT.format(steps=20000, stretch=0.9999)
+                                 + '[[case]]\nname = "a"\n[[case]]\nname = "b"\n')
+        out, err = self.stop("p_a.csv", 3, "point", scene)
+        self.check_files(out)
+        done = len(self.table("p_a.csv")) - 1
+        self.assertRegex(out, rf"p_a: {done} steps, .* s of CPU\n  ended: stopped by Ctrl-C \(SIGINT\) "
+                              rf"after step {done} of 20000\n")
+        self.assertIn("once more ends it at once", err)
+        first, second = self.table("p_cases.csv")
+        self.assertIn("stopped by Ctrl-C", first["end"])
+        self.assertIn("stopped by Ctrl-C", second["end"])
+        self.assertEqual(second["steps[-]"], "0")
+
+    def test_left_point(self):
+        scene = self.place.write("p.toml", PERIODIC + POINT.format(steps=20, stretch=0.9999))
+        status, out, _ = self.place.run("point", scene, "--output", "out", "--steps", "2")
+        self.assertEqual(status, 0)
+        self.assertIn("ended: left after step 2 of 20 as asked", out)
+
+    def test_stopped_solve(self):
+        scene = self.place.write("s.toml", "steps = 20000\n" + PERIODIC + SOLVE.format(value=-1e-5))
+        out, _ = self.stop("s.csv", 3, "solve", scene, number=signal.SIGTERM)
+        self.check_files(out)
+        done = len(self.table("s.csv")) - 1
+        self.assertIn(f"ended after step {done} of 20000 as asked; go on with\n  grainlaw solve", out)
+        self.assertRegex(out, rf"s: {done} steps, ")
+        self.assertIn("core-seconds", out)
+
+    def test_failed_solve(self):
+        scene = self.place.write("s.toml", "steps = 2\n[newton]\nmax_cuts = 2\n" + PERIODIC
+                                 + SOLVE.format(value=-2e-5).replace(
+                                     "value = -2e-05", "path = [[0, 0], [0.5, -1e-5], [1, -0.9]]"))
+        status, out, err = self.place.run("solve", scene, "--output", "out")
+        self.assertEqual(status, 1, out)
+        self.assertRegex(err, r"s.toml: load step 2 failed")
+        self.check_files(out)
+        self.assertEqual([row["step[-]"] for row in self.table("s.csv")], ["0", "1"])
+        costs = self.table("s_cost.csv")
+        self.assertEqual([row["step[-]"] for row in costs], ["0", "1", "2"])
+        self.assertGreater(int(costs[2]["evaluations[-]"]), 0)
+        self.assertGreater(int(costs[2]["cuts[-]"]), 0)
+        evaluations = sum(int(row["evaluations[-]"]) for row in costs)
+        self.assertIn(f" {evaluations} evaluations", out)
+
+    def test_failed_start_of_solve(self):
+        scene = self.place.write("s.toml", "steps = 2\n" + PERIODIC
+                                 + SOLVE.format(value=-2e-5).replace("100e3", "1e12"))
+        status, out, err = self.place.run("solve", scene, "--output", "out")
+        self.assertEqual(status, 1, out)
+        self.assertIn("core-seconds", out)
+        self.assertNotIn(".svg", out)
+        self.check_files(out)
+
+    def test_stopped_and_failed_dns(self):
+        scene = self.place.write("d.toml", DNS.format(steps=5000))
+        out, _ = self.stop("d.csv", 3, "dns", scene)
+        self.check_files(out)
+        self.assertRegex(out, r"s of CPU, .* s elapsed\n  ended: stopped by Ctrl-C \(SIGINT\) after step")
+        scene = self.place.write("d.toml", DNS.format(steps=1) + "[[case]]\nname = 'far'\nmax_cuts = 0\n"
+                                 "[[case.segment]]\nsteps = 1\nF12 = 2.0\n[[case]]\nname = 'right'\n")
+        status, out, err = self.place.run("dns", scene, "--output", "out")
+        self.assertEqual(status, 1)
+        self.assertRegex(err, r"d_far: step 1 .* failed")
+        self.assertRegex(out, r"d_right: .* 1 of 1 steps")
+        self.check_files(out)
+
+    def test_stopped_wave(self):
+        scene = self.place.write("w.toml", WAVE.format(repeat=40, duration=1.0)
+                                 + "[[case]]\nname = 'a'\n[[case]]\nname = 'b'\n")
+        process = self.place.start("wave", scene, "--output", "out")
+        while not (self.place.path / "out").exists() and process.poll() is None:
+            time.sleep(0.005)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 130, err)
+        self.assertRegex(out, r"w_a: particles, .* core-seconds\n  ended after .* ms: stopped by Ctrl-C")
+        self.check_files(out)
+
+    def test_a_seed_that_fails_is_told_and_counted(self):
+        recipe = self.place.write("r.toml", """
+dimension = 2
+thickness = 1e-3
+packing = { generator = "compaction", count = 30, radii = [1e-3, 2e-3], seed = 1, pressure = 1e5, friction = 0.3 }
+contact = { law = "frictional", kn = 1e6, ratio = 0.8, friction = 0.5 }
+boundary = { type = "frame-p" }
+""")
+        status, out, err = self.place.run("pack", recipe, "--output", "out", "--seeds", "12")
+        told = [line for line in out.splitlines()[1:] if not re.match(r"^ *\d+( +[\d.]+)+$", line)]
+        if told:
+            self.assertEqual(status, 1, out + err)
+            self.assertIn(f"{len(told)} of 12 seeds", err)
+        else:
+            self.assertEqual(status, 0, out + err)
+
+
+if __name__ == "__main__":
+    unittest.main()
