@@ -215,10 +215,24 @@ class Builder {
       return side.x != side.y || side.row == SideRow::rigid;
     };
     if (!space_.finds_deformation && std::none_of(sides_.begin(), sides_.end(), differs)) return;
-    space_.reference = packing_.position;
+    space_.reference = undeformed(packing_);
     space_.offset.assign(2 * packing_.size(), 0.0);
     for (std::size_t k = 0; k < 4; ++k) {
       if (sides_[k].row == SideRow::rigid) straighten(k);
+    }
+    if (!frame_.reference.empty()) carry_along(frame_.deformation);
+  }
+
+  // From where a deformed packing counts its fluctuations to here; discs keep off their row as then.
+  void carry_along(const std::array<double, 4>& f) {
+    const auto n = packing_.size();
+    double* x = space_.reference.data();
+    double* y = x + n;
+    for (std::size_t p = 0; p < n; ++p) {
+      const double a = x[p];
+      const double b = y[p];
+      x[p] = f[0] * a + f[1] * b;
+      y[p] = f[2] * a + f[3] * b;
     }
   }
 
@@ -231,7 +245,7 @@ class Builder {
     const std::size_t end = side < 3 ? corner[side + 1] : count;
     const auto at = [&](std::size_t place) {
       const auto p = static_cast<std::size_t>(frame_.boundary[place % count]);
-      return std::array{packing_.position[p], packing_.position[n + p]};
+      return std::array{undeformed(packing_)[p], undeformed(packing_)[n + p]};
     };
     const auto a = at(corner[side]);
     const auto b = at(end);

@@ -76,9 +76,13 @@ void check_given_forces(const Material& material) {
     const double lx = packing.position[j] - packing.position[i] + h[0] * s0 + h[1] * s1;
     const double ly = packing.position[n + j] - packing.position[n + i] + h[2] * s0 + h[3] * s1;
     const double overlap = packing.radius[i] + packing.radius[j] - std::hypot(lx, ly);
-    given += std::max(contact.normal_force, 0.0);
+    const bool pulls = contact.bonded && material.law.bonds();
+    const auto carried = [&](double value) {
+      return pulls ? std::abs(value) : std::max(value, 0.0);
+    };
+    given += carried(contact.normal_force);
     found += material.law.normal_force(packing.radius[i], packing.radius[j],
-                                       std::max(overlap + contact.bond_gap, 0.0));
+                                       carried(overlap + contact.bond_gap));
   }
   if (given > 0 && std::abs(found - given) > tolerance * given) {
     throw Error(
