@@ -4,6 +4,7 @@
 #include "app/history.hpp"
 #include "app/progress.hpp"
 #include "app/snapshot.hpp"
+#include "point/start.hpp"
 
 #include <fmt/format.h>
 
@@ -89,7 +90,11 @@ PointEnd run_point(const PointScene& scene, const std::filesystem::path& stem) {
   double start = cpu_seconds();
   PointDriver driver(material, scene.options);
   end.cpu += cpu_seconds() - start;
-  end.particles = static_cast<int>(take_snapshot(driver.state(), stem.string() + "_state").size());
+  PackingStart begin = look_at_start(driver.state(), scene.material, stem.string() + "_state");
+  for (std::string& text : far_targets(begin, scene.segments))
+    begin.unusual.push_back(std::move(text));
+  warn(scene.name, begin);
+  end.particles = begin.particles;
   history.add(driver.record());
   observer.see(driver.state(), driver.record());
 
@@ -116,7 +121,8 @@ PointEnd run_point(const PointScene& scene, const std::filesystem::path& stem) {
     for (const Segment& segment : scene.segments) driver.run(segment, observe, observe_cut);
   } catch (const StepError& error) {
     end.status = error.status;
-    end.text = error.what();
+    end.text = error.what() + why_at_start(begin, driver.record().step,
+                                           smaller_steps(begin, scene.segments.front()));
   }
   end.cpu += cpu_seconds() - start;
   end.steps = driver.record().step;
