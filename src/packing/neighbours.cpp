@@ -217,8 +217,8 @@ void NeighbourSearch::find(std::size_t n, const double* position, const double* 
 void NeighbourSearch::add_larger(const Grid& grid, std::size_t n, const double* position,
                                  const double* radius, const double* cell, double gap,
                                  std::vector<NeighbourPair>& pairs) {
+  const std::size_t in_bins = pairs.size();
   large_.clear();
-  across_.clear();
   for (std::size_t i = 0; i < n; ++i)
     if (!(radius[i] <= grid.binned)) large_.push_back(static_cast<std::int32_t>(i));
   for (const std::int32_t i : large_) {
@@ -238,7 +238,7 @@ void NeighbourSearch::add_larger(const Grid& grid, std::size_t n, const double* 
           std::swap(pair.i, pair.j);
           for (std::int16_t& shift : pair.shift) shift = static_cast<std::int16_t>(-shift);
         }
-        across_.push_back(pair);
+        pairs.push_back(pair);
       }
     }
   }
@@ -251,20 +251,16 @@ void NeighbourSearch::add_larger(const Grid& grid, std::size_t n, const double* 
   if (among_large_.empty()) among_large_.resize(1);
   among_large_.front().find(large_.size(), large_position_.data(), large_radius_.data(), cell, gap,
                             large_pairs_);
-  // Of those found above and here, one list in order.
+  for (const NeighbourPair& pair : large_pairs_)
+    pairs.push_back({large_[static_cast<std::size_t>(pair.i)],
+                     large_[static_cast<std::size_t>(pair.j)], pair.shift});
+  // Those of the rest are in order.
   const auto before = [](const NeighbourPair& a, const NeighbourPair& b) {
     return std::tie(a.i, a.j, a.shift) < std::tie(b.i, b.j, b.shift);
   };
-  for (NeighbourPair& pair : large_pairs_) {
-    pair.i = large_[static_cast<std::size_t>(pair.i)];
-    pair.j = large_[static_cast<std::size_t>(pair.j)];
-  }
-  large_pairs_.insert(large_pairs_.end(), across_.begin(), across_.end());
-  std::sort(large_pairs_.begin(), large_pairs_.end(), before);
-  across_.swap(pairs);
-  resize_with_room(pairs, across_.size() + large_pairs_.size());
-  std::merge(across_.begin(), across_.end(), large_pairs_.begin(), large_pairs_.end(),
-             pairs.begin(), before);
+  const auto middle = pairs.begin() + static_cast<std::ptrdiff_t>(in_bins);
+  std::sort(middle, pairs.end(), before);
+  std::inplace_merge(pairs.begin(), middle, pairs.end(), before);
 }
 
 }  // namespace grainlaw

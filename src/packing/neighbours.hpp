@@ -59,8 +59,8 @@ class NeighbourSearch {
   std::vector<std::uint64_t> hit_;
   std::vector<std::int32_t> large_;  // particles that are not in bins
   std::vector<double> large_position_, large_radius_;
-  std::vector<NeighbourPair> across_, large_pairs_;  // of one large disc, of two
-  std::vector<NeighbourSearch> among_large_;         // one, where there are any
+  std::vector<NeighbourPair> large_pairs_;
+  std::vector<NeighbourSearch> among_large_;  // one, where there are any
 };
 
 }  // namespace grainlaw

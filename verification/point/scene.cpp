@@ -2,6 +2,7 @@
 
 #include "app/cases.hpp"
 #include "app/history.hpp"
+#include "point/start.hpp"
 
 #include <algorithm>
 
