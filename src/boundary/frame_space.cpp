@@ -70,10 +70,28 @@ class Builder {
                       "{} differ",
                       side_names[one], side_names[other]));
     }
-    if (!frame_.copies[one == left_side ? 0 : 1]) {
+    const std::size_t k = one == left_side ? 0 : 1;
+    if (!frame_.copies[k] || !are_copies_here(k)) {
       wrong(fmt::format("{} and {} are \"P\" or \"periodic\", but are not copies of each other",
                         side_names[one], side_names[other]));
     }
+  }
+
+  // Copies in its reference may have moved on their own since.
+  [[nodiscard]] bool are_copies_here(std::size_t k) const {
+    if (frame_.reference.empty()) return true;
+    const auto n = packing_.size();
+    const auto& x = packing_.position;
+    const auto& h = packing_.cell;
+    for (std::size_t q = 0; q < sides_of_.size(); ++q) {
+      if (frame_.partner[q] < 0) continue;
+      const auto a = static_cast<std::size_t>(frame_.partner[q]);
+      const auto b = static_cast<std::size_t>(frame_.boundary[q]);
+      if (frame_.offset[b][k] - frame_.offset[a][k] != 1) continue;
+      const double off = std::hypot(x[b] - x[a] - h[k], x[n + b] - x[n + a] - h[2 + k]);
+      if (!(off <= 1e-9 * std::hypot(h[k], h[2 + k]))) return false;
+    }
+    return true;
   }
 
   // Particles of sides that share become one node; nodes are numbered in order of appearance.
