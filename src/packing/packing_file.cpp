@@ -91,6 +91,9 @@ void shorten(CellFile& cell, Packing& packing) {
   constexpr double much_longer = 4;
   const Basis reduced = reduced_basis(cell.basis.cell);
   if (!(longest_vector(cell.basis.cell) > much_longer * longest_vector(reduced.cell))) return;
+  // Else a shift would leave the range of its products, as in a cell far thinner than any disc.
+  const auto in_range = [](std::int64_t n) { return std::abs(n) <= largest_written_shift; };
+  if (!std::ranges::all_of(reduced.change, in_range)) return;
   cell.basis = reduced;
   std::ranges::copy(reduced.cell, packing.cell.begin());
 }
