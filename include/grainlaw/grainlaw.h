@@ -262,10 +262,12 @@ GRAINLAW_API grainlaw_status grainlaw_state_measure(const grainlaw_state*, grain
 GRAINLAW_API grainlaw_status grainlaw_state_write_vtk(const grainlaw_state*, const char* path);
 
 /* Write the same state as a packing: prefix_particles.csv, prefix_contacts.csv (forces, moments and
- * bonds included) and prefix_cell.csv, which a material file reads back to the same equilibrium. All
- * three are whole and on the disk before the first replaces a file of its name. Errors: NULL_POINTER,
- * BAD_HANDLE, FILE_ERROR, BAD_PACKING (the boundary of a frame has crossed itself, or its sides are
- * copies no more). */
+ * bonds included) and prefix_cell.csv, which a material file with the same contacts and boundary
+ * reads back to the same equilibrium: its P at F = I is P F^T / det F of here. A frame that is
+ * deformed also gets reference_x, reference_y and F00 to F11, from where its conditions count. All
+ * three are whole and on the disk before the first replaces a file of its name.
+ * Errors: NULL_POINTER, BAD_HANDLE, FILE_ERROR, BAD_PACKING (nothing could start from it, and
+ * nothing is written). */
 GRAINLAW_API grainlaw_status grainlaw_state_write_packing(const grainlaw_state*,
                                                           const char* prefix);
 

@@ -70,10 +70,28 @@ class Builder {
                       "{} differ",
                       side_names[one], side_names[other]));
     }
-    if (!frame_.copies[one == left_side ? 0 : 1]) {
+    const std::size_t k = one == left_side ? 0 : 1;
+    if (!frame_.copies[k] || !are_copies_here(k)) {
       wrong(fmt::format("{} and {} are \"P\" or \"periodic\", but are not copies of each other",
                         side_names[one], side_names[other]));
     }
+  }
+
+  // Copies in its reference may have moved on their own since.
+  [[nodiscard]] bool are_copies_here(std::size_t k) const {
+    if (frame_.reference.empty()) return true;
+    const auto n = packing_.size();
+    const auto& x = packing_.position;
+    const auto& h = packing_.cell;
+    for (std::size_t q = 0; q < sides_of_.size(); ++q) {
+      if (frame_.partner[q] < 0) continue;
+      const auto a = static_cast<std::size_t>(frame_.partner[q]);
+      const auto b = static_cast<std::size_t>(frame_.boundary[q]);
+      if (frame_.offset[b][k] - frame_.offset[a][k] != 1) continue;
+      const double off = std::hypot(x[b] - x[a] - h[k], x[n + b] - x[n + a] - h[2 + k]);
+      if (!(off <= 1e-9 * std::hypot(h[k], h[2 + k]))) return false;
+    }
+    return true;
   }
 
   // Particles of sides that share become one node; nodes are numbered in order of appearance.
@@ -215,10 +233,24 @@ class Builder {
       return side.x != side.y || side.row == SideRow::rigid;
     };
     if (!space_.finds_deformation && std::none_of(sides_.begin(), sides_.end(), differs)) return;
-    space_.reference = packing_.position;
+    space_.reference = undeformed(packing_);
     space_.offset.assign(2 * packing_.size(), 0.0);
     for (std::size_t k = 0; k < 4; ++k) {
       if (sides_[k].row == SideRow::rigid) straighten(k);
+    }
+    if (!frame_.reference.empty()) carry_along(frame_.deformation);
+  }
+
+  // From where a deformed packing counts its fluctuations to here; discs keep off their row as then.
+  void carry_along(const std::array<double, 4>& f) {
+    const auto n = packing_.size();
+    double* x = space_.reference.data();
+    double* y = x + n;
+    for (std::size_t p = 0; p < n; ++p) {
+      const double a = x[p];
+      const double b = y[p];
+      x[p] = f[0] * a + f[1] * b;
+      y[p] = f[2] * a + f[3] * b;
     }
   }
 
@@ -231,7 +263,7 @@ class Builder {
     const std::size_t end = side < 3 ? corner[side + 1] : count;
     const auto at = [&](std::size_t place) {
       const auto p = static_cast<std::size_t>(frame_.boundary[place % count]);
-      return std::array{packing_.position[p], packing_.position[n + p]};
+      return std::array{undeformed(packing_)[p], undeformed(packing_)[n + p]};
     };
     const auto a = at(corner[side]);
     const auto b = at(end);

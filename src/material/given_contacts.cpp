@@ -47,8 +47,7 @@ double mean_radius(const Packing& packing) {
 void add_bonds_and_moments(const Material& material, Configuration& given) {
   const auto& packing = material.packing;
   const auto& law = material.law;
-  const bool named = std::any_of(packing.contacts.begin(), packing.contacts.end(),
-                                 [](const auto& c) { return c.bonded.has_value(); });
+  const bool named = packing.names_bonds;
   struct Extra {
     double moment = 0, gap = 0;
   };
@@ -74,7 +73,7 @@ void add_bonds_and_moments(const Material& material, Configuration& given) {
     auto& [contact, extra] = found->second;
     extra.moment = c.moment;
     if (!named || !law.bonds()) continue;
-    contact.bonded = c.bonded.value_or(false);
+    contact.bonded = c.bonded;
     extra.gap = c.bond_gap;
   }
   const bool gaps =

@@ -76,9 +76,13 @@ void check_given_forces(const Material& material) {
     const double lx = packing.position[j] - packing.position[i] + h[0] * s0 + h[1] * s1;
     const double ly = packing.position[n + j] - packing.position[n + i] + h[2] * s0 + h[3] * s1;
     const double overlap = packing.radius[i] + packing.radius[j] - std::hypot(lx, ly);
-    given += std::max(contact.normal_force, 0.0);
+    const bool pulls = contact.bonded && material.law.bonds();
+    const auto carried = [&](double value) {
+      return pulls ? std::abs(value) : std::max(value, 0.0);
+    };
+    given += carried(contact.normal_force);
     found += material.law.normal_force(packing.radius[i], packing.radius[j],
-                                       std::max(overlap + contact.bond_gap, 0.0));
+                                       carried(overlap + contact.bond_gap));
   }
   if (given > 0 && std::abs(found - given) > tolerance * given) {
     throw Error(
@@ -96,6 +100,29 @@ double force_as_given(const Problem& problem, const Configuration& given, Worksp
   workspace.increment.begin(problem, given, {1, 0, 0, 1});
   workspace.increment.refresh_masses();
   return workspace.increment.mean_force;
+}
+
+double mean_radius(const Packing& packing) {
+  double sum = 0;
+  for (const double r : packing.radius) sum += r / static_cast<double>(packing.size());
+  return sum;
+}
+
+// What a packing without an equilibrium is like, and what to look at first.
+std::string unsettled(const Increment& increment) {
+  constexpr double soft = 30, stiff = 1e7;  // kn / p that are hardly meant
+  const Packing& packing = *increment.problem->packing;
+  const double r = mean_radius(packing);
+  const double kn = increment.problem->law->stiffness(r, r);
+  const auto stress = piola_stress(increment);
+  const double pressure = -0.5 * (stress[0] + stress[3]);
+  const double ratio = kn / (pressure * packing.thickness);
+  std::string text = fmt::format("mean pressure {:.3g} Pa, kn {:.3g} N/m", pressure, kn);
+  if (!(pressure > 0)) return text + ": it does not bear; expected a denser packing";
+  text += fmt::format(", kn/p {:.3g}", ratio);
+  if (ratio < soft) return text + ", soft: expected stiffer contacts or smaller overlaps";
+  if (ratio > stiff) return text + ", stiff: expected softer contacts or a packing under more load";
+  return text + "; expected a packing made with these contacts and friction, and its contacts file";
 }
 
 std::uint64_t fingerprint_of(const Material& material) {
@@ -207,12 +234,11 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
                                              let_go)));
   }
   if (outcome.status != GRAINLAW_OK) {
-    throw Error(outcome.status,
-                fmt::format("the packing found no equilibrium at F = I: residual "
-                            "{:.3g} after {} relaxation steps, expected {:.3g} in a packing that "
-                            "fills its cell or frame and bears",
-                            workspace.increment.residual_norm(),
-                            workspace.increment.relaxation_steps, request.tolerance));
+    throw Error(outcome.status, fmt::format("the packing found no equilibrium at F = I: residual "
+                                            "{:.3g} after {} relaxation steps, expected {:.3g}; {}",
+                                            workspace.increment.residual_norm(),
+                                            workspace.increment.relaxation_steps, request.tolerance,
+                                            unsettled(workspace.increment)));
   }
   const auto stress = free ? std::array<double, 4>{} : piola_stress(workspace.increment);
   workspace.increment.advance_history();

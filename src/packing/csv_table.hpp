@@ -24,10 +24,13 @@ namespace grainlaw {
 template <std::size_t columns>
 class CsvTable {
  public:
-  CsvTable(const std::string& path, const std::array<const char*, columns>& names)
+  // path is the file's name in messages.
+  CsvTable(const std::string& path, std::string_view text,
+           const std::array<const char*, columns>& names)
       : path_(path),
         names_(names),
-        content_(read(path)),
+        content_(checked(path, text)),
+        header_(first_line(content_)),
         reader_(path, content_.data(), content_.data() + content_.size()) {
     translate([&] {
       std::apply(
@@ -43,7 +46,8 @@ class CsvTable {
   // Columns first..last-1 must be there.
   void require(std::size_t first, std::size_t last) const {
     for (std::size_t k = first; k < last; ++k)
-      if (!has(k)) fail(fmt::format("the header has no column '{}'", names_[k]));
+      if (!has(k))
+        fail(fmt::format("the header has no column '{}'; found '{}'", names_[k], header_));
   }
 
   // Read the next line that is not blank; false at the end.
@@ -91,13 +95,22 @@ class CsvTable {
       io::CSVReader<columns, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
                     io::throw_on_overflow, io::empty_line_comment>;
 
-  // The whole file, ending in a line break: the reader looks one byte past the last line.
-  static std::string read(const std::string& path) {
-    std::string text = read_text(path);
+  // Ends in a line break: the reader looks one byte past the last line.
+  static std::string checked(const std::string& path, std::string_view found) {
+    std::string text(found);
     if (text.find('\0') != std::string::npos)
       throw Error(GRAINLAW_BAD_PACKING, fmt::format("{}: not a text file", path));
     if (!text.empty() && text.back() != '\n') text += '\n';
     return text;
+  }
+
+  // As much of it as a message has room for.
+  static std::string first_line(std::string_view text) {
+    constexpr std::size_t longest = 120;
+    std::string line(text.substr(0, text.find_first_of("\r\n")));
+    for (char& letter : line)
+      if (static_cast<unsigned char>(letter) < ' ') letter = ' ';
+    return line.size() > longest ? line.substr(0, longest) + "..." : line;
   }
 
   template <class T>
@@ -127,6 +140,7 @@ class CsvTable {
   std::array<const char*, columns> names_;
   std::array<const char*, columns> row_{};
   std::string content_;
+  std::string header_;  // for messages
   Reader reader_;
 };
 

@@ -22,7 +22,19 @@ namespace {
 
 Point centre(const Packing& packing, int particle) {
   const auto p = static_cast<std::size_t>(particle);
-  return {packing.position[p], packing.position[packing.size() + p]};
+  const auto& x = undeformed(packing);
+  return {x[p], x[packing.size() + p]};
+}
+
+double determinant(const std::array<double, 4>& f) { return f[0] * f[3] - f[1] * f[2]; }
+
+// F^-1 H
+std::array<double, 4> undeformed_cell(const Packing& packing) {
+  const auto& h = packing.cell;
+  const auto& f = packing.frame->deformation;
+  const double det = determinant(f);
+  return {(f[3] * h[0] - f[1] * h[2]) / det, (f[3] * h[1] - f[1] * h[3]) / det,
+          (f[0] * h[2] - f[2] * h[0]) / det, (f[0] * h[3] - f[2] * h[1]) / det};
 }
 
 // The boundary particle at place `upper` must be that at `lower`, shifted by lattice vector k.
@@ -31,7 +43,8 @@ void check_copy(const Packing& packing, std::size_t lower, std::size_t upper, st
   const int b = packing.frame->boundary[upper];
   const Point x = centre(packing, a);
   const Point y = centre(packing, b);
-  const Point vector = {packing.cell[k], packing.cell[2 + k]};
+  const auto cell = undeformed_cell(packing);
+  const Point vector = {cell[k], cell[2 + k]};
   const double error = std::hypot(y[0] - x[0] - vector[0], y[1] - x[1] - vector[1]);
   if (!(error <= 1e-9 * std::hypot(vector[0], vector[1])))
     wrong(
@@ -42,7 +55,7 @@ void check_copy(const Packing& packing, std::size_t lower, std::size_t upper, st
 }
 
 // Liu, Bosco & Suiker (2017) eq. 2, per unit thickness. Weighted by radii it averages to F only
-// when opposite sides are copies; halves do for any polygon.
+// when opposite sides are copies; halves do for any polygon. F carries areas along by its cofactors.
 void set_areas(const Packing& packing, Frame& frame) {
   const std::size_t count = frame.boundary.size();
   const auto share = [&](int q, int neighbour) {
@@ -62,7 +75,8 @@ void set_areas(const Packing& packing, Frame& frame) {
         share(q, before) * (x[0] - x_before[0]) + share(q, after) * (x_after[0] - x[0]);
     const double vy =
         share(q, before) * (x[1] - x_before[1]) + share(q, after) * (x_after[1] - x[1]);
-    frame.area[k] = {vy, -vx};
+    const auto& f = frame.deformation;
+    frame.area[k] = {f[3] * vy + f[2] * vx, -f[1] * vy - f[0] * vx};
   }
 }
 
@@ -142,10 +156,14 @@ void complete_frame(Packing& packing) {
   set_sources(packing.size(), frame);
 }
 
+const std::vector<double>& undeformed(const Packing& packing) {
+  return packing.frame->reference.empty() ? packing.position : packing.frame->reference;
+}
+
 double polygon_area(const Packing& packing) {
   std::vector<Point> polygon;
   for (const int q : packing.frame->boundary) polygon.push_back(centre(packing, q));
-  return signed_area(polygon);
+  return determinant(packing.frame->deformation) * signed_area(polygon);
 }
 
 }  // namespace grainlaw

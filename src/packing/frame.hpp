@@ -20,10 +20,14 @@ namespace grainlaw {
 Packing cut_frame(const Packing& periodic, double largest_gap = 0.35);
 
 // Fill partner, area, source, offset and extent of packing.frame from its boundary, corners and
-// which of its sides are copies. Throws Error (BAD_PACKING) when these do not make a frame:
-// anticlockwise from corner 0, a polygon that does not cross itself; and of copies, opposite sides
-// shifted by the lattice vectors of `cell` (to 1e-9 of the frame's length) with equal radii.
+// which of its sides are copies. Throws Error (BAD_PACKING) when these do not make a frame, as it
+// is in its reference: anticlockwise from corner 0, a polygon that does not cross itself; and of
+// copies, opposite sides shifted by the lattice vectors (to 1e-9 of the frame's length) with equal
+// radii.
 void complete_frame(Packing& packing);
+
+// Component-major positions in which the frame is undeformed: its reference, or the positions [m].
+const std::vector<double>& undeformed(const Packing& packing);
 
 // Where the corners stand in the boundary; the first is 0. Throws Error (BAD_PACKING).
 std::array<std::size_t, 4> corner_places(const Frame& frame);
@@ -47,7 +51,8 @@ inline int contact_copies(const Frame& frame, int i, int j, bool across = true, 
   return copies;
 }
 
-// Area of the polygon through the centres of the boundary particles, in order [m2].
+// Area of the polygon through the centres of the boundary particles, in order, as F carried it from
+// the frame's reference [m2].
 double polygon_area(const Packing& packing);
 
 }  // namespace grainlaw

@@ -170,6 +170,7 @@ Packing assemble(const Packing& periodic, const Wrapped& wrapped, const ChainGra
   packing.thickness = periodic.thickness;
   packing.density = periodic.density;
   packing.cell = periodic.cell;
+  packing.names_bonds = periodic.names_bonds;
   packing.position.resize(2 * sites.size());
   for (std::size_t q = 0; q < sites.size(); ++q) {
     const Point x = graph.place(sites[q]);

@@ -17,7 +17,9 @@ struct NeighbourPair {
 };
 
 // Neighbour search of discs in O(n): bins in the fractional coordinates of the cell, padded with
-// images, so that all candidates of a particle lie in a few contiguous runs.
+// images, so that all candidates of a particle lie in a few contiguous runs. A few discs far larger
+// than the rest are kept out of the bins, which they would make as wide as themselves: each looks for
+// the others from where it is, and they are a search of their own among themselves.
 class NeighbourSearch {
  public:
   // All pairs with |x_j - x_i + H shift| < R_i + R_j + gap, each once, ordered by (i, j, shift)
@@ -35,9 +37,11 @@ class NeighbourSearch {
 
  private:
   struct Grid;
-  Grid make_grid(std::size_t n, const double* position, const double* radius, const double* cell,
-                 double gap) const;
+  Grid make_grid(std::size_t n, const double* position, double binned, double largest,
+                 const double* cell, double gap) const;
   void fill_bins(const Grid& grid, std::size_t n, const double* position, const double* radius);
+  void add_larger(const Grid& grid, std::size_t n, const double* position, const double* radius,
+                  const double* cell, double gap, std::vector<NeighbourPair>& pairs);
 
   // A particle or an image of one. The key orders by (particle, shift) as one integer.
   struct Entry {
@@ -53,6 +57,10 @@ class NeighbourSearch {
   std::vector<std::uint32_t> bin_end_;
   std::vector<Entry> entry_;
   std::vector<std::uint64_t> hit_;
+  std::vector<std::int32_t> large_;  // particles that are not in bins
+  std::vector<double> large_position_, large_radius_;
+  std::vector<NeighbourPair> large_pairs_;
+  std::vector<NeighbourSearch> among_large_;  // one, where there are any
 };
 
 }  // namespace grainlaw

@@ -17,9 +17,9 @@ struct InitialContact {
   std::array<int, 3> shift{};
   double normal_force = 0;
   std::array<double, 3> tangential_force{};
-  double moment = 0;             // of rolling or bending, on j [N m]
-  std::optional<bool> bonded{};  // when nothing is said, a law with bonds bonds what touches
-  double bond_gap = 0;           // stress-free branch of the bond - (R_i + R_j) [m]
+  double moment = 0;    // of rolling or bending, on j [N m]
+  bool bonded = false;  // where the packing names its bonds
+  double bond_gap = 0;  // stress-free branch of the bond - (R_i + R_j) [m]
 };
 
 // A packing cut out along chains of particles (Liu, Bosco & Suiker 2017, section 2.1). The boundary
@@ -31,6 +31,10 @@ struct Frame {
   std::array<int, 4> corner{};              // anticlockwise; of copies, images of each other
   std::vector<int> partner;                 // [boundary.size()] opposite copy; -1 for corners
   std::vector<std::array<double, 2>> area;  // A_q of eq. 2 per boundary particle [m], per unit t
+  // Of a packing that was written deformed: where its boundary conditions count from. Fluctuations
+  // are relative to F X, copies are copies in X, and A_q is that of X, carried along.
+  std::vector<double> reference;                   // X as `position`; empty: the positions [m]
+  std::array<double, 4> deformation{1, 0, 0, 1};  // F from X to here, det F > 0
   // Per particle: which particle of the periodic packing it is, numbered in order of appearance;
   // how many lattice vectors lie between that one's first copy and this one, 0 or 1 each; the same
   // for its last copy, so that the copies of a particle fill the lattice points 0..extent.
@@ -47,6 +51,7 @@ struct Packing {
   std::vector<double> position;  // component-major: position[c * size + p] [m], not wrapped
   std::vector<double> radius;    // [m]
   std::vector<InitialContact> contacts;
+  bool names_bonds = false;         // else a law with bonds bonds what touches
   std::vector<std::int32_t> order;  // row_order(); empty: as numbered
   std::optional<Frame> frame;       // when set, there are no images and `cell` is the frame's
 

@@ -3,6 +3,8 @@
 #include "error.hpp"
 #include "packing/csv_table.hpp"
 #include "packing/frame.hpp"
+#include "packing/frame_rows.hpp"
+#include "packing/lattice.hpp"
 #include "packing/neighbours.hpp"
 #include "packing/text_file.hpp"
 
@@ -13,7 +15,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <unordered_map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -22,34 +24,80 @@ namespace grainlaw {
 namespace {
 
 constexpr std::int64_t largest_shift = 32767;
-constexpr std::int64_t no_partner = -1;
+constexpr std::int64_t largest_written_shift =
+    1'000'000'000;  // before it is one in shorter vectors
 
-using Ids = std::unordered_map<std::int64_t, int>;
+using Ids = ParticleIds;
 
-enum ParticleColumn : std::size_t { id, x, y, r, role, partner, frame_order };
+enum ParticleColumn : std::size_t {
+  id,
+  x,
+  y,
+  r,
+  role,
+  partner,
+  frame_order,
+  reference_x,
+  reference_y
+};
 enum ContactColumn : std::size_t { i, j, shift_x, shift_y, fn, ftx, fty, moment, bonded, bond_gap };
-enum CellColumn : std::size_t { h00, h01, h10, h11, thickness, rho };
+enum CellColumn : std::size_t { h00, h01, h10, h11, thickness, rho, f00, f01, f10, f11 };
 
-void read_cell(const std::string& path, Packing& packing) {
-  CsvTable<6> table(path, {"H00", "H01", "H10", "H11", "thickness", "rho"});
+// One of the three files.
+struct Source {
+  std::string path;
+  std::string text;
+};
+
+struct CellFile {
+  Basis basis;                         // that shifts are counted in from here on
+  std::optional<Lattice> deformation;  // of a frame
+};
+
+CellFile read_cell(const Source& source, Packing& packing) {
+  constexpr double furthest_sheared =
+      1e6;  // beyond, sums with shifts lose the digits of an overlap
+  CsvTable<10> table(source.path, source.text,
+                     {"H00", "H01", "H10", "H11", "thickness", "rho", "F00", "F01", "F10", "F11"});
   table.require(h00, rho);
   if (!table.next()) table.fail("expected one line of numbers after the header");
-  packing.cell = {table.real(h00), table.real(h01), table.real(h10), table.real(h11)};
+  const Lattice h{table.real(h00), table.real(h01), table.real(h10), table.real(h11)};
+  packing.cell = {h[0], h[1], h[2], h[3]};
   packing.thickness = table.positive(thickness);
   if (table.has(rho)) packing.density = table.positive(rho);
-  const auto& h = packing.cell;
   const double area = h[0] * h[3] - h[1] * h[2];
   if (!(area > 0) || !std::isfinite(area))
     table.fail(fmt::format("found a cell of area {} m2, expected det H > 0", area));
+  if (const double times = longest_vector(h) / longest_vector(reduced_basis(h).cell);
+      !(times < furthest_sheared))
+    table.fail(
+        fmt::format("its vectors are {:.3g} times as long as others of the same lattice need "
+                    "to be, expected at most {:g}",
+                    times, furthest_sheared));
+  CellFile cell{{h}, {}};
+  if (table.has(f00)) {
+    table.require(f00, f11 + 1);
+    cell.deformation = {table.real(f00), table.real(f01), table.real(f10), table.real(f11)};
+    const auto& f = *cell.deformation;
+    if (const double det = f[0] * f[3] - f[1] * f[2]; !(det > 0) || !std::isfinite(det))
+      table.fail(fmt::format("found det F = {}, expected a number > 0", det));
+  }
   if (table.next()) table.fail("expected one line of numbers after the header, found another");
+  return cell;
 }
 
-// What the particle file says of the frame, before it is one.
-struct FrameRows {
-  std::map<std::int64_t, int> particle_at;  // frame_order -> particle
-  int corners = 0;
-  std::map<int, std::int64_t> partner_id;  // edge particle -> id
-};
+// A lattice that has much shorter vectors than those of its cell, as one sheared far, is kept in
+// the shortest: the others are many times wider than high. Others stay as they are, to the bit.
+void shorten(CellFile& cell, Packing& packing) {
+  constexpr double much_longer = 4;
+  const Basis reduced = reduced_basis(cell.basis.cell);
+  if (!(longest_vector(cell.basis.cell) > much_longer * longest_vector(reduced.cell))) return;
+  // Else a shift would leave the range of its products, as in a cell far thinner than any disc.
+  const auto in_range = [](std::int64_t n) { return std::abs(n) <= largest_written_shift; };
+  if (!std::ranges::all_of(reduced.change, in_range)) return;
+  cell.basis = reduced;
+  std::ranges::copy(reduced.cell, packing.cell.begin());
+}
 
 template <class Table>
 void read_frame_row(const Table& table, int particle, FrameRows& rows) {
@@ -62,86 +110,6 @@ void read_frame_row(const Table& table, int particle, FrameRows& rows) {
     ++rows.corners;
   } else {
     rows.partner_id.emplace(particle, table.integer(partner));
-  }
-}
-
-// A hole in the chain lets the smallest particle through.
-void check_holes(const Packing& packing) {
-  const auto& boundary = packing.frame->boundary;
-  const std::size_t n = packing.size();
-  const double smallest = *std::min_element(packing.radius.begin(), packing.radius.end());
-  for (std::size_t q = 0; q < boundary.size(); ++q) {
-    const auto a = static_cast<std::size_t>(boundary[q]);
-    const auto b = static_cast<std::size_t>(boundary[(q + 1) % boundary.size()]);
-    const double gap = std::hypot(packing.position[b] - packing.position[a],
-                                  packing.position[n + b] - packing.position[n + a]) -
-                       packing.radius[a] - packing.radius[b];
-    if (!(gap < 2 * smallest))
-      throw Error(GRAINLAW_BAD_PACKING,
-                  fmt::format("frame: the boundary has a hole of {} m after frame_order {}, which "
-                              "lets particles of radius {} m through; expected neighbours in the "
-                              "boundary to be near-contacts",
-                              gap, q, smallest));
-  }
-}
-
-// Opposite sides are copies when their edges name partners; sides without an edge do as the others.
-void find_copies(const FrameRows& rows, Frame& frame) {
-  const auto corner = corner_places(frame);
-  const auto given = [&](std::size_t side) {
-    const std::size_t end = side < 3 ? corner[side + 1] : frame.boundary.size();
-    int partners = 0;
-    for (std::size_t q = corner[side] + 1; q < end; ++q)
-      partners += rows.partner_id.at(frame.boundary[q]) != no_partner ? 1 : 0;
-    return std::pair(static_cast<int>(end - corner[side]) - 1, partners);
-  };
-  std::array<int, 2> edges{}, partners{};  // of left and right, bottom and top
-  for (std::size_t side = 0; side < 4; ++side) {
-    const auto [count, named] = given(side);
-    edges[(side + 1) % 2] += count;
-    partners[(side + 1) % 2] += named;
-  }
-  for (std::size_t k = 0; k < 2; ++k) {
-    const std::size_t by = edges[k] > 0 ? k : 1 - k;
-    frame.copies[k] = edges[by] == 0 || partners[by] > 0;
-  }
-}
-
-void build_frame(const std::string& path, const FrameRows& rows, const Ids& ids, Packing& packing) {
-  const auto wrong = [&](const std::string& message) {
-    throw Error(GRAINLAW_BAD_PACKING, fmt::format("{}: {}", path, message));
-  };
-  if (rows.corners != 4)
-    wrong(fmt::format("found {} particles of role 'corner', expected 4", rows.corners));
-  std::int64_t place = 0;
-  for (const auto& [order, particle] : rows.particle_at)
-    if (order != place++)
-      wrong(fmt::format("frame_order has no {}, expected 0 to {} without a gap", place - 1,
-                        rows.particle_at.size() - 1));
-  Frame frame;
-  std::size_t corners = 0;
-  for (const auto& [order, particle] : rows.particle_at) {
-    frame.boundary.push_back(particle);
-    if (!rows.partner_id.contains(particle)) frame.corner[corners++] = particle;
-  }
-  packing.frame = std::move(frame);
-  try {
-    check_holes(packing);
-    find_copies(rows, *packing.frame);
-    complete_frame(packing);
-  } catch (const Error& error) {
-    wrong(error.what());
-  }
-  for (std::size_t q = 0; q < packing.frame->boundary.size(); ++q) {
-    const auto given = rows.partner_id.find(packing.frame->boundary[q]);
-    if (given == rows.partner_id.end()) continue;
-    const auto found = ids.find(given->second);
-    const int partner = found == ids.end() ? -1 : found->second;
-    const bool none = packing.frame->partner[q] < 0;
-    if (none ? given->second != no_partner : partner != packing.frame->partner[q])
-      wrong(fmt::format("the particle at frame_order {} has partner {}, expected its opposite copy "
-                        "(or -1 on both sides that are no copies)",
-                        q, given->second));
   }
 }
 
@@ -165,13 +133,23 @@ void check_place(const Table& table, const Packing& packing, double y_first, dou
                            furthest_apart));
 }
 
-Ids read_particles(const std::string& path, Packing& packing) {
-  CsvTable<7> table(path, {"id", "x", "y", "r", "role", "partner", "frame_order"});
+Ids read_particles(const Source& source, CellFile& cell, Packing& packing) {
+  CsvTable<9> table(
+      source.path, source.text,
+      {"id", "x", "y", "r", "role", "partner", "frame_order", "reference_x", "reference_y"});
   const bool framed = table.has(role) || table.has(partner) || table.has(frame_order);
   table.require(id, framed ? frame_order + 1 : role);
+  const bool deformed = framed && table.has(reference_x);
+  if (deformed) table.require(reference_x, reference_y + 1);
+  if (deformed != (framed && cell.deformation))
+    table.fail(
+        "found only one of reference_x, reference_y here and F00 to F11 of the cell, expected "
+        "both or none");
+  if (!framed) shorten(cell, packing);
   Ids ids;
-  std::vector<double> ys;
-  FrameRows frame;
+  std::vector<double> ys, reference_ys;
+  FrameRows rows;
+  Frame frame;
   while (table.next()) {
     const auto particle = static_cast<int>(packing.radius.size());
     if (!ids.emplace(table.integer(id), particle).second)
@@ -180,11 +158,16 @@ Ids read_particles(const std::string& path, Packing& packing) {
     ys.push_back(table.real(y));
     check_place(table, packing, ys.front(), ys.back());
     packing.radius.push_back(table.positive(r));
-    if (framed) read_frame_row(table, particle, frame);
+    if (framed) read_frame_row(table, particle, rows);
+    if (!deformed) continue;
+    frame.reference.push_back(table.real(reference_x));
+    reference_ys.push_back(table.real(reference_y));
   }
   if (ids.empty()) table.fail("found no particle");
   packing.position.insert(packing.position.end(), ys.begin(), ys.end());
-  if (framed) build_frame(path, frame, ids, packing);
+  frame.reference.insert(frame.reference.end(), reference_ys.begin(), reference_ys.end());
+  if (deformed) frame.deformation = *cell.deformation;
+  if (framed) build_frame(source.path, rows, ids, std::move(frame), packing);
   return ids;
 }
 
@@ -199,7 +182,12 @@ double branch_length(const Packing& packing, const InitialContact& contact) {
                     packing.position[n + b] - packing.position[n + a] + h[2] * s0 + h[3] * s1);
 }
 
-// Particles whose centres lie in one another are no packing, but lengths in different units.
+using Key = std::array<int, 4>;
+Key key_of(const InitialContact& c) { return {c.i, c.j, c.shift[0], c.shift[1]}; }
+
+// Particles whose centres lie in one another are no packing, but lengths in different units; unless
+// they are named as contacts, whose forces tell, or those of a boundary that was deformed, of which
+// a rigid row does not feel each other.
 void check_sizes(const std::string& path, const Ids& ids, const Packing& packing) {
   const auto id_of = [&](std::int32_t p) {
     return std::ranges::find(ids, p, &Ids::value_type::second)->first;
@@ -209,12 +197,15 @@ void check_sizes(const std::string& path, const Ids& ids, const Packing& packing
   };
   const auto& h = packing.cell;
   const double area = h[0] * h[3] - h[1] * h[2];
-  const double height = area / std::max(std::hypot(h[0], h[2]), std::hypot(h[1], h[3]));
+  const double height = area / longest_vector(reduced_basis({h[0], h[1], h[2], h[3]}).cell);
   const auto largest = std::ranges::max_element(packing.radius);
   if (!packing.frame && *largest > height)
     wrong(fmt::format("particle {} of radius {:g} m is larger than the cell, {:g} m high",
                       id_of(static_cast<std::int32_t>(largest - packing.radius.begin())), *largest,
                       height));
+  std::vector<char> in_row(packing.size(), 0);
+  if (packing.frame && !packing.frame->reference.empty())
+    for (const int p : packing.frame->boundary) in_row[static_cast<std::size_t>(p)] = 1;
   std::vector<NeighbourPair> pairs;
   const std::size_t n = packing.size();
   NeighbourSearch().find(n, packing.position.data(), packing.radius.data(),
@@ -222,37 +213,48 @@ void check_sizes(const std::string& path, const Ids& ids, const Packing& packing
   for (const NeighbourPair& pair : pairs) {
     const InitialContact contact{pair.i, pair.j, {pair.shift[0], pair.shift[1]}};
     const double length = branch_length(packing, contact);
-    const double r = packing.radius[static_cast<std::size_t>(pair.i)];
-    const double s = packing.radius[static_cast<std::size_t>(pair.j)];
-    if (length < std::max(r, s))
+    const auto i = static_cast<std::size_t>(pair.i);
+    const auto j = static_cast<std::size_t>(pair.j);
+    const double r = packing.radius[i];
+    const double s = packing.radius[j];
+    if (!(length < std::max(r, s)) || (in_row[i] && in_row[j])) continue;
+    if (!std::ranges::binary_search(packing.contacts, key_of(contact), {}, key_of))
       wrong(fmt::format("particles {} and {} of radii {:g} and {:g} m are {:g} m apart",
                         id_of(pair.i), id_of(pair.j), r, s, length));
   }
 }
 
-void read_contacts(const std::string& path, const Ids& ids, Packing& packing) {
-  CsvTable<10> table(path, {"i", "j", "shift_x", "shift_y", "fn", "ftx_on_j", "fty_on_j", "moment",
-                            "bonded", "bond_gap"});
+// Returns the line of each.
+std::vector<unsigned> read_contacts(const Source& source, const Ids& ids, const Basis& basis,
+                                    Packing& packing) {
+  CsvTable<10> table(source.path, source.text,
+                     {"i", "j", "shift_x", "shift_y", "fn", "ftx_on_j", "fty_on_j", "moment",
+                      "bonded", "bond_gap"});
   table.require(i, fty + 1);
+  packing.names_bonds = table.has(bonded);
   const auto particle = [&](std::size_t column) {
     const auto found = ids.find(table.integer(column));
     if (found == ids.end()) table.complain(column, "the id of a particle");
     return found->second;
   };
-  const auto shift = [&](std::size_t column) {
-    const std::int64_t value = table.integer(column);
-    if (value > largest_shift || value < -largest_shift) table.complain(column, "at most 32767 cells");
-    if (value != 0 && packing.frame) table.complain(column, "0, since a frame has no images");
-    return static_cast<int>(value);
+  const auto in_range = [&](std::size_t column, std::int64_t value, std::int64_t largest) {
+    if (value > largest || value < -largest) table.complain(column, "at most 32767 cells");
+    return value;
   };
-  using Key = std::array<int, 4>;
+  const auto written = [&](std::size_t column) {
+    const std::int64_t value = in_range(column, table.integer(column), largest_written_shift);
+    if (value != 0 && packing.frame) table.complain(column, "0, since a frame has no images");
+    return value;
+  };
+  const auto shift = [&]() -> std::array<int, 3> {
+    const auto [s0, s1] = basis.shift(written(shift_x), written(shift_y));
+    return {static_cast<int>(in_range(shift_x, s0, largest_shift)),
+            static_cast<int>(in_range(shift_y, s1, largest_shift))};
+  };
   std::map<Key, std::pair<unsigned, InitialContact>> contacts;
   while (table.next()) {
-    InitialContact contact{particle(i),
-                           particle(j),
-                           {shift(shift_x), shift(shift_y)},
-                           table.real(fn),
-                           {table.real(ftx), table.real(fty)}};
+    InitialContact contact{
+        particle(i), particle(j), shift(), table.real(fn), {table.real(ftx), table.real(fty)}};
     if (table.has(moment)) contact.moment = table.real(moment);
     if (table.has(bonded)) {
       if (const auto flag = table.integer(bonded); flag != 0 && flag != 1)
@@ -270,19 +272,31 @@ void read_contacts(const std::string& path, const Ids& ids, Packing& packing) {
     }
     if (contact.i == contact.j && contact.shift[0] == 0 && contact.shift[1] == 0)
       table.fail(fmt::format("a particle (id {}) in contact with itself", table.text(i)));
+    const auto [other, fresh] = contacts.emplace(key_of(contact), std::pair(table.line(), contact));
+    if (!fresh) table.fail(fmt::format("the contact of line {} again", other->second.first));
+  }
+  std::vector<unsigned> lines;
+  for (const auto& [key, value] : contacts) {
+    packing.contacts.push_back(value.second);
+    lines.push_back(value.first);
+  }
+  return lines;
+}
+
+// Bonds stretch as far as they hold: whether they do is seen by their forces.
+void check_branches(const std::string& path, const std::vector<unsigned>& lines,
+                    const Packing& packing) {
+  for (std::size_t c = 0; c < lines.size(); ++c) {
+    const InitialContact& contact = packing.contacts[c];
     const double reach = packing.radius[static_cast<std::size_t>(contact.i)] +
                          packing.radius[static_cast<std::size_t>(contact.j)];
     const double length = branch_length(packing, contact);
-    if (!(length < 1.5 * reach))
-      table.fail(
-          fmt::format("centres are {} m apart, radii add up to {} m: these do not touch; "
-                      "expected x_j - x_i + H shift to be the branch",
-                      length, reach));
-    const Key key = {contact.i, contact.j, contact.shift[0], contact.shift[1]};
-    const auto [other, fresh] = contacts.emplace(key, std::pair(table.line(), contact));
-    if (!fresh) table.fail(fmt::format("the contact of line {} again", other->second.first));
+    if (!contact.bonded && !(length < 1.5 * reach))
+      throw Error(GRAINLAW_BAD_PACKING,
+                  fmt::format("{}:{}: centres are {} m apart, radii add up to {} m: these do not "
+                              "touch; expected x_j - x_i + H shift to be the branch",
+                              path, lines[c], length, reach));
   }
-  for (const auto& [key, value] : contacts) packing.contacts.push_back(value.second);
 }
 
 // Per particle, the text of its columns role, partner and frame_order.
@@ -298,53 +312,85 @@ std::vector<std::string> frame_columns(const Packing& packing) {
   return text;
 }
 
-}  // namespace
-
-Packing read_packing(const PackingPaths& paths) {
-  Packing packing;
-  read_cell(paths.cell, packing);
-  const Ids ids = read_particles(paths.particles, packing);
-  check_sizes(paths.particles, ids, packing);
-  if (!paths.contacts.empty()) read_contacts(paths.contacts, ids, packing);
-  return packing;
-}
-
-void write_packing(const std::string& prefix, const Packing& packing) {
-  // fmt prints the shortest digits that read back to the same bits.
+// fmt prints the shortest digits that read back to the same bits.
+std::string particles_text(const Packing& packing) {
   const std::size_t n = packing.size();
+  const bool deformed = packing.frame && !packing.frame->reference.empty();
   const auto framed = packing.frame ? frame_columns(packing) : std::vector<std::string>(n);
   fmt::memory_buffer text;
   auto out = fmt::appender(text);
-  fmt::format_to(out, "id,x,y,r{}\n", packing.frame ? ",role,partner,frame_order" : "");
-  for (std::size_t p = 0; p < n; ++p)
-    fmt::format_to(out, "{},{},{},{}{}\n", p, packing.position[p], packing.position[n + p],
+  fmt::format_to(out, "id,x,y,r{}{}\n", packing.frame ? ",role,partner,frame_order" : "",
+                 deformed ? ",reference_x,reference_y" : "");
+  for (std::size_t p = 0; p < n; ++p) {
+    fmt::format_to(out, "{},{},{},{}{}", p, packing.position[p], packing.position[n + p],
                    packing.radius[p], framed[p]);
-  const std::string particles = fmt::to_string(text);
+    if (deformed)
+      fmt::format_to(out, ",{},{}", packing.frame->reference[p], packing.frame->reference[n + p]);
+    fmt::format_to(out, "\n");
+  }
+  return fmt::to_string(text);
+}
 
-  text.clear();
+std::string contacts_text(const Packing& packing) {
+  fmt::memory_buffer text;
+  auto out = fmt::appender(text);
   const auto& contacts = packing.contacts;
   const bool moments =
       std::any_of(contacts.begin(), contacts.end(), [](const auto& c) { return c.moment != 0; });
-  const bool bonds = std::any_of(contacts.begin(), contacts.end(),
-                                 [](const auto& c) { return c.bonded.has_value(); });
+  const bool bonds = packing.names_bonds;
   fmt::format_to(out, "i,j,shift_x,shift_y,fn,ftx_on_j,fty_on_j{}{}\n", moments ? ",moment" : "",
                  bonds ? ",bonded,bond_gap" : "");
   for (const InitialContact& c : contacts) {
     fmt::format_to(out, "{},{},{},{},{},{},{}", c.i, c.j, c.shift[0], c.shift[1], c.normal_force,
                    c.tangential_force[0], c.tangential_force[1]);
     if (moments) fmt::format_to(out, ",{}", c.moment);
-    if (bonds) fmt::format_to(out, ",{},{}", c.bonded.value_or(false) ? 1 : 0, c.bond_gap);
+    if (bonds) fmt::format_to(out, ",{},{}", c.bonded ? 1 : 0, c.bond_gap);
     fmt::format_to(out, "\n");
   }
-  const std::string touching = fmt::to_string(text);
+  return fmt::to_string(text);
+}
 
-  text.clear();
+std::string cell_text(const Packing& packing) {
   const auto& h = packing.cell;
-  fmt::format_to(out, "H00,H01,H10,H11,thickness,rho\n{},{},{},{},{},{}\n", h[0], h[1], h[2], h[3],
-                 packing.thickness, packing.density);
-  write_together(std::array<TextFile, 3>{{{prefix + "_particles.csv", particles},
-                                          {prefix + "_contacts.csv", touching},
-                                          {prefix + "_cell.csv", fmt::to_string(text)}}});
+  std::string header = "H00,H01,H10,H11,thickness,rho";
+  std::string line =
+      fmt::format("{},{},{},{},{},{}", h[0], h[1], h[2], h[3], packing.thickness, packing.density);
+  if (packing.frame && !packing.frame->reference.empty()) {
+    const auto& f = packing.frame->deformation;
+    header += ",F00,F01,F10,F11";
+    line += fmt::format(",{},{},{},{}", f[0], f[1], f[2], f[3]);
+  }
+  return header + "\n" + line + "\n";
+}
+
+// contacts without a path: none.
+Packing parse(const Source& particles, const Source& contacts, const Source& cell) {
+  Packing packing;
+  CellFile of_cell = read_cell(cell, packing);
+  const Ids ids = read_particles(particles, of_cell, packing);
+  std::vector<unsigned> lines;
+  if (!contacts.path.empty()) lines = read_contacts(contacts, ids, of_cell.basis, packing);
+  check_sizes(particles.path, ids, packing);
+  check_branches(contacts.path, lines, packing);
+  return packing;
+}
+
+}  // namespace
+
+Packing read_packing(const PackingPaths& paths) {
+  const auto source = [](const std::string& path) {
+    return Source{path, path.empty() ? "" : read_text(path)};
+  };
+  return parse(source(paths.particles), source(paths.contacts), source(paths.cell));
+}
+
+void write_packing(const std::string& prefix, const Packing& packing) {
+  const Source particles{prefix + "_particles.csv", particles_text(packing)};
+  const Source contacts{prefix + "_contacts.csv", contacts_text(packing)};
+  const Source cell{prefix + "_cell.csv", cell_text(packing)};
+  parse(particles, contacts, cell);  // what nothing could start from is refused here
+  write_together(std::array<TextFile, 3>{
+      {{particles.path, particles.text}, {contacts.path, contacts.text}, {cell.path, cell.text}}});
 }
 
 }  // namespace grainlaw

@@ -208,7 +208,7 @@ TEST(state, a_smaller_known_report_is_filled_to_its_size) {
 
 TEST(state, a_written_packing_starts_at_the_stress_it_was_written_with) {
   constexpr double tolerance = 1e-5 * 1e5;  // of the pressure [Pa]
-  for (const std::string boundary : {"periodic-cell", "frame-p"}) {
+  for (const std::string boundary : {"periodic-cell", "frame-p", "frame-d", "frame-t"}) {
     std::string text = read_text(material_path) + "[boundary]\ntype = \"" + boundary + "\"\n";
     State state(Material::parse(text, data_directory));
     stress(state, compressed);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <random>
 #include <vector>
@@ -120,6 +121,37 @@ TEST(neighbours, of_very_unequal_discs_are_found) {
   discs.radius[17] = 0.9;
   expect_as_brute_force(discs, square.data(), 0.01);
   expect_as_brute_force(discs, nullptr, 0.01);
+  for (const auto& cell : {square, sheared, sheared_back, rotated}) {
+    Discs steps = random_discs(200, cell, 0.01, 3, rng);
+    steps.radius[3] = 0.3;  // alone, a few, and some between them and the rest
+    for (const std::size_t p : {40, 41, 199}) steps.radius[p] = 0.1;
+    for (std::size_t p = 100; p < 130; ++p) steps.radius[p] = 0.03;
+    for (const double gap : {0.0, 0.02}) {
+      expect_as_brute_force(steps, cell.data(), gap);
+      expect_as_brute_force(steps, nullptr, gap);
+    }
+  }
+}
+
+// One disc of twenty radii among four thousand: no more than a few candidates for each of the rest.
+TEST(neighbours, of_one_large_disc_among_many_are_found_as_fast_as_without_it) {
+  std::mt19937_64 rng(7);
+  const auto seconds_of = [](const Discs& discs) {
+    NeighbourSearch search;
+    std::vector<NeighbourPair> pairs;
+    double best = 1e300;
+    for (int repeat = 0; repeat < 5; ++repeat) {
+      const auto start = std::clock();
+      search.find(discs.radius.size(), discs.position.data(), discs.radius.data(), square.data(),
+                  1e-3, pairs);
+      best = std::min(best, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+    }
+    return best;
+  };
+  Discs discs = random_discs(4000, square, 0.01, 0, rng);
+  const double without = seconds_of(discs);
+  discs.radius[17] = 0.2;
+  EXPECT_LT(seconds_of(discs), 10 * without + 1e-3);
 }
 
 TEST(neighbours, are_the_same_when_the_search_is_reused) {

@@ -185,7 +185,8 @@ TEST_F(packing_file, that_is_missing_or_not_writable_is_a_file_error) {
 TEST_F(packing_file, with_wrong_particles_is_refused) {
   expect_particles_refused("empty", "");
   expect_particles_refused("no particle", "id,x,y,r\n");
-  expect_particles_refused("p.csv:1: the header has no column 'y'", "id,x,r\n1,2,3\n");
+  expect_particles_refused("p.csv:1: the header has no column 'y'; found 'id,x,r'",
+                           "id,x,r\n1,2,3\n");
   expect_particles_refused("p.csv:2: column 'x': found 'abc'", "id,x,y,r\n7,abc,0,1\n");
   expect_particles_refused("found ''", "id,x,y,r\n7,,0,1\n");
   expect_particles_refused("found '1 2'", "id,x,y,r\n7,1 2,0,1\n");

@@ -93,7 +93,9 @@ void write_csv(const std::filesystem::path& path, const std::vector<std::string>
 
 const std::vector<double>& CsvTable::operator[](std::string_view name) const {
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw InputError(fmt::format("a table has no column {}", name));
+  if (found == names.end())
+    throw InputError(
+        fmt::format("a table has no column {}; found {}", name, fmt::join(names, ",")));
   return columns[static_cast<std::size_t>(found - names.begin())];
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -176,6 +177,19 @@ FramePacking read_frame(const std::string& prefix) {
     wrong(fmt::format("{} particles of the boundary without a partner", corners));
   const auto [c0, c1, c2, c3] = frame.corner;
   if (c1 - c0 != c3 - c2 || c2 - c1 != frame.boundary.size() - c3) wrong("sides that differ");
+  // Written under a boundary that holds no copies together, they are copies in their reference alone.
+  if (has_column(particles, "reference_x")) {
+    const auto& h = frame.cell;
+    for (const int p : frame.boundary) {
+      const int id = static_cast<int>(particles["partner"][static_cast<std::size_t>(p)]);
+      if (id < 0) continue;
+      const auto a = static_cast<std::size_t>(p), b = static_cast<std::size_t>(number.at(id));
+      const double dx = std::abs(frame.x[b] - frame.x[a]), dy = std::abs(frame.y[b] - frame.y[a]);
+      const double off = std::min(std::hypot(dx - std::abs(h[0]), dy - std::abs(h[2])),
+                                  std::hypot(dx - std::abs(h[1]), dy - std::abs(h[3])));
+      if (off > 1e-9 * (std::abs(h[0]) + std::abs(h[3]))) wrong("sides that moved on their own");
+    }
+  }
   const bool moments = has_column(contacts, "moment"), bonds = has_column(contacts, "bonded");
   for (std::size_t c = 0; c < contacts.rows(); ++c) {
     FrameContact contact;

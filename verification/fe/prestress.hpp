@@ -12,7 +12,7 @@ namespace verification {
 
 // [[prestress.segment]]: as the segments of `grainlaw point` (steps; F11, dF11, P11, sigma11, ...).
 // Empty without.
-std::vector<Segment> read_prestress(SceneTable& scene);
+std::vector<Segment> read_prestress(SceneTable& scene, const MaterialSource& material);
 
 // The material whose packing has been led there; its F = I is that state. All points of a specimen
 // under uniform stress are alike, so that one of them is led, once. Writes the packing to

@@ -6,6 +6,7 @@
 #include "app/progress.hpp"
 #include "app/text.hpp"
 #include "fe/output/run_output.hpp"
+#include "point/start.hpp"
 
 #include <fmt/format.h>
 
@@ -74,6 +75,8 @@ class Run {
     const Material material = make_material(
         scene_.prestress.empty() ? scene_.material
                                  : prestressed(scene_.material, scene_.prestress, stem_));
+    start_ = look_at_start(make_state(material).get(), scene_.material, stem_.string() + "_start");
+    warn(scene_.name, start_);
     if (scene_.cycle) cycle_.emplace(*scene_.cycle, scene_.model, 1.0 / scene_.steps);
     const bool found = std::filesystem::exists(checkpoint_);
     if (options.restart && found) {
@@ -120,7 +123,9 @@ class Run {
         finish(true);
       } catch (const std::exception&) {  // says no more than the error that is reported
       }
-      throw ComputationError(fmt::format("{}: {}", file_.string(), error.what()));
+      throw ComputationError(fmt::format(
+          "{}: {}{}", file_.string(), error.what(),
+          why_at_start(start_, std::max(done_, 0), "try more load steps or smaller loads")));
     } catch (const Interrupted&) {
       finish();
       throw;
@@ -192,6 +197,7 @@ class Run {
   std::optional<CycleControl> cycle_;
   std::optional<RunOutput> output_;
   Progress progress_;
+  PackingStart start_;
   int done_ = -1;  // last step that is done
   int cuts_ = 0;   // since then
 };

@@ -14,7 +14,7 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
   FiniteElementScene scene;
   scene.name = table.file_name_or("name", file.path.stem().string());
   scene.material = read_material_source(table);
-  scene.prestress = read_prestress(table);
+  scene.prestress = read_prestress(table, scene.material);
   scene.solver = read_solver(table);
   const double duration = scene.solver.duration();
   scene.threads = table.integer_or("threads", 0, 0);

@@ -27,8 +27,10 @@ struct Segment {
 };
 
 // [[segment]]: steps, and per component one of F11 (end value), dF11 (increment), P11, sigma11 (end
-// value, Pa, tension positive). A component that is not named keeps its F. Throws InputError.
-std::vector<Segment> read_segments(SceneTable& scene);
+// value, Pa, tension positive). A component that is not named keeps its F. Throws InputError, also for
+// what cannot be meant: half of the length or less, as when a strain stands for a stretch, and a
+// normal stress in tension unless the contacts carry it.
+std::vector<Segment> read_segments(SceneTable& scene, bool carries_tension);
 
 // Drained biaxial compression: F22 by `axial` (negative: compression), no shear, sigma11 =
 // `lateral`.

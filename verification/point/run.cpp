@@ -6,6 +6,7 @@
 #include "app/progress.hpp"
 #include "app/snapshot.hpp"
 #include "app/written.hpp"
+#include "point/start.hpp"
 
 #include <fmt/format.h>
 
@@ -30,10 +31,6 @@ class Observer {
                       std::vector<std::string>{"step[-]", "F12[-]", "normalised_overlap[-]",
                                                "mean_rotation_magnitude[rad]"});
     written.add("_particles.csv");
-  }
-
-  [[nodiscard]] int particles(const grainlaw_state* state) const {
-    return static_cast<int>(files_.take(state).size());
   }
 
   void see(const grainlaw_state* state, const Record& record) {
@@ -104,7 +101,11 @@ void run_point(const PointScene& scene, const std::filesystem::path& stem, Point
   start = cpu_seconds();
   PointDriver driver(material, scene.options);
   end.cpu += cpu_seconds() - start;
-  end.particles = observer.particles(driver.state());
+  PackingStart begin = look_at_start(driver.state(), scene.material, stem.string() + "_state");
+  for (std::string& text : far_targets(begin, scene.segments))
+    begin.unusual.push_back(std::move(text));
+  warn(scene.name, begin);
+  end.particles = begin.particles;
   history.add(driver.record());
   observer.see(driver.state(), driver.record());
 
@@ -133,9 +134,10 @@ void run_point(const PointScene& scene, const std::filesystem::path& stem, Point
   try {
     for (const Segment& segment : scene.segments) driver.run(segment, observe, observe_cut);
   } catch (const StepError& error) {
-    if (!scene.may_end) stopped = std::current_exception();
     end.status = error.status;
-    end.text = error.what();
+    end.text = error.what() + why_at_start(begin, driver.record().step,
+                                           smaller_steps(begin, scene.segments.front()));
+    if (!scene.may_end) stopped = std::make_exception_ptr(StepError(error.status, end.text));
   } catch (const Interrupted& stop) {
     stopped = std::current_exception();
     end.text =

@@ -2,6 +2,7 @@
 
 #include "app/cases.hpp"
 #include "app/history.hpp"
+#include "point/start.hpp"
 
 #include <algorithm>
 
@@ -28,7 +29,7 @@ PointScene read_scene(SceneTable table, const std::string& name) {
       table.integer_or("max_iterations", scene.options.max_iterations, 1);
   scene.options.max_cuts = table.integer_or("max_cuts", scene.options.max_cuts, 0);
   scene.options.loose_tolerance = table.number_or("loose_tolerance", 0, not_negative);
-  scene.segments = read_segments(table);
+  scene.segments = read_segments(table, carries_tension(scene.material));
   scene.abscissa = table.choice_or("abscissa", axial_abscissa, {axial_abscissa, shear_abscissa});
   scene.vtk_every = table.integer_or("vtk_every", 0, 0);
   scene.pictures = read_pictures(table);

@@ -1,0 +1,26 @@
+// What the rows of a particle file say of a frame, and the frame that they make.
+#pragma once
+
+#include "packing/packing.hpp"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <unordered_map>
+
+namespace grainlaw {
+
+using ParticleIds = std::unordered_map<std::int64_t, int>;  // id -> particle
+
+struct FrameRows {
+  std::map<std::int64_t, int> particle_at;  // frame_order -> particle
+  int corners = 0;
+  std::map<int, std::int64_t> partner_id;  // edge particle -> id
+};
+
+// Give packing, whose particles are read, its frame; `frame` holds what it counts from. Throws Error
+// (BAD_PACKING) that begins with the path, when the rows do not make a frame or its chain has holes.
+void build_frame(const std::string& path, const FrameRows& rows, const ParticleIds& ids,
+                 Frame frame, Packing& packing);
+
+}  // namespace grainlaw

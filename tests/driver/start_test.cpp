@@ -1,0 +1,115 @@
+// Nonsense is refused before anything is computed; what is unusual at the start is told, and a failure
+// near it says what the packing is like.
+#include "point/start.hpp"
+
+#include "../temporary_directory.hpp"
+#include "point/run.hpp"
+#include "point/scene.hpp"
+#include "scene_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+namespace verification {
+namespace {
+
+class start : public testing::Test {
+ protected:
+  PointScene read(const std::string& segment, const std::string& material = small_packing) {
+    const std::filesystem::path path = directory_.path() / "scene.toml";
+    std::ofstream(path) << "figure = false\nmay_end = true\n"
+                        << material << "[[segment]]\n"
+                        << segment;
+    return read_point_scenes(SceneFile(path)).front();
+  }
+
+  void expect_refused(const std::string& segment, const std::string& told) {
+    try {
+      read("steps = 10\n" + segment);
+      ADD_FAILURE() << "accepted: " << segment;
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      EXPECT_NE(text.find(told), std::string::npos) << text;
+      EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+    }
+  }
+
+  PointEnd run(const PointScene& scene) { return run_point(scene, directory_.path() / "out"); }
+
+  // What is unusual in a packing of thirty discs after a change to its text.
+  std::string unusual(const std::string& from, const std::string& to) {
+    std::string text = small_packing;
+    text.replace(text.find(from), from.size(), to);
+    const PointScene scene = read("steps = 1\ndF22 = -1e-6\n", text);
+    const State state = make_state(make_material(scene.material));
+    return look_at_start(state.get(), scene.material, directory_.path() / "look").text();
+  }
+
+  const grainlaw::test::TemporaryDirectory directory_;
+};
+
+TEST_F(start, a_strain_in_the_place_of_a_stretch_is_refused) {
+  expect_refused("F22 = 0.001\n", "].F22: found 0.001, expected a stretch: 1 undeformed");
+  expect_refused("F11 = 0.05\n", "dF11 = -0.01 adds");
+  expect_refused("dF22 = -5\n", "].dF22: found -5, which leads to F22 = -4");
+  expect_refused("dF22 = -0.3\n[[segment]]\nsteps = 1\ndF22 = -0.3\n", "leads to F22 = 0.4");
+  read("steps = 10\nF22 = 0.9\nF11 = 1.1\n");
+}
+
+TEST_F(start, tension_is_refused_unless_there_are_bonds) {
+  expect_refused(
+      "dF22 = -0.01\nsigma11 = 50e3\n",
+      "].sigma11: found 50000, which is tension, expected a number <= 0, -50000 Pa");
+  expect_refused("P22 = 1e5\n", "].P22: found 100000");
+  std::string bonded = small_packing;
+  const std::string law = "\"frictional\"";
+  bonded.replace(bonded.find(law), law.size(),
+                 "\"bonded\", bond = { normal_strength = 1, tangential_strength = 1 }");
+  EXPECT_NO_THROW(read("steps = 1\nsigma11 = 5\n", bonded));
+}
+
+TEST_F(start, of_an_ordinary_packing_is_not_unusual) {
+  const std::string text = unusual("friction = 0.5", "friction = 0.5");
+  EXPECT_EQ(text.find("unusual"), std::string::npos) << text;
+  EXPECT_EQ(text.find("mean pressure 1e+05 Pa, kn/p "), 0U) << text;
+}
+
+TEST_F(start, with_units_that_are_hardly_meant_is_told) {
+  const auto expect = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  expect(unusual("friction = 0.5", "friction = 30"),
+         "contact.friction = 30 is tan(88.1 degrees); tan(30 degrees) is 0.577");
+  expect(unusual("pressure = 1e5", "pressure = 0.1"), "a mean pressure of 0.1 Pa");
+  expect(unusual("young = 6e8", "young = 4e7"), "soft: usual are");
+  expect(unusual("young = 6e8", "young = 6e14"), "stiff: steps have to be as small");
+}
+
+TEST_F(start, targets_in_other_units_are_told) {
+  const PointScene scene = read("steps = 1\nsigma11 = -100\n");
+  PackingStart begin;
+  begin.pressure = 1e5;
+  const auto texts = far_targets(begin, scene.segments);
+  ASSERT_EQ(texts.size(), 1U);
+  EXPECT_EQ(texts[0],
+            "a target of -100 Pa in direction 1 for a packing under 1e+05 Pa: is it in Pa?");
+}
+
+TEST_F(start, a_failure_in_the_first_steps_says_what_the_packing_is_like_and_what_to_try) {
+  PointScene scene = read("steps = 2\ndF22 = -0.1\nsigma11 = -100e3\n");
+  scene.options.max_cuts = 0;
+  scene.options.max_iterations = 1;
+  const PointEnd end = run(scene);
+  EXPECT_LT(end.steps, end.steps_wanted);
+  EXPECT_NE(end.text.find("; the packing starts with mean pressure 1e+05 Pa, kn/p "),
+            std::string::npos)
+      << end.text;
+  EXPECT_NE(end.text.find("steps or more instead of 2: each strains by 0.05"), std::string::npos)
+      << end.text;
+}
+
+}  // namespace
+}  // namespace verification
