@@ -256,14 +256,16 @@ GRAINLAW_API grainlaw_status grainlaw_state_measure(const grainlaw_state*, grain
                                                     double* value, size_t* count);
 
 /* Particles (radius, rotation) and force chains (normal and tangential force, moment, bonded or not)
- * of the trial state, or of the committed one, as one VTK PolyData file (.vtp) for ParaView. Errors:
- * NULL_POINTER, BAD_HANDLE, FILE_ERROR. */
+ * of the trial state, or of the committed one, as one VTK PolyData file (.vtp) for ParaView. It takes the
+ * place of an older file once it is whole. Errors: NULL_POINTER, BAD_HANDLE, FILE_ERROR,
+ * OUT_OF_MEMORY; on any of them an older file is as it was. */
 GRAINLAW_API grainlaw_status grainlaw_state_write_vtk(const grainlaw_state*, const char* path);
 
 /* Write the same state as a packing: prefix_particles.csv, prefix_contacts.csv (forces, moments and
  * bonds included) and prefix_cell.csv, which a material file reads back to the same equilibrium.
- * Errors: NULL_POINTER, BAD_HANDLE, FILE_ERROR, BAD_PACKING (the boundary of a frame has crossed
- * itself, or its sides are copies no more). */
+ * They take the place of older files once all three are whole.
+ * Errors: NULL_POINTER, BAD_HANDLE, FILE_ERROR, OUT_OF_MEMORY, BAD_PACKING (the boundary of a frame
+ * has crossed itself, or its sides are copies no more); on any of them older files are as they were. */
 GRAINLAW_API grainlaw_status grainlaw_state_write_packing(const grainlaw_state*,
                                                           const char* prefix);
 

@@ -318,7 +318,8 @@ void write_packing(const std::string& prefix, const Packing& packing) {
   for (std::size_t p = 0; p < n; ++p)
     fmt::format_to(out, "{},{},{},{}{}\n", p, packing.position[p], packing.position[n + p],
                    packing.radius[p], framed[p]);
-  write_text(prefix + "_particles.csv", {text.data(), text.size()});
+  std::array<TextFile, 3> files;
+  files[0] = {prefix + "_particles.csv", fmt::to_string(text)};
 
   text.clear();
   const auto& contacts = packing.contacts;
@@ -335,13 +336,14 @@ void write_packing(const std::string& prefix, const Packing& packing) {
     if (bonds) fmt::format_to(out, ",{},{}", c.bonded.value_or(false) ? 1 : 0, c.bond_gap);
     fmt::format_to(out, "\n");
   }
-  write_text(prefix + "_contacts.csv", {text.data(), text.size()});
+  files[1] = {prefix + "_contacts.csv", fmt::to_string(text)};
 
   text.clear();
   const auto& h = packing.cell;
   fmt::format_to(out, "H00,H01,H10,H11,thickness,rho\n{},{},{},{},{},{}\n", h[0], h[1], h[2], h[3],
                  packing.thickness, packing.density);
-  write_text(prefix + "_cell.csv", {text.data(), text.size()});
+  files[2] = {prefix + "_cell.csv", fmt::to_string(text)};
+  write_texts(files);
 }
 
 }  // namespace grainlaw

@@ -1,15 +1,20 @@
 // Whole text files, read and written at once.
 #pragma once
 
+#include <span>
 #include <string>
-#include <string_view>
 
 namespace grainlaw {
 
-// Throws Error (FILE_ERROR) when the file cannot be read to its end.
+// Throws Error (FILE_ERROR) when the file cannot be read to its end, bad_alloc.
 std::string read_text(const std::string& path);
 
-// Throws Error (FILE_ERROR) when not all of it could be written.
-void write_text(const std::string& path, std::string_view text);
+struct TextFile {
+  std::string path, text;
+};
+
+// All files are written beside what was there and then take its place, or none changes: a full disk costs
+// nothing. What is no regular file, such as a terminal, is written as it is. Throws as read_text().
+void write_texts(std::span<const TextFile> files);
 
 }  // namespace grainlaw
