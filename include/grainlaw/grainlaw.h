@@ -258,7 +258,7 @@ GRAINLAW_API grainlaw_status grainlaw_state_measure(const grainlaw_state*, grain
 /* Particles (radius, rotation) and force chains (normal and tangential force, moment, bonded or not)
  * of the trial state, or of the committed one, as one VTK PolyData file (.vtp) for ParaView. A file
  * of that name is replaced when the new one is whole, and stays when it cannot be written. Errors:
- * NULL_POINTER, BAD_HANDLE, FILE_ERROR. */
+ * NULL_POINTER, BAD_HANDLE, FILE_ERROR, OUT_OF_MEMORY. */
 GRAINLAW_API grainlaw_status grainlaw_state_write_vtk(const grainlaw_state*, const char* path);
 
 /* Write the same state as a packing: prefix_particles.csv, prefix_contacts.csv (forces, moments and
@@ -266,7 +266,7 @@ GRAINLAW_API grainlaw_status grainlaw_state_write_vtk(const grainlaw_state*, con
  * reads back to the same equilibrium: its P at F = I is P F^T / det F of here. A frame that is
  * deformed also gets reference_x, reference_y and F00 to F11, from where its conditions count. All
  * three are whole and on the disk before the first replaces a file of its name.
- * Errors: NULL_POINTER, BAD_HANDLE, FILE_ERROR, BAD_PACKING (nothing could start from it, and
+ * Errors: NULL_POINTER, BAD_HANDLE, FILE_ERROR, OUT_OF_MEMORY, BAD_PACKING (nothing could start from it, and
  * nothing is written). */
 GRAINLAW_API grainlaw_status grainlaw_state_write_packing(const grainlaw_state*,
                                                           const char* prefix);

@@ -54,6 +54,7 @@ class BlockLU {
 
  private:
   int components_ = 0;
+  bool analysed_ = false;  // the graph below, to the end
   bool ordered_ = false;  // in the order of its own graph
   double fill_ = 0;       // blocks below the diagonal
   double own_fill_ = 0;   // the same in an order of its own

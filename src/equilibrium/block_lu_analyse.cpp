@@ -166,11 +166,12 @@ std::size_t BlockLU::factor_blocks() const { return nodes_ + 2 * static_cast<std
 
 void BlockLU::analyse(const BlockMatrix& matrix, bool keep_order) {
   constexpr double more_fill = 1.1;  // that a kept order may leave
-  keep_order = keep_order && nodes_ == matrix.nodes;
-  if (nodes_ == matrix.nodes && components_ == matrix.components && edges_ == matrix.edges &&
-      (keep_order || ordered_)) {
+  keep_order = keep_order && analysed_ && nodes_ == matrix.nodes;
+  if (analysed_ && nodes_ == matrix.nodes && components_ == matrix.components &&
+      edges_ == matrix.edges && (keep_order || ordered_)) {
     return;
   }
+  analysed_ = false;
   nodes_ = matrix.nodes;
   components_ = matrix.components;
   resize_with_room(edges_, matrix.edges.size());
@@ -187,6 +188,7 @@ void BlockLU::analyse(const BlockMatrix& matrix, bool keep_order) {
   link_fronts();
   place_fronts();
   find_sources();
+  analysed_ = true;
 }
 
 }  // namespace grainlaw

@@ -6,14 +6,13 @@
 #include "material/packing_keys.hpp"
 #include "material/toml_table.hpp"
 #include "packing/packing_file.hpp"
+#include "packing/text_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 namespace grainlaw {
 namespace {
@@ -124,23 +123,18 @@ MaterialDescription read_description(TomlTable& top, const std::filesystem::path
 }  // namespace
 
 MaterialDescription read_material_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
-    throw Error(GRAINLAW_FILE_ERROR, fmt::format("{}: cannot be read", path));
-  const std::string content{std::istreambuf_iterator<char>(file), {}};
-  return parse_material(content, std::filesystem::path(path).parent_path().string(), path);
+  return parse_material(read_text(path), std::filesystem::path(path).parent_path().string(), path);
 }
 
 MaterialDescription parse_material(std::string_view text, const std::string& base_directory,
                                    const std::string& name) {
-  toml::table table;
-  try {
-    table = toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
+  // With exceptions, or a name to keep, it would end the process where there is no memory for them.
+  const toml::parse_result parsed = toml::parse(text);
+  if (!parsed)
     throw Error(GRAINLAW_BAD_MATERIAL,
-                fmt::format("{}:{}: {}", name, error.source().begin.line, error.description()));
-  }
-  TomlTable top(table, name);
+                fmt::format("{}:{}: {}", name, parsed.error().source().begin.line,
+                            parsed.error().description()));
+  TomlTable top(parsed.table(), name);
   return read_description(top, base_directory);
 }
 

@@ -155,6 +155,7 @@ std::string TomlTable::describe(const toml::node& node) {
   if (node.is_table()) return "a table";
   if (node.is_floating_point()) return fmt::format("{:#}", node.value_or(NAN));
   std::ostringstream out;
+  out.exceptions(std::ios::badbit);  // which stands for a lack of memory
   node.visit([&](const auto& value) { out << value; });
   std::string found = out.str();
   std::ranges::replace(found, '\n', ' ');

@@ -10,10 +10,12 @@
 
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <memory>
+#include <new>
 #include <vector>
 
 namespace grainlaw {
@@ -21,6 +23,7 @@ namespace grainlaw {
 namespace {
 
 [[noreturn]] void fail(const std::string& path, const char* what, int error) {
+  if (error == ENOMEM) throw std::bad_alloc();
   throw Error(GRAINLAW_FILE_ERROR,
               fmt::format("{}: cannot be {}: {}", path, what, std::strerror(error)));
 }
@@ -34,6 +37,12 @@ class Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
 
   [[nodiscard]] bool valid() const { return number_ >= 0; }
+  [[nodiscard]] ssize_t read(char* to, std::size_t size) const {
+    for (;;) {
+      const ssize_t count = ::read(number_, to, size);
+      if (count >= 0 || errno != EINTR) return count;
+    }
+  }
   // Each returns 0, or the error.
   int write(std::string_view text) {
     while (!text.empty()) {
@@ -45,7 +54,10 @@ class Descriptor {
     return 0;
   }
   int keep_mode(mode_t mode) { return ::fchmod(number_, mode) == 0 ? 0 : errno; }
-  int sync() { return ::fsync(number_) == 0 ? 0 : errno; }
+  int sync() {
+    const bool done = ::fsync(number_) == 0;
+    return done || errno == EINVAL || errno == ENOSYS ? 0 : errno;  // some file systems cannot
+  }
   int close() {
     const int result = number_ < 0 || ::close(number_) == 0 ? 0 : errno;
     number_ = -1;
@@ -54,6 +66,37 @@ class Descriptor {
 
  private:
   int number_;
+};
+
+std::string behind_links(const std::string& path) {
+  const std::unique_ptr<char, void (*)(void*)> target(::realpath(path.c_str(), nullptr),
+                                                      &std::free);
+  if (target == nullptr) fail(path, "written", errno);
+  return target.get();
+}
+
+// A write beyond the limit of file sizes is an error here, not the end of the host.
+class NoSizeSignal {
+ public:
+  NoSizeSignal() {
+    sigemptyset(&signal_);
+    sigaddset(&signal_, SIGXFSZ);
+    pthread_sigmask(SIG_BLOCK, &signal_, &before_);
+  }
+  ~NoSizeSignal() {
+    sigset_t pending;
+    if (sigismember(&before_, SIGXFSZ) == 0 && sigpending(&pending) == 0 &&
+        sigismember(&pending, SIGXFSZ) == 1) {
+      int taken;
+      sigwait(&signal_, &taken);
+    }
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  NoSizeSignal(const NoSizeSignal&) = delete;
+  NoSizeSignal& operator=(const NoSizeSignal&) = delete;
+
+ private:
+  sigset_t signal_, before_;
 };
 
 // A new file beside the one that it will be.
@@ -67,7 +110,7 @@ class Beside {
       return;
     }
     if (exists && ::access(path_.c_str(), W_OK) != 0) fail(path_, "written", errno);
-    if (exists) target_ = std::filesystem::canonical(path_).string();  // of a link
+    if (exists) target_ = behind_links(path_);
     static std::atomic<unsigned> number{0};  // no other process or thread has this name
     for (;;) {
       name_ = fmt::format("{}.{}.{}.new", target_, ::getpid(), number++);
@@ -114,22 +157,24 @@ class Beside {
 }  // namespace
 
 std::string read_text(const std::string& path) {
-  using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-  const File file(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (!file) fail(path, "read", errno);
+  const Descriptor file(path, O_RDONLY);
+  if (!file.valid()) fail(path, "read", errno);
   std::string text;
   char block[1 << 14];
-  for (std::size_t count; (count = std::fread(block, 1, sizeof block, file.get())) > 0;)
-    text.append(block, count);
-  if (std::ferror(file.get()) != 0) fail(path, "read", errno);
+  ssize_t count = 0;
+  while ((count = file.read(block, sizeof block)) > 0)
+    text.append(block, static_cast<std::size_t>(count));
+  if (count < 0) fail(path, "read", errno);
   return text;
 }
 
 void write_text(const std::string& path, std::string_view text) {
+  const NoSizeSignal no_signal;
   Beside({path, std::string(text)}, false).take_place();
 }
 
 void write_together(std::span<const TextFile> files) {
+  const NoSizeSignal no_signal;
   std::vector<std::unique_ptr<Beside>> whole;
   for (const TextFile& file : files) whole.push_back(std::make_unique<Beside>(file, true));
   for (const auto& file : whole) file->take_place();

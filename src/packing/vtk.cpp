@@ -86,7 +86,7 @@ void write_vtk(const std::string& path, std::span<const double> position,
               [&](std::size_t k) { return fmt::format("{} {}", contacts[k].i, n + k); });
   print_array(text, "Int64", "offsets", 1, lines, [](std::size_t k) { return 2 * (k + 1); });
   print(text, "</Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n");
-  write_text(path, {text.data(), text.size()});
+  write_text(path, fmt::to_string(text));
 }
 
 }  // namespace grainlaw

@@ -4,6 +4,7 @@
 #include "homogenise/stress.hpp"
 #include "room.hpp"
 #include "state/rotation.hpp"
+#include "state/scratch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,11 +23,6 @@ constexpr double largest_stretch_change = 0.3;
 // to, well below the increments of a host.
 constexpr double perturbation = 1e-5;
 constexpr double perturbed_tolerance = 1e-9;
-
-Workspace& workspace() {
-  thread_local Workspace instance;
-  return instance;
-}
 
 void describe(grainlaw_report& report, const char* text) {
   std::snprintf(report.message, sizeof report.message, "%s", text);
@@ -196,6 +192,16 @@ std::array<double, 9> State::effective(const double* F) const {
 
 grainlaw_status State::evaluate(const double* given, TangentKind kind, double* P, double* A,
                                 grainlaw_report& report) {
+  try {
+    return evaluate(given, kind, P, A, report, workspace());
+  } catch (...) {
+    drop_workspace();
+    throw;
+  }
+}
+
+grainlaw_status State::evaluate(const double* given, TangentKind kind, double* P, double* A,
+                                grainlaw_report& report, Workspace& w) {
   const Material& material = *material_;
   const auto particles = material.packing.size();
   const double* committed = committed_.deformation.data();
@@ -210,7 +216,6 @@ grainlaw_status State::evaluate(const double* given, TangentKind kind, double* P
     return GRAINLAW_STEP_TOO_LARGE;
   }
 
-  Workspace& w = workspace();
   const Problem problem = material.problem();
   Request request{&problem, &material.solver, &committed_, split.target};
   request.tolerance = material.solver.tolerance;

@@ -11,6 +11,8 @@
 
 namespace grainlaw {
 
+struct Workspace;
+
 enum class TangentKind { none, exact, elastic, perturbed };
 
 class State {
@@ -36,6 +38,9 @@ class State {
   [[nodiscard]] const Material& material() const { return *material_; }
 
  private:
+  grainlaw_status evaluate(const double* F, TangentKind kind, double* P, double* A,
+                           grainlaw_report& report, Workspace& workspace);
+
   std::shared_ptr<const Material> material_;
   Configuration committed_;
   Configuration trial_;

@@ -1,0 +1,15 @@
+// The memory with which a thread evaluates.
+#pragma once
+
+#include "equilibrium/chain.hpp"
+
+namespace grainlaw {
+
+// Of the calling thread: made by its first evaluation, reused by the next, gone with the thread. Throws
+// bad_alloc.
+Workspace& workspace();
+
+// Frees it: what an exception left half done serves nobody.
+void drop_workspace() noexcept;
+
+}  // namespace grainlaw
