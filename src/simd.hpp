@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdlib>
 #include <cstring>
 #include <new>
 #include <vector>
@@ -40,10 +41,16 @@
 
 namespace grainlaw::simd {
 
+// Tests ask for the lanes of narrower registers in GRAINLAW_LANES; the sums keep their bits.
+inline const int most_lanes = [] {
+  const char* const asked = std::getenv("GRAINLAW_LANES");
+  return asked == nullptr ? 8 : std::atoi(asked);
+}();
+
 // Whether registers hold eight doubles.
 inline bool eight_lanes() {
 #if GRAINLAW_DISPATCH >= 512
-  return __builtin_cpu_supports("x86-64-v4") != 0;
+  return most_lanes >= 8 && __builtin_cpu_supports("x86-64-v4") != 0;
 #else
   return false;
 #endif
@@ -52,7 +59,7 @@ inline bool eight_lanes() {
 // Whether they hold four.
 inline bool four_lanes() {
 #if GRAINLAW_DISPATCH >= 256
-  return __builtin_cpu_supports("x86-64-v3") != 0;
+  return most_lanes >= 4 && __builtin_cpu_supports("x86-64-v3") != 0;
 #elif defined(__AVX2__)
   return true;
 #else
