@@ -131,6 +131,7 @@ TEST(bad_material, any_mistake_is_told_with_file_line_key_and_expectation) {
       {13, "servo.steps = 1", 13, "boundary.servo.steps", "found an unknown key"},
       {13, "servo.gain_force = 0.1", 13, "boundary.servo", "none with method"},
       {13, "servo = 1", 13, "boundary.servo", "found 1, expected a table"},
+      {3, "[.packing]", 3, "Error while parsing key", "saw '.'"},
       {15, "tolerance = 1", 15, "solver.tolerance", "found 1, expected a number from 1e-14 to 0.1"},
       {15, "tolerance = 1e-15", 15, "solver.tolerance", "expected a number from 1e-14"},
       {15, "loose_tolerance = 1", 15, "solver.loose_tolerance", "a number from 0 to 0.1"},
