@@ -177,6 +177,7 @@ TEST(bad_material, any_mistake_in_a_generator_is_told) {
       {6, "radii = [3e-3]", 6, "packing.radii", "[smallest, largest]"},
       {6, "radii = [7e-3, 3e-3]", 6, "packing.radii", "[smallest, largest]"},
       {6, "radii = [0, 3e-3]", 6, "packing.radii", "0 < smallest"},
+      {6, "radii = [-6e-3, 3e-3]", 6, "packing.radii", "found [ -0.006, 0.003 ], expected [smallest"},
       {6, "radii = [1e-3, \"a\"]", 6, "packing.radii", "[smallest, largest]"},
       {7, "seed = -1", 7, "packing.seed", "found -1, expected an integer >= 0"},
       {8, "", 3, "packing.pressure", "found nothing, expected either pressure or void_ratio"},
