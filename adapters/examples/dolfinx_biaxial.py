@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The biaxial test of adapters/biaxial/biaxial.toml in DOLFINx 0.5 (one process).
 
     dolfinx_biaxial.py ../biaxial/material.toml [PREFIX [STEPS]]

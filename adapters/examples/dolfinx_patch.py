@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The patch through DOLFINx:  dolfinx_patch.py MATERIAL.toml PATH.csv > dolfinx.csv
 
 A unit square follows u = (F - I) X; P and A come back as integrals of the forms that residual and

@@ -154,10 +154,18 @@ std::string TomlTable::describe(const toml::node& node) {
   constexpr std::size_t longest = 60;
   if (node.is_table()) return "a table";
   if (node.is_floating_point()) return fmt::format("{:#}", node.value_or(NAN));
-  std::ostringstream out;
-  out.exceptions(std::ios::badbit);  // which stands for a lack of memory
-  node.visit([&](const auto& value) { out << value; });
-  std::string found = out.str();
+  std::string found;
+  if (const toml::array* array = node.as_array()) {
+    // toml++ itself breaks lists of small numbers into lines.
+    for (auto item = array->begin(); item != array->end() && found.size() <= longest; ++item)
+      found += (found.empty() ? "[ " : ", ") + describe(*item);
+    found += found.empty() ? "[]" : " ]";
+  } else {
+    std::ostringstream out;
+    out.exceptions(std::ios::badbit);  // which stands for a lack of memory
+    node.visit([&](const auto& value) { out << value; });
+    found = out.str();
+  }
   std::ranges::replace(found, '\n', ' ');
   if (found.size() > longest) found = found.substr(0, longest) + "...";
   return found;

@@ -53,10 +53,21 @@ TEST(checkpoint, of_another_size_is_refused) {
   out.write(Eigen::VectorXd::Zero(6).eval());
   CheckpointReader in(out.bytes(), "a");
   EXPECT_THROW(in.get<Tensor>(), InputError);
+  Eigen::VectorXd shorter = Eigen::VectorXd::Zero(5);
+  EXPECT_THROW(CheckpointReader(out.bytes(), "a").read(shorter), InputError);
+  EXPECT_EQ(shorter.size(), 5);
+  CheckpointWriter matrix;
+  matrix.write(Eigen::MatrixXd::Zero(3, 2).eval());
+  EXPECT_THROW(CheckpointReader(matrix.bytes(), "a").get<Eigen::VectorXd>(), InputError);
   CheckpointWriter huge;
   huge.write(std::uint64_t{1} << 60);
   EXPECT_THROW(CheckpointReader(huge.bytes(), "a").get<std::vector<double>>(), InputError);
   EXPECT_THROW(CheckpointReader(huge.bytes(), "a").get<std::string>(), InputError);
+}
+
+TEST(checkpoint, that_says_neither_true_nor_false_is_refused) {
+  EXPECT_THROW(CheckpointReader("\2", "a").get<bool>(), InputError);
+  EXPECT_TRUE(CheckpointReader("\1", "a").get<bool>());
 }
 
 TEST(checkpoint, with_any_byte_changed_or_missing_is_refused) {

@@ -16,11 +16,20 @@ namespace {
 std::string shown(const toml::node& node) {
   if (node.is_table()) return "a table";
   if (node.is_array_of_tables()) return "an array of tables";
-  std::ostringstream stream;
-  node.visit([&](const auto& value) { stream << value; });
-  std::string text = stream.str();
+  constexpr std::size_t longest = 60;
+  std::string text;
+  if (const toml::array* array = node.as_array()) {
+    // toml++ itself breaks lists of small numbers into lines.
+    for (auto item = array->begin(); item != array->end() && text.size() <= longest; ++item)
+      text += (text.empty() ? "[ " : ", ") + shown(*item);
+    text += text.empty() ? "[]" : " ]";
+  } else {
+    std::ostringstream stream;
+    node.visit([&](const auto& value) { stream << value; });
+    text = stream.str();
+  }
   if (node.is_string()) text = '"' + node.value_or(std::string()) + '"';
-  return text.size() > 60 ? text.substr(0, 57) + "..." : text;
+  return text.size() > longest ? text.substr(0, longest - 3) + "..." : text;
 }
 
 // Whether one may be a slip of the pen for the other: they differ by two letters in one place.

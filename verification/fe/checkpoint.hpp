@@ -53,7 +53,7 @@ class CheckpointWriter {
 };
 
 // Gives the values back. Throws InputError when a value is not there or has another size than the
-// thing that is to take it.
+// thing that is to take it; a vector, matrix or list without entries takes any.
 class CheckpointReader {
  public:
   CheckpointReader(std::string bytes, std::filesystem::path path)
@@ -63,13 +63,22 @@ class CheckpointReader {
   void read(T& value) {
     take(&value, sizeof value);
   }
+  void read(bool& value) {
+    const auto byte = get<unsigned char>();
+    if (byte > 1) fail();
+    value = byte == 1;
+  }
   template <class Derived>
   void read(Eigen::PlainObjectBase<Derived>& values) {
     std::int64_t rows = 0, columns = 0;
     read(rows);
     read(columns);
-    constexpr bool fixed = Derived::SizeAtCompileTime != Eigen::Dynamic;
-    if (fixed ? rows != values.rows() || columns != values.cols() : !plausible(rows, columns))
+    const auto fits = [](std::int64_t found, Eigen::Index fixed) {
+      return fixed == Eigen::Dynamic || found == fixed;
+    };
+    if (!fits(rows, Derived::RowsAtCompileTime) || !fits(columns, Derived::ColsAtCompileTime) ||
+        (values.size() > 0 && (rows != values.rows() || columns != values.cols())) ||
+        !plausible(rows, columns))
       fail();
     values.derived().resize(rows, columns);
     take(values.data(), sizeof(typename Derived::Scalar) * static_cast<std::size_t>(values.size()));

@@ -1,0 +1,53 @@
+// Any text as a material: an answer or a message that says what is wrong.
+#include "support.hpp"
+
+#include "error.hpp"
+#include "material/material_file.hpp"
+
+#include <grainlaw/grainlaw.h>
+
+namespace {
+
+// Whether its packing is made within milliseconds.
+bool is_small(const std::string& text) {
+  using grainlaw::GeneratorKind;
+  try {
+    const auto description = grainlaw::parse_material(text, "/nowhere", "fuzz");
+    const auto& generator = description.generator;
+    const bool regular = generator && (generator->kind == GeneratorKind::square ||
+                                       generator->kind == GeneratorKind::hexagonal);
+    return regular && generator->columns * generator->rows <= 20 &&
+           description.solver.method == grainlaw::Method::chain;
+  } catch (const grainlaw::Error& error) {
+    EXPECT(error.status < 0 && error.what()[0] != '\0');
+    return false;
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  if (text.find('\0') != std::string::npos || fuzz::asks_for_much(text)) return -1;
+  if (!is_small(text)) return 0;
+
+  char message[300];
+  std::memset(message, 'x', sizeof message);
+  grainlaw_material* material = nullptr;
+  const grainlaw_status status =
+      grainlaw_material_parse(text.c_str(), "/nowhere", &material, message, sizeof message);
+  EXPECT(std::memchr(message, '\0', sizeof message) != nullptr);
+  EXPECT((status == GRAINLAW_OK) == (material != nullptr));
+  EXPECT((status == GRAINLAW_OK) == (message[0] == '\0'));
+  EXPECT(status != GRAINLAW_INTERNAL_FAULT && status != GRAINLAW_NOT_FINITE);
+  if (status != GRAINLAW_OK) return 0;
+
+  grainlaw_state* state = nullptr;
+  EXPECT(grainlaw_state_create(material, &state) == GRAINLAW_OK);
+  const double F[4] = {1, 1e-4, 0, 0.9995};
+  double P[4], A[16];
+  EXPECT(grainlaw_evaluate(state, F, GRAINLAW_WANT_TANGENT_EXACT, P, A, nullptr) >= 0);
+  grainlaw_state_destroy(state);
+  grainlaw_material_destroy(material);
+  return 0;
+}
