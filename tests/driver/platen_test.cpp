@@ -87,6 +87,20 @@ TEST_P(platen, a_rough_platen_moves_as_one_and_is_in_balance) {
   EXPECT_NEAR(solved.force("bottom_y"), 1.1e5, 1e-3);
 }
 
+// On the axis of symmetry a rough platen cannot go sideways: no condition says so but the axis.
+TEST_P(platen, a_rough_platen_on_half_a_model_follows_the_axis) {
+  const std::string pushed =
+      confined + "[[platen]]\non = 'top'\nsurface = 'rough'\n" +
+      "[[displacement]]\non = 'top'\ncomponent = 'y'\nvalue = -1e-4\n";
+  const Solved half(pushed, GetParam());
+  for (const int node : half.model.mesh.node_sets.at("top")) {
+    EXPECT_EQ(half.displacement(2 * node), 0);
+    EXPECT_NEAR(half.displacement(2 * node + 1), -1e-4, 1e-15);
+  }
+  const Solved held_too(pushed + held("top", "x"), GetParam());
+  EXPECT_LT((half.displacement - held_too.displacement).norm(), 1e-12);
+}
+
 TEST_P(platen, periodic_sides_move_alike_and_hand_on_the_force) {
   const Solved solved(held_bottom + periodic_sides +
                           "[[displacement]]\non = 'top'\ncomponent = 'y'\nvalue = 0.0\n" +

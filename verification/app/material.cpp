@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <sstream>
 #include <string>
@@ -110,6 +111,19 @@ Material make_material(const MaterialSource& source) {
   if (grainlaw_material_dimension(material) != 2)
     throw InputError(origin + ": the drivers are two-dimensional, the material is not");
   return result;
+}
+
+double read_tolerance(SceneTable& table, const MaterialSource& material, double usual) {
+  const toml::table description = unfold(material).changes;
+  const auto solver = description["solver"];
+  const bool from_trial = solver["start"].value_or(std::string_view()) == "trial";
+  const double least = from_trial ? solver["tolerance"].value_or(0.0) : 0;
+  const double tolerance = table.number_or("tolerance", std::max(usual, least), positive);
+  if (tolerance < least)
+    table.fail("tolerance", fmt::format("{:g}", tolerance),
+               fmt::format("solver.tolerance of the material, {:g}, or more; or a smaller one there: "
+                           "with start = \"trial\" its stress is known no better", least));
+  return tolerance;
 }
 
 }  // namespace verification

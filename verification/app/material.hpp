@@ -48,4 +48,8 @@ MaterialText material_text(const MaterialSource& source);
 // I.
 Material make_material(const MaterialSource& source);
 
+// `tolerance` of a table: what stresses or forces are brought to. Where the material starts from its last
+// trial they are known to its solver.tolerance alone: the default is no smaller, and less is refused.
+double read_tolerance(SceneTable& table, const MaterialSource& material, double usual);
+
 }  // namespace verification

@@ -15,7 +15,7 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
   scene.name = table.file_name_or("name", file.path.stem().string());
   scene.material = read_material_source(table);
   scene.prestress = read_prestress(table, scene.material);
-  scene.solver = read_solver(table);
+  scene.solver = read_solver(table, scene.material);
   const double duration = scene.solver.duration();
   scene.threads = table.integer_or("threads", 0, 0);
   scene.steps = table.integer("steps", 1);

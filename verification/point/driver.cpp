@@ -138,7 +138,8 @@ PointDriver::Iterate PointDriver::iterate(const Goal& goal, double tolerance) {
       best = error;
       best_iteration = iteration;
     }
-    if (!std::isfinite(error) || iteration >= best_iteration + patience) break;
+    result.stalled = std::isfinite(error) && iteration >= best_iteration + patience;
+    if (result.stalled || !std::isfinite(error)) break;
     if (result.evaluation.report.tangent_exact != 0 || first) {
       matrix = now.derivative;
     } else {
@@ -149,7 +150,6 @@ PointDriver::Iterate PointDriver::iterate(const Goal& goal, double tolerance) {
     correction = matrix.fullPivLu().solve(residual);
     first = false;
   }
-  result.stalled = true;
   result.reason =
       fmt::format("the stress control did not converge (best residual {:.1e} [-])", best);
   return result;

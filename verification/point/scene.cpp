@@ -24,7 +24,7 @@ PointScene read_scene(SceneTable table, const std::string& name) {
   scene.material = read_material_source(table);
   scene.options.tangent =
       tangent_bit(table.choice_or("tangent", "exact", {"exact", "elastic", "perturbed"}));
-  scene.options.tolerance = table.number_or("tolerance", scene.options.tolerance, positive);
+  scene.options.tolerance = read_tolerance(table, scene.material, scene.options.tolerance);
   scene.options.max_iterations =
       table.integer_or("max_iterations", scene.options.max_iterations, 1);
   scene.options.max_cuts = table.integer_or("max_cuts", scene.options.max_cuts, 0);

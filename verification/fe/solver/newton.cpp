@@ -144,6 +144,7 @@ class NewtonSolver final : public Solver {
     residuals.push_back(error(system, prescribed));
     double best = std::numeric_limits<double>::infinity();
     int best_iteration = 0;
+    bool stalled = false;
     ElasticShare share(options_.elastic_share);
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
       Eigen::VectorXd correction;
@@ -179,7 +180,7 @@ class NewtonSolver final : public Solver {
       const bool near = loaded && residual <= options_.jump_tolerance;
       const bool slow = options_.jump_iterations > 0 && made >= options_.jump_iterations &&
                         residual > slow_ratio * before;
-      const bool stalled =
+      stalled =
           iteration >= best_iteration + (near ? jump_patience : options_.patience) &&
           options_.tangent == GRAINLAW_WANT_TANGENT_EXACT;
       const bool converged = loaded && residual <= tolerance;

@@ -5,11 +5,11 @@
 namespace verification {
 namespace {
 
-NewtonOptions read_newton(SceneTable table) {
+NewtonOptions read_newton(SceneTable table, const MaterialSource& material) {
   NewtonOptions options;
   options.tangent =
       tangent_bit(table.choice_or("tangent", "exact", {"exact", "elastic", "perturbed"}));
-  options.tolerance = table.number_or("tolerance", options.tolerance, positive);
+  options.tolerance = read_tolerance(table, material, options.tolerance);
   options.max_cuts = table.integer_or("max_cuts", options.max_cuts, 0);
   options.loose_tolerance = table.number_or("loose_tolerance", 0, not_negative);
   options.jump_tolerance = table.number_or("jump_tolerance", 0, not_negative);
@@ -53,7 +53,7 @@ void read_dynamics(SceneTable table, SolverOptions& options) {
 
 }  // namespace
 
-SolverOptions read_solver(SceneTable& scene) {
+SolverOptions read_solver(SceneTable& scene, const MaterialSource& material) {
   SolverOptions options;
   const std::string kind =
       scene.choice_or("solver", "newton", {"newton", "relaxation", "dynamics"});
@@ -66,8 +66,10 @@ SolverOptions read_solver(SceneTable& scene) {
   } else if (kind == "relaxation") {
     options.kind = SolverKind::relaxation;
     if (scene.has(kind)) options.relaxation = read_relaxation(scene.table(kind));
-  } else if (scene.has("newton")) {
-    options.newton = read_newton(scene.table("newton"));
+  } else {
+    static const toml::table none;
+    options.newton = read_newton(
+        scene.has(kind) ? scene.table(kind) : SceneTable(none, scene.file(), kind), material);
   }
   return options;
 }

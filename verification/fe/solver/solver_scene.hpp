@@ -1,6 +1,7 @@
 // Solvers in scene files.
 #pragma once
 
+#include "app/material.hpp"
 #include "app/scene.hpp"
 #include "fe/solver/dynamics.hpp"
 #include "fe/solver/newton.hpp"
@@ -25,7 +26,7 @@ struct SolverOptions {
 
 // Reads `solver` and the table of that name; tables of other solvers are refused as unknown keys.
 // Throws InputError.
-SolverOptions read_solver(SceneTable& scene);
+SolverOptions read_solver(SceneTable& scene, const MaterialSource& material);
 
 // Errors as the solvers have them. The model must outlive the solver.
 std::unique_ptr<Solver> make_solver(const SolverOptions& options, const Model& model,
