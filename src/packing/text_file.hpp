@@ -13,8 +13,8 @@ struct TextFile {
   std::string path, text;
 };
 
-// All files are written beside what was there and then take its place, or none changes: a full disk costs
-// nothing. What is no regular file, such as a terminal, is written as it is. Throws as read_text().
+// All files are written beside what was there and then take its place, or none changes: a full disk
+// costs nothing. What is no regular file, such as a terminal, is written as it is. Throws as read_text().
 void write_texts(std::span<const TextFile> files);
 
 }  // namespace grainlaw
