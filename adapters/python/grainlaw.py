@@ -134,7 +134,7 @@ class States:
 
     def evaluate(self, F, tangent=None, threads=0):
         """Evaluation of all points at F (n, d, d), with a Tangent or without, on so many threads
-        (0: as many as OpenMP would use). Raises Error for arrays of another shape or type and where
+        (0: OMP_NUM_THREADS or all processors). Raises Error for arrays of another shape or type and where
         a point's status is < 0."""
         n, d = len(self), self.dimension
         F = _numbers(F, (n, d, d))

@@ -13,6 +13,10 @@
  *     is as it was committed, retry with a smaller step. < 0: caller error or internal fault, and
  *     what is committed has not changed.
  *   - No exception, exit, abort or print crosses this boundary, and no signal is raised.
+ *   - A handle belongs to the copy of the library that made it: another one loaded into the same
+ *     process refuses it (BAD_HANDLE).
+ *   - A thread that is cancelled within a call (pthread_cancel, deferred) comes to its end first.
+ *   - After OUT_OF_MEMORY the same call may be made again, and has the answer it would have had.
  *   - A handle may be used by one thread at a time; different states, also of one material, may be
  *     used by different threads at once. Results do not depend on the number of threads, bit for
  *     bit.
@@ -185,8 +189,11 @@ GRAINLAW_API grainlaw_report grainlaw_report_default(void);
 GRAINLAW_API grainlaw_status grainlaw_evaluate(grainlaw_state*, const double* F, unsigned want,
                                                double* P, double* A, grainlaw_report* report);
 
-/* n evaluations spread over `threads` OpenMP threads (<= 0: as many as OpenMP would use), the most
- * expensive points first. F[n*dim*dim], P[n*dim*dim] or NULL, A[n*dim^4] or NULL, status[n],
+/* n evaluations spread over `threads` threads, the caller's among them (<= 0: OMP_NUM_THREADS of the
+ * environment where it is set, else as many as there are processors for this process), the most
+ * expensive points first. The other threads are the library's own and stay for the next batch;
+ * where some cannot be started, as under a limit, fewer do it all, the caller alone at worst. A
+ * child of fork starts its own. F[n*dim*dim], P[n*dim*dim] or NULL, A[n*dim^4] or NULL, status[n],
  * reports[n] or NULL. All states must be distinct and of one dimension. Returns OK when all points
  * are OK, else the status of the first failed point, fatal before recoverable. */
 GRAINLAW_API grainlaw_status grainlaw_evaluate_batch(size_t n, grainlaw_state* const* states,

@@ -3,11 +3,12 @@
 #include "api/guard.hpp"
 #include "api/handle.hpp"
 #include "api/report.hpp"
+#include "api/workers.hpp"
 
 #include <grainlaw/grainlaw.h>
-#include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <numeric>
@@ -17,9 +18,6 @@
 using namespace grainlaw;
 
 namespace {
-
-// An OpenMP runtime that cannot start its threads ends the process; nobody needs more than these.
-constexpr int most_threads = 1024;
 
 using States = std::span<grainlaw_state* const>;
 
@@ -98,6 +96,7 @@ grainlaw_status grainlaw_evaluate_batch(std::size_t n, grainlaw_state* const* st
                                         int threads) {
   if (n == 0) return GRAINLAW_OK;
   if (states == nullptr || F == nullptr || status == nullptr) return GRAINLAW_NULL_POINTER;
+  const api::CancellationOff cancellation;
   std::vector<std::size_t> order;
   const grainlaw_status checked = api::guarded([&] {
     if (const auto found = check_states({states, n}); found != GRAINLAW_OK) return found;
@@ -114,17 +113,19 @@ grainlaw_status grainlaw_evaluate_batch(std::size_t n, grainlaw_state* const* st
   const auto dimension = static_cast<std::size_t>(states[0]->state.material().packing.dimension);
   const std::size_t square = dimension * dimension;
   const std::size_t stride = reports == nullptr ? 0 : report_stride(reports);
-  const auto points = static_cast<std::ptrdiff_t>(n);
-  if (threads <= 0) threads = omp_get_max_threads();
-  threads = std::min(threads, most_threads);
-  threads = static_cast<int>(std::min(static_cast<std::ptrdiff_t>(threads), points));
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::ptrdiff_t turn = 0; turn < points; ++turn) {
-    const std::size_t k = order[static_cast<std::size_t>(turn)];
-    status[k] = api::evaluate_point(
-        *states[k], F + k * square, want, P == nullptr ? nullptr : P + k * square,
-        A == nullptr ? nullptr : A + k * square * square, report_at(reports, stride, k));
-  }
+  std::atomic<std::size_t> turn{0};
+  const auto evaluate_some = [&] {
+    for (std::size_t next = turn++; next < n; next = turn++) {
+      const std::size_t k = order[next];
+      status[k] = api::evaluate_point(
+          *states[k], F + k * square, want, P == nullptr ? nullptr : P + k * square,
+          A == nullptr ? nullptr : A + k * square * square, report_at(reports, stride, k));
+    }
+  };
+  if (threads <= 0) threads = api::default_threads();
+  const std::size_t most = std::min<std::size_t>(n, api::most_threads);
+  const std::size_t together = std::min(static_cast<std::size_t>(threads), most);
+  api::work_together(std::ref(evaluate_some), static_cast<int>(together) - 1);
   return first_failure({status, n});
 }
 

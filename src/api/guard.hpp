@@ -1,7 +1,9 @@
-// The edge of the library: no exception, and no floating point mode of the host, crosses it.
+// The edge of the library: no exception, no floating point mode and no cancellation of the host crosses it.
 #pragma once
 
 #include <grainlaw/grainlaw.h>
+
+#include <pthread.h>
 
 #include <cfenv>
 #include <cstddef>
@@ -37,9 +39,22 @@ class FloatingEnvironment {
   std::fenv_t host_;
 };
 
+// A thread that the host cancels goes on to the end of the call: what unwinds it could not be stopped.
+class CancellationOff {
+ public:
+  CancellationOff() noexcept { pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &host_); }
+  ~CancellationOff() { pthread_setcancelstate(host_, nullptr); }
+  CancellationOff(const CancellationOff&) = delete;
+  CancellationOff& operator=(const CancellationOff&) = delete;
+
+ private:
+  int host_ = PTHREAD_CANCEL_ENABLE;
+};
+
 // Runs the body of an entry point: a callable that returns a status, or nothing for OK.
 template <class Body>
 grainlaw_status guarded(Body&& body, const MessageBuffer& message = {}) noexcept {
+  const CancellationOff cancellation;
   const FloatingEnvironment environment;
   try {
     if constexpr (std::is_void_v<std::invoke_result_t<Body>>) {

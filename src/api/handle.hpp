@@ -12,19 +12,25 @@
 
 namespace grainlaw::api {
 
+// Its address tells this copy of the library from others in the process, whose handles may be laid
+// out in another way.
+inline const char this_copy = 0;
+
 // First word of every handle; the destructor blanks it. A handle that was destroyed, or is of the
 // other kind, is told by it as long as its memory has not been given to something else.
-template <std::uint64_t value>
+template <std::uint64_t kind>
 class Magic {
  public:
   Magic() = default;
   ~Magic() { *static_cast<volatile std::uint64_t*>(&word_) = 0; }  // volatile: not optimised away
   Magic(const Magic&) = delete;
   Magic& operator=(const Magic&) = delete;
-  [[nodiscard]] bool alive() const { return word_ == value; }
+  [[nodiscard]] bool alive() const { return word_ == live(); }
 
  private:
-  std::uint64_t word_ = value;
+  static std::uint64_t live() { return kind ^ reinterpret_cast<std::uintptr_t>(&this_copy); }
+
+  std::uint64_t word_ = live();
 };
 
 }  // namespace grainlaw::api

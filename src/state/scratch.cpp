@@ -36,23 +36,21 @@ class Key {
   bool made_;
 };
 
-Key& key() {
-  static Key instance;
-  return instance;
-}
+// Made before, and gone after, whatever uses it.
+[[gnu::init_priority(101)]] Key key;
 
 }  // namespace
 
 Workspace& workspace() {
-  if (Workspace* const mine = key().get()) return *mine;
+  if (Workspace* const mine = key.get()) return *mine;
   auto made = std::make_unique<Workspace>();
-  if (!key().set(made.get())) throw std::bad_alloc();
+  if (!key.set(made.get())) throw std::bad_alloc();
   return *made.release();
 }
 
 void drop_workspace() noexcept {
-  delete key().get();
-  static_cast<void>(key().set(nullptr));
+  delete key.get();
+  static_cast<void>(key.set(nullptr));
 }
 
 }  // namespace grainlaw

@@ -5,8 +5,8 @@
 
 namespace grainlaw {
 
-// Of the calling thread: made by its first evaluation, reused by the next, gone with the thread. Throws
-// bad_alloc.
+// Of the calling thread: made by its first evaluation, reused by the next, gone with the thread.
+// Throws bad_alloc.
 Workspace& workspace();
 
 // Frees it: what an exception left half done serves nobody.

@@ -1,39 +1,11 @@
 // Many points at once.
-#include "support.hpp"
+#include "batch_support.hpp"
 
 #include <cmath>
 #include <cstdint>
 
 namespace grainlaw::test {
 namespace {
-
-// Eight points at different strains: some cheap, some dear.
-constexpr std::size_t points = 8;
-
-std::vector<double> deformations() {
-  std::vector<double> F;
-  for (std::size_t k = 0; k < points; ++k) {
-    const double strain = 2e-4 * static_cast<double>((3 * k) % points);
-    F.insert(F.end(), {1, strain, 0, 1 - strain});
-  }
-  return F;
-}
-
-std::vector<State> states() { return std::vector<State>(points, State(material())); }
-
-std::vector<grainlaw_state*> handles(const std::vector<State>& states) {
-  std::vector<grainlaw_state*> found;
-  for (const State& state : states) found.push_back(state.get());
-  return found;
-}
-
-struct Result {
-  std::vector<double> P = std::vector<double>(4 * points);
-  std::vector<double> A = std::vector<double>(16 * points);
-  std::vector<grainlaw_status> status = std::vector<grainlaw_status>(points);
-  std::vector<grainlaw_report> report =
-      std::vector<grainlaw_report>(points, grainlaw_report_default());
-};
 
 TEST(batch, results_do_not_depend_on_the_number_of_threads) {
   const auto F = deformations();

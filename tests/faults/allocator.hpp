@@ -1,5 +1,5 @@
-// Allocations that fail on purpose: malloc and its kin, of which operator new and stdio are made, for the
-// whole process.
+// Allocations that fail on purpose: malloc and its kin, of which operator new and stdio are made,
+// for the whole process.
 #pragma once
 
 #include <functional>

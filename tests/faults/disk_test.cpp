@@ -1,4 +1,4 @@
-// Writes that fail, after every number of bytes: what was there stays, and nothing is left beside it.
+// Writes that fail after ever more bytes: what was there stays, and nothing is left beside it.
 #include "../temporary_directory.hpp"
 #include "allocator.hpp"
 #include "materials.hpp"

@@ -1,5 +1,5 @@
-// Every allocation of an evaluation fails in turn: it is told, nothing changes, and the same call then has
-// the same answer.
+// Every allocation of an evaluation fails in turn: it is told, nothing changes, and the same call
+// then has the same answer.
 #include "allocator.hpp"
 #include "materials.hpp"
 

@@ -5,12 +5,14 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <system_error>
 #include <thread>
 #include <vector>
 
 namespace verification {
 
-// Calls job(0), ..., job(count - 1), so many at a time as there are threads (>= 1); all of them are
+// Calls job(0), ..., job(count - 1), so many at a time as there are threads (>= 1), or as many fewer as
+// can be started; all of them are
 // done, or tried, before the error of the first that failed is thrown.
 template <class Job>
 void run_jobs(std::size_t count, int threads, Job&& job) {
@@ -27,8 +29,11 @@ void run_jobs(std::size_t count, int threads, Job&& job) {
   };
   {
     std::vector<std::jthread> others;
-    for (std::size_t k = 1; k < std::min(count, static_cast<std::size_t>(threads)); ++k)
-      others.emplace_back(work);
+    try {
+      for (std::size_t k = 1; k < std::min(count, static_cast<std::size_t>(threads)); ++k)
+        others.emplace_back(work);
+    } catch (const std::system_error&) {  // no more threads: the others do it all
+    }
     work();
   }
   for (const std::exception_ptr& error : errors)
