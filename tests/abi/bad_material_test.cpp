@@ -135,7 +135,7 @@ TEST(bad_material, any_mistake_is_told_with_file_line_key_and_expectation) {
       {15, "tolerance = 1", 15, "solver.tolerance", "found 1, expected a number from 1e-14 to 0.1"},
       {15, "tolerance = 1e-15", 15, "solver.tolerance", "expected a number from 1e-14"},
       {15, "loose_tolerance = 1", 15, "solver.loose_tolerance", "a number from 0 to 0.1"},
-      {15, "loose_tolerance = 1e-9", 15, "solver.loose_tolerance", "at least solver.tolerance"},
+      {15, "loose_tolerance = 1e-10", 15, "solver.loose_tolerance", "at least solver.tolerance"},
       {15, "force_floor = -1", 15, "solver.force_floor", "a number >= 0"},
       {15, "start = \"last\"", 15, "solver.start", "one of \"committed\", \"trial\""},
       {15, "method = \"newton\"", 15, "solver.method",

@@ -159,8 +159,9 @@ TEST(conditions, a_tie_that_is_prescribed_or_tied_again_is_refused) {
                  {"scene.toml:14: platen[1]", "bound by scene.toml:11: tie[1] already"});
   expect_refusal(held_bottom +
                      "[[platen]]\non = 'top'\n[[displacement]]\non = 'top_left'\n"
-                     "component = 'y'\nvalue = 0.1",
-                 {"the whole platen prescribed"});
+                     "component = 'y'\nvalue = 0.1\n[[displacement]]\non = 'top_right'\n"
+                     "component = 'y'\nvalue = 0.2",
+                 {"platen[1]", "bound to move otherwise"});
 }
 
 TEST(conditions, periodic_sides_prescribed_on_one_side_are_refused) {

@@ -37,7 +37,11 @@ class start : public testing::Test {
     }
   }
 
-  PointEnd run(const PointScene& scene) { return run_point(scene, directory_.path() / "out"); }
+  PointEnd run(const PointScene& scene) {
+    PointEnd end;
+    run_point(scene, directory_.path() / "out", end);
+    return end;
+  }
 
   // What is unusual in a packing of thirty discs after a change to its text.
   std::string unusual(const std::string& from, const std::string& to) {
