@@ -195,8 +195,8 @@ void Sensitivity::carry_free(const Increment& increment, double share) {
   carry(increment);
 }
 
-// As Increment::carry_start moves it: what is not held goes on from its last start, with the mean of the
-// others.
+// As Increment::carry_start moves it: what is not held goes on from its last start, with the mean of
+// the others.
 void Sensitivity::carry_motion(const Increment& increment) {
   const auto& node = increment.problem->space->node;
   const std::size_t b = increment.problem->law->rotating() ? 3 : 2;
