@@ -2,7 +2,7 @@
 
 #include "api/guard.hpp"
 #include "api/report.hpp"
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <fmt/format.h>
 

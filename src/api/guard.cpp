@@ -1,6 +1,6 @@
 #include "api/guard.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -3,7 +3,7 @@
 
 #include "api/guard.hpp"
 #include "api/handle.hpp"
-#include "packing/packing_file.hpp"
+#include "material/packing_file.hpp"
 
 #include <grainlaw/grainlaw.h>
 

@@ -9,7 +9,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace grainlaw {
@@ -63,15 +62,14 @@ struct BoundarySpace {
   // Contacts that are left out: those within a row.
   void drop(std::vector<NeighbourPair>& pairs) const;
 
-  // 1 / (number of copies) of each pair on the frame, or 1 when the option says so.
-  void weigh(const Packing& packing, std::span<const NeighbourPair> pairs,
-             std::vector<double>& weights) const;
-
   std::array<bool, 2> copied{};  // between left and right, bottom and top: the sides are the same
   std::vector<unsigned char> rows;  // [particles] bit k: in the row of side k; empty: none
 };
 
-// Throws Error (BAD_PACKING) when a frame condition lacks its frame, or the frame what it needs.
-BoundarySpace make_boundary_space(const Packing& packing, const BoundaryOptions& options);
+// The condition of a periodic cell; its options are taken over.
+BoundarySpace make_cell_space(const Packing& packing, const BoundaryOptions& options = {});
+
+// Of one particle [m3].
+double particle_volume(const Packing& packing, std::size_t p);
 
 }  // namespace grainlaw

@@ -2,8 +2,8 @@
 // how many lanes there are.
 #pragma once
 
+#include "base/simd.hpp"
 #include "contact/contact_list.hpp"
-#include "simd.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "contact/contact_list.hpp"
 
-#include "room.hpp"
+#include "base/room.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,8 +55,8 @@ void ContactList::resize(std::size_t contacts, bool weighted, double radius,
 
 void build_contacts(std::span<const NeighbourPair> pairs, std::span<const double> pair_weights,
                     std::span<const double> radius, std::span<const int> node, std::size_t nodes,
-                    const ContactLaw& law, const std::array<double, 4>& cell, const HistoryStart& start,
-                    ContactList& list) {
+                    const ContactLaw& law, const std::array<double, 4>& cell,
+                    const HistoryStart& start, ContactList& list) {
   const std::size_t n = radius.size();
   const double* x = start.coordinates.data();
   const double* y = x + n;

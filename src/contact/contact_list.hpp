@@ -1,11 +1,11 @@
 // The candidate contacts of one increment, structure of arrays, with the history they start from.
 #pragma once
 
+#include "base/simd.hpp"
 #include "contact/contact_sums.hpp"
 #include "contact/history.hpp"
 #include "contact/law.hpp"
 #include "packing/neighbours.hpp"
-#include "simd.hpp"
 
 #include <array>
 #include <cstddef>
@@ -47,7 +47,7 @@ struct ContactList {
   bool turns_far = false;  // a touching branch has turned beyond the short series since the start
 
   simd::Column<ForceRecord> forces;  // of the last evaluation, on j
-  ContactSums sums;                 // of them over the contacts of every node
+  ContactSums sums;                  // of them over the contacts of every node
 
   // Forces, moments and lengths that nothing reaches.
   static constexpr double held = 1e300;
@@ -75,7 +75,7 @@ struct HistoryStart {
 // or 1/copies; forces are summed over the nodes that the particles belong to.
 void build_contacts(std::span<const NeighbourPair> pairs, std::span<const double> pair_weights,
                     std::span<const double> radius, std::span<const int> node, std::size_t nodes,
-                    const ContactLaw& law, const std::array<double, 4>& cell, const HistoryStart& start,
-                    ContactList& list);
+                    const ContactLaw& law, const std::array<double, 4>& cell,
+                    const HistoryStart& start, ContactList& list);
 
 }  // namespace grainlaw

@@ -1,11 +1,11 @@
 // The loops over all contacts: one template over what a law has, for two, four and eight lanes.
 #pragma once
 
+#include "base/simd.hpp"
 #include "contact/contact_columns.hpp"
 #include "contact/contact_list.hpp"
 #include "contact/frictional.hpp"
 #include "contact/turn.hpp"
-#include "simd.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,7 +1,7 @@
 #include "contact/contact_sides.hpp"
 
+#include "base/room.hpp"
 #include "contact/contact_loops.hpp"
-#include "room.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -3,11 +3,11 @@
 // square roots, and no force goes through memory.
 #pragma once
 
+#include "base/simd.hpp"
 #include "contact/contact_list.hpp"
 #include "contact/frictional.hpp"
 #include "contact/law.hpp"
 #include "packing/packing.hpp"
-#include "simd.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "contact/contact_sums.hpp"
 
-#include "room.hpp"
-#include "simd.hpp"
+#include "base/room.hpp"
+#include "base/simd.hpp"
 
 #include <algorithm>
 

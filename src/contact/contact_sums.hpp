@@ -2,8 +2,8 @@
 // contact would wait for the last sum on the same particle.
 #pragma once
 
+#include "base/simd.hpp"
 #include "contact/records.hpp"
-#include "simd.hpp"
 
 #include <cstddef>
 #include <cstdint>

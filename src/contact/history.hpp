@@ -11,7 +11,7 @@ struct ContactHistory {
   std::int32_t i = 0;
   std::int32_t j = 0;
   std::array<std::int16_t, 2> shift{};
-  bool sliding = false;         // at the friction limit
+  bool sliding = false;  // at the friction limit
   bool bonded = false;
   double tangential_force = 0;  // on j, along the branch normal turned by +90 degrees [N]
 };

@@ -1,7 +1,7 @@
 // By what angle a branch has turned, without a trigonometric call: of doubles and of vectors of them.
 #pragma once
 
-#include "simd.hpp"
+#include "base/simd.hpp"
 
 namespace grainlaw {
 

@@ -42,22 +42,22 @@ constexpr double good = 0.1;
 constexpr double acceptable = 0.9;
 constexpr double largest_rise = 300;
 
-class FlowNewton {
+class PseudoTransientNewton {
  public:
-  FlowNewton(Increment& increment, double tolerance, NewtonMemory& memory,
-             RelaxationMemory* relaxation)
+  PseudoTransientNewton(Increment& increment, double tolerance, NewtonMemory& memory,
+                        RelaxationMemory* relaxation)
       : increment_(increment),
         tolerance_(tolerance),
         memory_(memory),
         relaxation_(relaxation),
-        gears_(Gears::possible(*increment.problem)) {
+        may_roll_(RollingMechanisms::possible(*increment.problem)) {
     memory.step.assign(increment.unknowns(), 0.0);
     memory.coordinates.reserve(increment.coordinates.size());
     memory.moved.reserve(increment.coordinates.size());
     memory.flow.reserve(increment.unknowns());
     memory.total.reserve(increment.unknowns());
     increment.refresh_masses();
-    if (gears_) memory.gears.forget(increment);
+    if (may_roll_) memory.mechanisms.forget(increment);
     keep_best();
   }
 
@@ -66,15 +66,15 @@ class FlowNewton {
     while (increment_.factorisations < last && std::isfinite(norm_)) {
       if (increment_.residual_norm() < tolerance_) return true;
       assemble();
-      if (gears_) {
-        turn_gears();
+      if (may_roll_) {
+        turn_mechanisms();
         if (increment_.residual_norm() < tolerance_) return true;
-        memory_.gears.hold(increment_, memory_.stiffness);
+        memory_.mechanisms.hold(increment_, memory_.stiffness);
       }
       const auto r = increment_.residual();
       memory_.residual.assign(r.begin(), r.end());
       const bool solved = solve();
-      if (solved && gears_) memory_.gears.see(increment_, memory_.step, least_moment());
+      if (solved && may_roll_) memory_.mechanisms.see(increment_, memory_.step, least_moment());
       if (!solved) {
         if (!raise_shift()) return false;
       } else if (full_steps_) {
@@ -91,29 +91,29 @@ class FlowNewton {
 
   void assemble() { memory_.stiffness.assemble(increment_, shift_); }
 
-  // Of gears, that counts [N].
+  // Of mechanisms, that counts [N].
   [[nodiscard]] double least_moment() const {
     constexpr double enough = 0.3;  // of the tolerance
     return enough * tolerance_ * increment_.relative_scale();
   }
 
-  void turn_gears() {
-    auto& gears = memory_.gears;
-    gears.find(increment_, memory_.stiffness.touching());
-    if (!gears.turn(increment_, least_moment())) return;
+  void turn_mechanisms() {
+    auto& mechanisms = memory_.mechanisms;
+    mechanisms.find(increment_, memory_.stiffness.touching());
+    if (!mechanisms.turn(increment_, least_moment())) return;
     increment_.update_forces();
     norm_ = defect();
     if (norm_ < best_) keep_best();
     assemble();
-    gears.find(increment_, memory_.stiffness.touching());
+    mechanisms.find(increment_, memory_.stiffness.touching());
   }
 
   // For memory_.step, at the present coordinates, of what was assembled there.
   bool solve() {
-    auto& [stiffness, border, gears, step, residual, coordinates, moved, best, flow, total] =
+    auto& [stiffness, border, mechanisms, step, residual, coordinates, moved, best, flow, total] =
         memory_;
     stiffness.factorise(increment_);
-    if (Border::needed(*increment_.problem->space)) {
+    if (BorderedSystem::needed(*increment_.problem->space)) {
       return border.solve(increment_, stiffness, shift_, residual, step);
     }
     return stiffness.solve(increment_, residual, step);
@@ -272,7 +272,7 @@ class FlowNewton {
   double tolerance_;
   NewtonMemory& memory_;
   RelaxationMemory* relaxation_;  // null: none
-  bool gears_;                    // there may be some
+  bool may_roll_;                 // there may be some
   double shift_ = first_shift;
   double norm_ = 0;  // of the residual at the present coordinates
   double best_ = 0;  // the least so far, at memory.best
@@ -283,9 +283,9 @@ class FlowNewton {
 
 }  // namespace
 
-bool flow_newton(Increment& increment, double tolerance, int max_factorisations,
-                 NewtonMemory& memory, RelaxationMemory* relaxation) {
-  return FlowNewton(increment, tolerance, memory, relaxation).run(max_factorisations);
+bool pseudo_transient_newton(Increment& increment, double tolerance, int max_factorisations,
+                             NewtonMemory& memory, RelaxationMemory* relaxation) {
+  return PseudoTransientNewton(increment, tolerance, memory, relaxation).run(max_factorisations);
 }
 
 }  // namespace grainlaw

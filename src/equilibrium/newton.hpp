@@ -1,12 +1,13 @@
-// Newton's method made safe, in two gaits: full steps through the kinks of contacts that open, close,
-// stick and slide; and implicit Euler steps of the overdamped flow m dz/dt = r where those lead away.
+// Pseudo-transient continuation (Kelley & Keyes 1998), in two gaits: full Newton steps through the
+// kinks of contacts that open, close, stick and slide; and implicit Euler steps of the overdamped flow
+// m dz/dt = r where those lead away.
 #pragma once
 
-#include "equilibrium/border.hpp"
-#include "equilibrium/gears.hpp"
-#include "equilibrium/increment.hpp"
 #include "equilibrium/relaxation.hpp"
-#include "equilibrium/stiffness.hpp"
+#include "equilibrium/rolling_mechanisms.hpp"
+#include "increment/increment.hpp"
+#include "tangent/bordered_system.hpp"
+#include "tangent/stiffness.hpp"
 
 #include <vector>
 
@@ -14,8 +15,8 @@ namespace grainlaw {
 
 struct NewtonMemory {
   Stiffness stiffness;
-  Border border;
-  Gears gears;
+  BorderedSystem border;
+  RollingMechanisms mechanisms;
   std::vector<double> step, residual, coordinates, moved, best, flow, total;
 };
 
@@ -24,12 +25,12 @@ struct NewtonMemory {
 // relaxation, that settles what the step did not foresee, and may end it all.
 // Full steps may pass through states of larger residual all the same; when a few in a row gain
 // nothing, or one ends where it began, they are taken back and the flow leads on until it gains.
-// Before a step, discs that roll like gears turn to where they are in balance.
+// Before a step, rolling mechanisms turn to where they are in balance.
 // The flow's s falls while the linear model is good and rises when it is not, and a step that no
 // relaxation settles is corrected by Newton on its own equation; with s > 0 it is stable exactly
 // where the equilibrium is, flutter included. False after max_factorisations, or a few more to end a
 // step, or when the residual is no longer finite.
-bool flow_newton(Increment& increment, double tolerance, int max_factorisations,
-                 NewtonMemory& memory, RelaxationMemory* relaxation = nullptr);
+bool pseudo_transient_newton(Increment& increment, double tolerance, int max_factorisations,
+                             NewtonMemory& memory, RelaxationMemory* relaxation = nullptr);
 
 }  // namespace grainlaw

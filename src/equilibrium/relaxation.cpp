@@ -1,7 +1,7 @@
 #include "equilibrium/relaxation.hpp"
 
+#include "base/simd.hpp"
 #include "contact/frictional.hpp"
-#include "simd.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -81,7 +81,7 @@ GRAINLAW_CLONES void find_gains(const double* mass, double* gain, std::size_t do
 }  // namespace
 
 Relaxation::Relaxation(Increment& increment, History history, RelaxationMemory& memory,
-                       bool may_leap)
+                       bool may_extrapolate)
     : increment_(increment), history_(history), memory_(memory) {
   const auto& law = *increment.problem->law;
   const bool by_places = history == History::committed && increment.problem->space->identity;
@@ -89,8 +89,8 @@ Relaxation::Relaxation(Increment& increment, History history, RelaxationMemory& 
   at_once_ = by_places && law.plain() && !law.tangential();
   // Without friction nothing flutters, and the damping is that of the softest mode.
   rough_ = by_places && law.tangential();
-  leaps_ = may_leap && rough_;
-  if (leaps_) {
+  extrapolates_ = may_extrapolate && rough_;
+  if (extrapolates_) {
     memory.slow.reserve(increment.particles());
     memory.slow.forget();
   }
@@ -191,19 +191,19 @@ bool Relaxation::flutters() const {
 }
 
 // Where soft modes creep under the damping that flutter asks for, on with them at once; whether it
-// did. Less often every time: what a leap disturbs needs the relaxation.
-bool Relaxation::leap() {
-  constexpr long leap_interval = 30;  // from look to look [steps]
-  static_assert(leap_interval % long_interval == 0);
-  constexpr double leap_residual = 2e-3;    // below it the contacts switch seldom
-  constexpr double restless = 6;            // largest / smallest residual since the last look
-  constexpr double longest_leap = 0.3;      // mean overlaps
-  constexpr double least_stiffness = 1e-6;  // of the mean one
+// did. Less often every time: what an extrapolation disturbs needs the relaxation.
+bool Relaxation::extrapolate() {
+  constexpr long extrapolation_interval = 30;  // from look to look [steps]
+  static_assert(extrapolation_interval % long_interval == 0);
+  constexpr double extrapolation_residual = 2e-3;  // below it the contacts switch seldom
+  constexpr double restless = 6;                 // largest / smallest residual since the last look
+  constexpr double longest_extrapolation = 0.3;  // mean overlaps
+  constexpr double least_stiffness = 1e-6;       // of the mean one
   constexpr double longer_pause = 1.5;
-  if (steps_ % leap_interval != 0) return false;
-  const bool creeps = residual_ < leap_residual && look_max_ < restless * look_min_;
+  if (steps_ % extrapolation_interval != 0) return false;
+  const bool creeps = residual_ < extrapolation_residual && look_max_ < restless * look_min_;
   look_max_ = look_min_ = residual_;
-  if (!creeps || steps_ < next_leap_) {
+  if (!creeps || steps_ < next_extrapolation_) {
     memory_.slow.forget();
     return false;
   }
@@ -211,12 +211,13 @@ bool Relaxation::leap() {
   memory_.slow.see(increment_.records, increment_.forces, residual_);
   if (!memory_.slow.slow()) return false;
   const double stiffness = increment_.mean_stiffness();
-  const double limit = longest_leap * increment_.relative_scale() / stiffness;
-  const bool leapt = memory_.slow.leap(increment_.records, limit, least_stiffness * stiffness);
+  const double limit = longest_extrapolation * increment_.relative_scale() / stiffness;
+  const bool extrapolated =
+      memory_.slow.extrapolate(increment_.records, limit, least_stiffness * stiffness);
   memory_.slow.forget();
-  if (!leapt) return false;
-  pause_ = longer_pause * pause_ + leap_interval;
-  next_leap_ = steps_ + std::lround(pause_);
+  if (!extrapolated) return false;
+  pause_ = longer_pause * pause_ + extrapolation_interval;
+  next_extrapolation_ = steps_ + std::lround(pause_);
   increment_.store_records();
   std::fill(memory_.velocity.begin(), memory_.velocity.end(), 0.0);
   arranged_ = false;
@@ -286,7 +287,7 @@ bool Relaxation::run(double tolerance, long steps, double least_force) {
       if (by_sides_) memory_.sides.move(increment_.records);
       increment_.store_records();
       refresh();
-      if (leaps_ && !over && leap()) refresh();
+      if (extrapolates_ && !over && extrapolate()) refresh();
     }
     update();
     if (over) {
@@ -304,8 +305,9 @@ bool Relaxation::run(double tolerance, long steps, double least_force) {
 }
 
 bool relax(Increment& increment, double tolerance, long max_steps, History history,
-           RelaxationMemory& memory, double least_force, bool may_leap) {
-  return Relaxation(increment, history, memory, may_leap).run(tolerance, max_steps, least_force);
+           RelaxationMemory& memory, double least_force, bool may_extrapolate) {
+  return Relaxation(increment, history, memory, may_extrapolate)
+      .run(tolerance, max_steps, least_force);
 }
 
 }  // namespace grainlaw

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "contact/contact_sides.hpp"
-#include "equilibrium/increment.hpp"
-#include "equilibrium/slow_modes.hpp"
+#include "equilibrium/subspace_extrapolation.hpp"
+#include "increment/increment.hpp"
 
 #include <array>
 #include <limits>
@@ -19,7 +19,7 @@ enum class History { committed, advancing };
 struct RelaxationMemory {
   std::vector<double> velocity, gain, mass, correction;
   ContactSides sides;
-  SlowModes slow;
+  SubspaceExtrapolation slow;
   // Of the servo: what the relaxations do not move, forces before reduction, areas and particles of
   // nodes under uniform stress.
   std::vector<unsigned char> frozen;
@@ -29,11 +29,12 @@ struct RelaxationMemory {
 };
 
 // Viscous relaxation: the damping follows the lowest active frequency, and its floor adapts to
-// flutter. Where soft modes creep under it, the relaxation leaps along them.
+// flutter. Where soft modes creep under it, the relaxation extrapolates along them.
 class Relaxation {
  public:
-  // At rest at the present coordinates. A leap may end on another branch of equilibria.
-  Relaxation(Increment& increment, History history, RelaxationMemory& memory, bool may_leap = true);
+  // At rest at the present coordinates. An extrapolation may end on another branch of equilibria.
+  Relaxation(Increment& increment, History history, RelaxationMemory& memory,
+             bool may_extrapolate = true);
 
   // Go on until residual_norm() < tolerance, at most `steps` further steps. Returns whether it got
   // there. Ends too when no more than `least_force` is left of the mean contact force [N], or when
@@ -48,7 +49,7 @@ class Relaxation {
   void update();
   [[nodiscard]] double size() const;  // of the packing, over 400 nodes; 1 where there are fewer
   void review_floor();
-  bool leap();
+  bool extrapolate();
   [[nodiscard]] bool flutters() const;
   void step();
   void step_deformation();
@@ -56,21 +57,21 @@ class Relaxation {
   Increment& increment_;
   History history_;
   RelaxationMemory& memory_;
-  bool by_sides_ = false;  // forces and steps by ContactSides
-  bool at_once_ = false;   // nothing comes between the sums of forces and the step
-  bool arranged_ = false;  // of the contacts listed at present
-  bool at_rest_ = true;    // no velocities to keep
-  bool rough_ = false;     // friction, and forces a function of the places
-  bool leaps_ = false;     // along slow modes
-  double residual_ = 0;    // before the last step [-]; infinite: no contact, or not a finite number
-  double power_ = 0;       // sum of the last step's velocity times the residual before it
-  double frequency_ = 0;   // sqrt of the Rayleigh quotient of the velocity [1 / step]
+  bool by_sides_ = false;      // forces and steps by ContactSides
+  bool at_once_ = false;       // nothing comes between the sums of forces and the step
+  bool arranged_ = false;      // of the contacts listed at present
+  bool at_rest_ = true;        // no velocities to keep
+  bool rough_ = false;         // friction, and forces a function of the places
+  bool extrapolates_ = false;  // in the subspace of the last moves
+  double residual_ = 0;   // before the last step [-]; infinite: no contact, or not a finite number
+  double power_ = 0;      // sum of the last step's velocity times the residual before it
+  double frequency_ = 0;  // sqrt of the Rayleigh quotient of the velocity [1 / step]
   static constexpr double first_floor = 0.1;
   double floor_ = first_floor;  // of the damping
   long steps_ = 0;
-  static constexpr long first_leap = 200;
-  long next_leap_ = first_leap;           // not before this step
-  double pause_ = 0;                      // after the last leap [steps]
+  static constexpr long first_extrapolation = 200;
+  long next_extrapolation_ = first_extrapolation;  // not before this step
+  double pause_ = 0;                               // after the last extrapolation [steps]
   double calm_start_ = 0, calm_max_ = 0;  // residual at the last look at the geometry, and since
   double look_max_ = 0, look_min_ = std::numeric_limits<double>::infinity();  // residual since then
   double window_start_ = std::numeric_limits<double>::infinity();
@@ -83,7 +84,7 @@ struct PublishedOptions;
 
 // A Relaxation from rest, run once.
 bool relax(Increment& increment, double tolerance, long max_steps, History history,
-           RelaxationMemory& memory, double least_force = 0, bool may_leap = true);
+           RelaxationMemory& memory, double least_force = 0, bool may_extrapolate = true);
 
 // The papers' dynamic relaxation: physical masses, local damping -alpha |f| sign(v) (Liu, Bosco &
 // Suiker 2017 eq. 10), explicit steps, history advanced at every step. Ends at the residual

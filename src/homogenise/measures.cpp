@@ -1,6 +1,7 @@
 #include "homogenise/measures.hpp"
 
-#include "packing/frame_geometry.hpp"
+#include "frame/frame_geometry.hpp"
+#include "frame/frame_space.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,7 @@ std::array<double, 4> cauchy_stress(const Configuration& at) {
 
 // Weighted number of contacts of every particle, copies being one.
 std::vector<double> contacts_of_sources(const Problem& problem,
-                                      const std::vector<ContactView>& contacts) {
+                                        const std::vector<ContactView>& contacts) {
   std::vector<double> count(problem.space->sources, 0.0);
   const auto& source = problem.space->source;
   for (const auto& c : contacts) {
@@ -103,9 +104,12 @@ double escaped_particles(const Problem& problem, const Configuration& at) {
   const auto& packing = *problem.packing;
   if (!packing.frame) return 0;
   const auto n = packing.size();
-  const auto centre = [&](std::size_t p) { return Point{at.coordinates[p], at.coordinates[n + p]}; };
+  const auto centre = [&](std::size_t p) {
+    return Point{at.coordinates[p], at.coordinates[n + p]};
+  };
   std::vector<Point> polygon;
-  for (const int q : packing.frame->boundary) polygon.push_back(centre(static_cast<std::size_t>(q)));
+  for (const int q : packing.frame->boundary)
+    polygon.push_back(centre(static_cast<std::size_t>(q)));
   double escaped = 0;
   for (std::size_t p = 0; p < n; ++p) {
     const auto node = static_cast<std::size_t>(problem.space->node[p]);
@@ -125,7 +129,7 @@ std::vector<ContactView> contact_views(const Problem& problem, const Configurati
   std::vector<NeighbourPair> pairs;
   for (const auto& c : at.contacts) pairs.push_back({c.i, c.j, c.shift});
   std::vector<double> weights(pairs.size(), 1.0);
-  if (packing.frame) problem.space->weigh(packing, pairs, weights);
+  if (packing.frame) weigh_copies(*problem.space, packing, pairs, weights);
   std::vector<ContactView> views;
   views.reserve(at.contacts.size());
   for (std::size_t k = 0; k < at.contacts.size(); ++k) {

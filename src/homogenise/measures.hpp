@@ -1,8 +1,8 @@
 // What a configuration can tell: stress, void ratio, coordination, fabric, energies.
 #pragma once
 
-#include "equilibrium/configuration.hpp"
-#include "equilibrium/problem.hpp"
+#include "increment/configuration.hpp"
+#include "increment/problem.hpp"
 
 #include <grainlaw/grainlaw.h>
 

@@ -1,7 +1,7 @@
 #include "homogenise/stress.hpp"
 
 #include "contact/contact_point.hpp"
-#include "equilibrium/pull_back.hpp"
+#include "math/pull_back.hpp"
 
 #include <cmath>
 
@@ -14,9 +14,8 @@ template <class Visit>
 void for_each_contact(const Increment& increment, Visit&& visit) {
   const PullBack pull_back(increment.deformation);
   for (std::size_t c = 0; c < increment.contacts.size(); ++c) {
-    const auto point =
-        contact_point(increment.contacts, c, increment.coordinates, increment.particles(),
-                      *increment.problem->law);
+    const auto point = contact_point(increment.contacts, c, increment.coordinates,
+                                     increment.particles(), *increment.problem->law);
     if (point.status == ContactStatus::open) continue;
     visit(c, point,
           increment.problem->space->bound_to_axes() ? increment.fixed_branch(c)

@@ -1,8 +1,8 @@
 // First Piola-Kirchhoff stress and tangents of a solved increment.
 #pragma once
 
-#include "equilibrium/increment.hpp"
-#include "equilibrium/sensitivity.hpp"
+#include "increment/increment.hpp"
+#include "tangent/sensitivity.hpp"
 
 #include <array>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/law.hpp"
-#include "material/toml_table.hpp"
+#include "io/toml_table.hpp"
 
 namespace grainlaw {
 

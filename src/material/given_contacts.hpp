@@ -1,7 +1,7 @@
 // What a law makes of the contacts that a packing comes with, or comes without.
 #pragma once
 
-#include "equilibrium/configuration.hpp"
+#include "increment/configuration.hpp"
 #include "material/material.hpp"
 
 namespace grainlaw {

@@ -1,6 +1,6 @@
 #include "material/initial_stress.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 #include "homogenise/stress.hpp"
 
 #include <fmt/format.h>

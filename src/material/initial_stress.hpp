@@ -1,7 +1,7 @@
 // From the equilibrium at F = I to the one under the prescribed components of stress.
 #pragma once
 
-#include "equilibrium/chain.hpp"
+#include "equilibrium/strategy.hpp"
 
 namespace grainlaw {
 

@@ -1,12 +1,13 @@
 #include "material/material.hpp"
 
-#include "consolidation/compaction.hpp"
-#include "equilibrium/chain.hpp"
-#include "error.hpp"
+#include "base/error.hpp"
+#include "equilibrium/strategy.hpp"
+#include "frame/frame.hpp"
+#include "frame/frame_space.hpp"
+#include "generate/compaction.hpp"
 #include "homogenise/stress.hpp"
 #include "material/given_contacts.hpp"
 #include "material/initial_stress.hpp"
-#include "packing/frame.hpp"
 #include "packing/row_order.hpp"
 
 #include <fmt/format.h>
@@ -223,7 +224,7 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
                 "solver.contacts_lost = \"stress_free\"");
   }
   if (outcome.status == GRAINLAW_COLLAPSED) {
-    const int let_go = workspace.increment.particle_let_go();
+    const int let_go = workspace.increment.released_particle();
     throw Error(
         outcome.status,
         fmt::format("the packing carries no uniform stress at F = I: {}; expected every "

@@ -3,10 +3,10 @@
 
 #include "boundary/boundary_space.hpp"
 #include "contact/law.hpp"
-#include "equilibrium/configuration.hpp"
 #include "equilibrium/options.hpp"
-#include "equilibrium/problem.hpp"
-#include "packing/generator.hpp"
+#include "generate/generator.hpp"
+#include "increment/configuration.hpp"
+#include "increment/problem.hpp"
 #include "packing/packing.hpp"
 
 #include <cstdint>

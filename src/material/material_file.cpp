@@ -1,12 +1,12 @@
 #include "material/material_file.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
+#include "io/text_file.hpp"
+#include "io/toml_table.hpp"
 #include "material/boundary_keys.hpp"
 #include "material/contact_keys.hpp"
+#include "material/packing_file.hpp"
 #include "material/packing_keys.hpp"
-#include "material/toml_table.hpp"
-#include "packing/packing_file.hpp"
-#include "packing/text_file.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // The keys of [packing] that describe a generator.
 #pragma once
 
-#include "material/toml_table.hpp"
-#include "packing/generator.hpp"
+#include "generate/generator.hpp"
+#include "io/toml_table.hpp"
 
 namespace grainlaw {
 

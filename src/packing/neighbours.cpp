@@ -1,7 +1,7 @@
 #include "packing/neighbours.hpp"
 
-#include "error.hpp"
-#include "room.hpp"
+#include "base/error.hpp"
+#include "base/room.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -33,7 +33,7 @@ struct Frame {
   std::vector<std::array<double, 2>> area;  // A_q of eq. 2 per boundary particle [m], per unit t
   // Of a packing that was written deformed: where its boundary conditions count from. Fluctuations
   // are relative to F X, copies are copies in X, and A_q is that of X, carried along.
-  std::vector<double> reference;                   // X as `position`; empty: the positions [m]
+  std::vector<double> reference;                  // X as `position`; empty: the positions [m]
   std::array<double, 4> deformation{1, 0, 0, 1};  // F from X to here, det F > 0
   // Per particle: which particle of the periodic packing it is, numbered in order of appearance;
   // how many lattice vectors lie between that one's first copy and this one, 0 or 1 each; the same

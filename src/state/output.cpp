@@ -1,8 +1,8 @@
 #include "state/output.hpp"
 
+#include "frame/frame.hpp"
 #include "homogenise/measures.hpp"
-#include "packing/frame.hpp"
-#include "packing/vtk.hpp"
+#include "io/vtk.hpp"
 
 #include <cmath>
 #include <span>

@@ -1,7 +1,7 @@
 // The memory with which a thread evaluates.
 #pragma once
 
-#include "equilibrium/chain.hpp"
+#include "equilibrium/strategy.hpp"
 
 namespace grainlaw {
 

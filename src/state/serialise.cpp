@@ -9,7 +9,7 @@
 // version are told apart.
 #include "state/serialise.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <xxhash.h>
 

@@ -1,7 +1,7 @@
 // An equilibrium as bytes and back: the same on every machine, and refused when anything is wrong.
 #pragma once
 
-#include "equilibrium/configuration.hpp"
+#include "increment/configuration.hpp"
 #include "material/material.hpp"
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 #include "state/state.hpp"
 
-#include "equilibrium/chain.hpp"
+#include "base/room.hpp"
+#include "equilibrium/strategy.hpp"
 #include "homogenise/stress.hpp"
-#include "room.hpp"
 #include "state/rotation.hpp"
 #include "state/scratch.hpp"
 

@@ -1,5 +1,5 @@
 // The engine's inner loops, on the reference packing in the middle of an increment of 0.1 %.
-#include "equilibrium/chain.hpp"
+#include "equilibrium/strategy.hpp"
 #include "material/material.hpp"
 #include "material/material_file.hpp"
 

@@ -1,7 +1,7 @@
 // Any text as a material: an answer or a message that says what is wrong.
 #include "support.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 #include "material/material_file.hpp"
 
 #include <grainlaw/grainlaw.h>

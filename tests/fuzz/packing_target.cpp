@@ -2,8 +2,8 @@
 // and lines that are added to the material.
 #include "support.hpp"
 
-#include "error.hpp"
-#include "packing/packing_file.hpp"
+#include "base/error.hpp"
+#include "material/packing_file.hpp"
 
 #include <grainlaw/grainlaw.h>
 

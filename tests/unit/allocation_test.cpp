@@ -101,7 +101,8 @@ std::vector<MaterialDescription> descriptions() {
   for (const auto& law : {rolling_law(), hertz_law(), rolling_hertz_law(), bonded_law(1)}) {
     all.push_back(describe_law(reference_packing(), law, BoundaryType::periodic_cell, 1e-8));
   }
-  all.push_back(describe_law(reference_packing(), compressive_law(), BoundaryType::periodic_cell, 1e-8));
+  all.push_back(
+      describe_law(reference_packing(), compressive_law(), BoundaryType::periodic_cell, 1e-8));
   for (const auto boundary : {BoundaryType::frame_d, BoundaryType::frame_t}) {
     all.push_back(describe(small_packing(), rough_law(), boundary, 1e-8));
   }

@@ -1,8 +1,8 @@
 // The block factorisation and GMRES against a dense factorisation, on random matrices over random
 // planar graphs.
-#include "equilibrium/block_lu.hpp"
-#include "equilibrium/block_matrix.hpp"
-#include "equilibrium/gmres.hpp"
+#include "linear/block_lu.hpp"
+#include "linear/block_matrix.hpp"
+#include "linear/gmres.hpp"
 
 #include <gtest/gtest.h>
 #include <Eigen/Dense>

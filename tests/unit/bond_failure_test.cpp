@@ -3,7 +3,7 @@
 #include "law_support.hpp"
 
 #include "boundary/boundary_space.hpp"
-#include "equilibrium/increment.hpp"
+#include "increment/increment.hpp"
 
 namespace grainlaw::test {
 namespace {
@@ -36,7 +36,7 @@ struct Pair {
     packing.cell = {10, 0, 0, 10};
     packing.radius = {1, 1};
     packing.position = {0, 2, 0, 0};
-    space = make_boundary_space(packing, {});
+    space = make_cell_space(packing);
     problem = {&packing, &law, &space, 1, 1e-8};
     Configuration from;
     from.deformation = {1, 0, 0, 1};

@@ -1,8 +1,8 @@
 // Frames whose opposite sides are not copies: regular packings with a closed chain around them.
 #include "../temporary_directory.hpp"
+#include "base/error.hpp"
 #include "boundary_support.hpp"
-#include "error.hpp"
-#include "packing/frame_geometry.hpp"
+#include "frame/frame_geometry.hpp"
 #include "state/output.hpp"
 
 namespace grainlaw::test {

@@ -1,6 +1,6 @@
-#include "consolidation/compaction.hpp"
+#include "generate/compaction.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <gtest/gtest.h>
 

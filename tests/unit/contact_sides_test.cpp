@@ -1,7 +1,7 @@
 // Contacts seen from their nodes: the forces of the law at a place and around it, and steps that they
 // drive.
 #include "contact/contact_sides.hpp"
-#include "equilibrium/increment.hpp"
+#include "increment/increment.hpp"
 #include "law_support.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // The stiffness of a contact is the derivative of its law, in every status.
 #include "contact_support.hpp"
-#include "equilibrium/stiffness.hpp"
+#include "tangent/stiffness.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "packing/frame.hpp"
+#include "frame/frame.hpp"
 
-#include "consolidation/compaction.hpp"
-#include "error.hpp"
-#include "packing/frame_geometry.hpp"
-#include "packing/generator.hpp"
+#include "base/error.hpp"
+#include "frame/frame_geometry.hpp"
+#include "generate/compaction.hpp"
+#include "generate/generator.hpp"
+#include "material/packing_file.hpp"
 #include "packing/neighbours.hpp"
-#include "packing/packing_file.hpp"
 
 #include <gtest/gtest.h>
 

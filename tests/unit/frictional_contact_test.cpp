@@ -190,8 +190,7 @@ TEST(frictional_contact, disc_touches_its_own_image) {
   const std::array<double, 4> sheared{1.9, 0.2, 0.02, 10};
   test::build(pairs, radius, law, sheared, {start, narrow, {}}, list);
   const double d = std::hypot(1.9, 0.02);
-  EXPECT_NEAR(test::forces(start, radius, law, list)[2],
-              d * kt * d * std::atan2(0.02, 1.9), 1e-10);
+  EXPECT_NEAR(test::forces(start, radius, law, list)[2], d * kt * d * std::atan2(0.02, 1.9), 1e-10);
 }
 
 TEST(frictional_contact, three_discs_in_a_row_add_up) {

@@ -1,6 +1,6 @@
-#include "packing/generator.hpp"
+#include "generate/generator.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 #include "packing/neighbours.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,8 @@
 // The infinite layer of Liu, Bosco & Suiker (2017), section 5: sheared under a prescribed vertical
 // stress, F22 found.
+#include "base/error.hpp"
 #include "boundary_support.hpp"
-#include "error.hpp"
+#include "frame/frame_space.hpp"
 
 namespace grainlaw::test {
 namespace {

@@ -1,7 +1,7 @@
-#include "packing/lubachevsky_stillinger.hpp"
+#include "generate/lubachevsky_stillinger.hpp"
 
-#include "consolidation/compaction.hpp"
-#include "error.hpp"
+#include "base/error.hpp"
+#include "generate/compaction.hpp"
 #include "packing/neighbours.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "packing/neighbours.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <gtest/gtest.h>
 

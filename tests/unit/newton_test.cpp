@@ -25,7 +25,7 @@ Found solve_from_relaxed(int increments, RelaxationMemory* settling) {
     increment.begin(problem, state.committed(), F);
     increment.refresh_masses();
     const bool relaxed = relax(increment, 5e-4, 5000, History::committed, relaxation);
-    if (relaxed && flow_newton(increment, 1e-8, 50, newton, settling)) ++found.solved;
+    if (relaxed && pseudo_transient_newton(increment, 1e-8, 50, newton, settling)) ++found.solved;
     found.factorisations += increment.factorisations;
     advance(state, F);
   }

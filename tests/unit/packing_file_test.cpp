@@ -1,8 +1,8 @@
-#include "packing/packing_file.hpp"
+#include "material/packing_file.hpp"
 
 #include "../temporary_directory.hpp"
-#include "error.hpp"
-#include "packing/frame.hpp"
+#include "base/error.hpp"
+#include "frame/frame.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
-#include "packing/regular.hpp"
+#include "generate/regular.hpp"
 
-#include "consolidation/compaction.hpp"
-#include "error.hpp"
+#include "base/error.hpp"
+#include "generate/compaction.hpp"
 #include "packing/neighbours.hpp"
 #include "support.hpp"
 

@@ -1,6 +1,6 @@
 // Ways to equilibrium lead to the same one; failure leaves the committed state alone; energy
 // balances.
-#include "equilibrium/chain.hpp"
+#include "equilibrium/strategy.hpp"
 #include "firm_packing.hpp"
 #include "homogenise/stress.hpp"
 #include "support.hpp"
@@ -30,7 +30,7 @@ const std::vector<Named>& ways_of_committed_history() {
        }},
       {"viscous, then Newton", [](Increment& increment, double tolerance) {
          return relax(increment, 1e-4, step_limit, History::committed, memory) &&
-                flow_newton(increment, tolerance, 50, newton);
+                pseudo_transient_newton(increment, tolerance, 50, newton);
        }}};
   return ways;
 }
@@ -227,17 +227,17 @@ void lead_shear(int increments, double step, Relax&& relax_one) {
   }
 }
 
-long steps_of_shear(bool may_leap) {
+long steps_of_shear(bool may_extrapolate) {
   RelaxationMemory memory;
   long steps = 0;
   lead_shear(40, 2e-4, [&](Increment& increment) {
-    EXPECT_TRUE(relax(increment, 1e-9, step_limit, History::committed, memory, 0, may_leap));
+    EXPECT_TRUE(relax(increment, 1e-9, step_limit, History::committed, memory, 0, may_extrapolate));
     steps += increment.relaxation_steps;
   });
   return steps;
 }
 
-TEST(relaxation, leaps_along_slow_modes_spare_steps) {
+TEST(relaxation, extrapolation_along_slow_modes_spares_steps) {
   EXPECT_LT(steps_of_shear(true), 0.95 * static_cast<double>(steps_of_shear(false)));
 }
 

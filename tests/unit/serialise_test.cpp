@@ -2,7 +2,7 @@
 // help.
 #include "state/serialise.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <gtest/gtest.h>
 #include <xxhash.h>

@@ -2,7 +2,7 @@
 // the rest of an increment changes no bit of another.
 #include "support.hpp"
 
-#include "equilibrium/chain.hpp"
+#include "equilibrium/strategy.hpp"
 
 #include <span>
 

@@ -1,5 +1,5 @@
 // Packings that are led to their stress in equilibrium: stiff ones, and anisotropic ones.
-#include "consolidation/stress_control.hpp"
+#include "generate/stress_control.hpp"
 
 #include "support.hpp"
 

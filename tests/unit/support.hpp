@@ -1,11 +1,11 @@
 // What the tests of the mechanics share: packings, materials, and increments from state to state.
 #pragma once
 
-#include "consolidation/compaction.hpp"
+#include "frame/frame.hpp"
+#include "generate/compaction.hpp"
 #include "homogenise/measures.hpp"
 #include "material/material.hpp"
-#include "packing/frame.hpp"
-#include "packing/packing_file.hpp"
+#include "material/packing_file.hpp"
 #include "state/state.hpp"
 
 #include <grainlaw/grainlaw.h>

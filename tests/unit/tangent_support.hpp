@@ -33,7 +33,8 @@ inline Statuses statuses(const State& state) {
 }
 
 // Central differences by all four components of F; none when a contact changes status on the way.
-inline std::optional<Tangent> differences_without_change(State& state, const Tensor& F, double step) {
+inline std::optional<Tangent> differences_without_change(State& state, const Tensor& F,
+                                                         double step) {
   EXPECT_EQ(evaluate(state, F).status, GRAINLAW_OK);
   const auto centre = statuses(state);
   Tangent result{};

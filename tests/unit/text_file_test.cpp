@@ -1,7 +1,7 @@
 // Files are the old ones or the whole new ones, whatever prevents the writing.
-#include "packing/text_file.hpp"
+#include "io/text_file.hpp"
 #include "../temporary_directory.hpp"
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <gtest/gtest.h>
 

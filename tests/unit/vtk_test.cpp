@@ -1,8 +1,8 @@
-#include "packing/vtk.hpp"
+#include "io/vtk.hpp"
 
 #include "../temporary_directory.hpp"
-#include "error.hpp"
-#include "packing/text_file.hpp"
+#include "base/error.hpp"
+#include "io/text_file.hpp"
 
 #include <gtest/gtest.h>
 

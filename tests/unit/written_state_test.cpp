@@ -1,9 +1,9 @@
 // A state written as a packing is read again, and goes on as it was.
 #include "../temporary_directory.hpp"
+#include "base/error.hpp"
 #include "boundary_support.hpp"
-#include "error.hpp"
 #include "law_support.hpp"
-#include "packing/packing_file.hpp"
+#include "material/packing_file.hpp"
 #include "state/output.hpp"
 #include "state/rotation.hpp"
 

@@ -4,7 +4,7 @@
 #include "app/progress.hpp"
 #include "dns/wave_motion.hpp"
 #include "dns/wave_run.hpp"
-#include "error.hpp"
+#include "base/error.hpp"
 #include "material/material_file.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "dns/wave_specimen.hpp"
 
 #include "app/library.hpp"
-#include "packing/frame.hpp"
+#include "frame/frame.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,197 @@
+#include "equilibrium/rolling_mechanisms.hpp"
+
+#include "base/room.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace grainlaw {
+
+bool RollingMechanisms::possible(const Problem& problem) {
+  return problem.law->rotating() && !problem.law->moments() && problem.space->identity;
+}
+
+// Towards the root, on a path that it leaves short.
+RollingMechanisms::Member RollingMechanisms::member(std::size_t node) {
+  Member result{node, 1};
+  while (parent_[result.cluster] != result.cluster) {
+    result.sense *= sense_[result.cluster];
+    result.cluster = parent_[result.cluster];
+  }
+  double sense = result.sense;
+  while (parent_[node] != node) {
+    const std::size_t next = parent_[node];
+    const double own = sense_[node];
+    parent_[node] = result.cluster;
+    sense_[node] = sense;
+    sense *= own;
+    node = next;
+  }
+  return result;
+}
+
+void RollingMechanisms::find(const Increment& increment,
+                             std::span<const TouchingContact> touching) {
+  const auto& list = increment.contacts;
+  const auto& law = *increment.problem->law;
+  const auto nodes = increment.nodes();
+  for (auto* column : {&sense_, &turn_}) resize_with_room(*column, nodes);
+  resize_with_room(parent_, nodes);
+  resize_with_room(locked_, nodes);
+  resize_with_room(wanted_, nodes);
+  std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  std::fill(sense_.begin(), sense_.end(), 1.0);
+  std::fill(turn_.begin(), turn_.end(), 0.0);
+  for (auto* column : {&locked_, &wanted_}) {
+    std::fill(column->begin(), column->end(), static_cast<unsigned char>(0));
+  }
+  // As many as there may be: their number varies more than that of the contacts.
+  reserve_with_room(sliding_, touching.size());
+  reserve_with_room(sides_, 2 * touching.size());
+  reserve_with_room(kinks_, 2 * touching.size());
+  sliding_.clear();
+  for (const auto& contact : touching) {
+    const std::size_t c = contact.index;
+    const auto& point = contact.point;
+    if (point.status == ContactStatus::sliding) {
+      const double overlap = list.rest_of(c) - point.distance;
+      const double kt = list.tangential_stiffness[c] * stiffness_scale(overlap, law);
+      const double start = list.start_force[c] * start_scale(overlap, law);
+      sliding_.push_back({start - kt * point.distance * point.turn,
+                          law.friction * point.normal_force, kt,
+                          point.distance * list.inverse_reach[c], contact.node_i, contact.node_j});
+      continue;
+    }
+    const Member a = member(contact.node_i);
+    const Member b = member(contact.node_j);
+    if (a.cluster == b.cluster) {
+      if (a.sense == b.sense) locked_[a.cluster] = 1;
+      continue;
+    }
+    parent_[b.cluster] = a.cluster;
+    sense_[b.cluster] = -a.sense * b.sense;
+    locked_[a.cluster] |= locked_[b.cluster];
+  }
+}
+
+void RollingMechanisms::list_sides() {
+  sides_.clear();
+  for (std::size_t k = 0; k < sliding_.size(); ++k) {
+    const Sliding& contact = sliding_[k];
+    const Member a = member(contact.node_i);
+    const Member b = member(contact.node_j);
+    const auto add = [&](std::size_t cluster, double senses) {
+      if (locked_[cluster] == 0 && senses != 0) {
+        sides_.push_back({cluster, k, contact.stretch * senses});
+      }
+    };
+    if (a.cluster == b.cluster) {
+      add(a.cluster, a.sense + b.sense);
+    } else {
+      add(a.cluster, a.sense);
+      add(b.cluster, b.sense);
+    }
+  }
+  std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
+    return a.cluster != b.cluster ? a.cluster < b.cluster : a.contact < b.contact;
+  });
+}
+
+// Along the turn.
+double RollingMechanisms::force(std::span<const Side> sides) const {
+  double sum = 0;
+  for (const Side& side : sides) {
+    const Sliding& contact = sliding_[side.contact];
+    sum -= side.rate * std::clamp(contact.trial, -contact.bound, contact.bound);
+  }
+  return sum;
+}
+
+// The turn that undoes the force, which falls as it goes on, by lines from kink to kink.
+double RollingMechanisms::balance(std::span<const Side> sides, double force) {
+  kinks_.clear();
+  const double way = force > 0 ? 1 : -1;
+  for (const Side& side : sides) {
+    const Sliding& contact = sliding_[side.contact];
+    const double by_turn = way * contact.stiffness * side.rate;  // of the trial force
+    if (by_turn == 0) continue;
+    const auto [sticks, slides] = std::minmax(
+        {(-contact.bound - contact.trial) / by_turn, (contact.bound - contact.trial) / by_turn});
+    if (slides <= 0) continue;
+    const double stiffness = std::abs(by_turn * side.rate);
+    kinks_.push_back({std::max(sticks, 0.0), stiffness});
+    kinks_.push_back({slides, -stiffness});
+  }
+  std::sort(kinks_.begin(), kinks_.end(),
+            [](const Kink& a, const Kink& b) { return a.turn < b.turn; });
+  double left = std::abs(force);
+  double turn = 0;
+  double stiffness = 0;
+  for (const Kink& kink : kinks_) {
+    const double lost = stiffness * (kink.turn - turn);
+    if (lost >= left) return way * (turn + left / stiffness);
+    left -= lost;
+    turn = kink.turn;
+    stiffness += kink.stiffness;
+  }
+  return 0;  // rounding: nothing is left to slip back
+}
+
+void RollingMechanisms::hold(const Increment& increment, Stiffness& stiffness) const {
+  for (std::size_t q = 0; q < increment.nodes(); ++q) {
+    if (parent_[q] == q && locked_[q] == 0) stiffness.hold_rotation(increment, q);
+  }
+}
+
+void RollingMechanisms::see(const Increment& increment, std::span<const double> step,
+                            double least) {
+  forget(increment);
+  const std::size_t n = increment.nodes();
+  for (std::size_t q = 0; q < n; ++q) {
+    if (parent_[q] != q || locked_[q] != 0) continue;
+    const double moment = increment.mass[2 * n + q] * step[2 * n + q];
+    if (std::abs(moment) > least * increment.node_radius[q]) seen_[q] = 1;
+  }
+}
+
+void RollingMechanisms::forget(const Increment& increment) {
+  resize_with_room(seen_, increment.nodes());
+  std::fill(seen_.begin(), seen_.end(), static_cast<unsigned char>(0));
+}
+
+bool RollingMechanisms::turn(Increment& increment, double least) {
+  bool any = false;
+  for (std::size_t q = 0; q < increment.nodes(); ++q) {
+    if (seen_[q] == 0) continue;
+    seen_[q] = 0;
+    wanted_[member(q).cluster] = 1;
+    any = true;
+  }
+  if (!any) return false;
+  list_sides();
+  bool turned = false;
+  for (std::size_t first = 0, last = 0; first < sides_.size(); first = last) {
+    const std::size_t cluster = sides_[first].cluster;
+    while (last < sides_.size() && sides_[last].cluster == cluster) ++last;
+    const auto sides = std::span(sides_).subspan(first, last - first);
+    const double moment = force(sides);
+    if (wanted_[cluster] == 0 || !(std::abs(moment) > least)) continue;
+    const double turn = balance(sides, moment);
+    turned = turned || turn != 0;
+    turn_[cluster] = turn;
+    for (const Side& side : sides) {
+      Sliding& contact = sliding_[side.contact];
+      contact.trial += contact.stiffness * side.rate * turn;
+    }
+  }
+  if (!turned) return false;
+  double* rotation = increment.coordinates.data() + 2 * increment.nodes();
+  for (std::size_t q = 0; q < increment.nodes(); ++q) {
+    const Member own = member(q);
+    rotation[q] += own.sense * turn_[own.cluster] / increment.node_radius[q];
+  }
+  return true;
+}
+
+}  // namespace grainlaw

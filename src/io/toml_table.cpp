@@ -1,0 +1,174 @@
+#define TOML_IMPLEMENTATION
+#include "io/toml_table.hpp"
+
+#include "base/error.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace grainlaw {
+namespace {
+
+template <class Accept>
+Expectation<double> number(std::string text, Accept accept) {
+  return {std::move(text), [accept](const toml::node& node) -> std::optional<double> {
+            if (!node.is_number()) return std::nullopt;
+            const double value = node.value<double>().value_or(NAN);
+            return std::isfinite(value) && accept(value) ? std::optional(value) : std::nullopt;
+          }};
+}
+
+// Whether one may be a slip of the pen for the other: they differ by two letters in one place.
+bool resembles(std::string_view a, std::string_view b) {
+  constexpr std::size_t slip = 2, in_common = 3;
+  if (a.size() > b.size()) std::swap(a, b);
+  std::size_t same = 0;
+  while (same < a.size() && a[same] == b[same]) ++same;
+  std::size_t end = 0;
+  while (same + end < a.size() && a[a.size() - 1 - end] == b[b.size() - 1 - end]) ++end;
+  return same + end >= in_common && b.size() - same - end <= slip;
+}
+
+}  // namespace
+
+Expectation<double> any_number() {
+  return number("a number", [](double) { return true; });
+}
+
+Expectation<double> number_above(double low) {
+  return number(fmt::format("a number > {}", low), [=](double x) { return x > low; });
+}
+
+Expectation<double> number_at_least(double low) {
+  return number(fmt::format("a number >= {}", low), [=](double x) { return x >= low; });
+}
+
+Expectation<double> number_between(double low, double high) {
+  return number(fmt::format("a number from {} to {}", low, high),
+                [=](double x) { return x >= low && x <= high; });
+}
+
+Expectation<double> number_above_up_to(double low, double high) {
+  return number(fmt::format("a number > {} and <= {}", low, high),
+                [=](double x) { return x > low && x <= high; });
+}
+
+Expectation<long> integer_between(long low, long high) {
+  const bool bounded = high < std::numeric_limits<long>::max();
+  return {bounded ? fmt::format("an integer from {} to {}", low, high)
+                  : fmt::format("an integer >= {}", low),
+          [=](const toml::node& node) -> std::optional<long> {
+            const auto value = node.value_exact<std::int64_t>();
+            if (!value || *value < low || *value > high) return std::nullopt;
+            return static_cast<long>(*value);
+          }};
+}
+
+Expectation<bool> boolean() {
+  return {"true or false", [](const toml::node& node) { return node.value_exact<bool>(); }};
+}
+
+Expectation<std::string> text(std::string meaning) {
+  return {std::move(meaning), [](const toml::node& node) {
+            auto value = node.value_exact<std::string>();
+            return value && !value->empty() ? value : std::nullopt;
+          }};
+}
+
+Expectation<std::array<double, 2>> positive_range() {
+  using Range = std::array<double, 2>;
+  return {"[smallest, largest] with 0 < smallest <= largest",
+          [](const toml::node& node) -> std::optional<Range> {
+            const toml::array* array = node.as_array();
+            if (array == nullptr || array->size() != 2) return std::nullopt;
+            const auto positive = number_above(0);
+            const auto smallest = positive.read((*array)[0]);
+            const auto largest = positive.read((*array)[1]);
+            if (!smallest || !largest || *smallest > *largest) return std::nullopt;
+            return Range{*smallest, *largest};
+          }};
+}
+
+TomlTable TomlTable::required_table(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) fail(key, "nothing", "a table");
+  return child(key, *node);
+}
+
+TomlTable TomlTable::optional_table(std::string_view key) {
+  static const toml::table empty;
+  const toml::node* node = find(key);
+  return child(key, node == nullptr ? empty : *node);
+}
+
+void TomlTable::require_either(std::string_view one, std::string_view other) {
+  const std::string expected = fmt::format("either {} or {}", one, other);
+  if (has(one) && has(other)) fail(other, "both", expected);
+  if (!has(one) && !has(other)) fail(one, "nothing", expected);
+}
+
+void TomlTable::finish() const {
+  for (const auto& [key, value] : *table_)
+    if (std::ranges::find(asked_, key.str()) == asked_.end())
+      fail(key.str(), "an unknown key", fmt::format("one of {}", fmt::join(asked_, ", ")));
+}
+
+void TomlTable::fail(std::string_view key, std::string_view found,
+                     std::string_view expected) const {
+  std::string perhaps;
+  for (const auto& [other, value] : *table_) {
+    const bool asked = std::ranges::find(asked_, other.str()) != asked_.end();
+    if (!has(key) && !asked && resembles(key, other.str()))
+      perhaps = fmt::format(" ({} in line {}?)", other.str(), value.source().begin.line);
+  }
+  throw Error(GRAINLAW_BAD_MATERIAL, fmt::format("{}:{}: {}: found {}, expected {}{}", file_,
+                                                 line(key), path(key), found, expected, perhaps));
+}
+
+const toml::node* TomlTable::find(std::string_view key) {
+  asked_.emplace_back(key);
+  return table_->get(key);
+}
+
+TomlTable TomlTable::child(std::string_view key, const toml::node& node) const {
+  if (!node.is_table()) fail(key, describe(node), "a table");
+  TomlTable table(*node.as_table(), file_);
+  table.prefix_ = path(key) + '.';
+  return table;
+}
+
+std::string TomlTable::path(std::string_view key) const { return prefix_ + std::string(key); }
+
+// That of the key, or of its table when the key is missing.
+unsigned TomlTable::line(std::string_view key) const {
+  for (const auto& [name, value] : *table_)
+    if (name.str() == key) return name.source().begin.line;
+  return std::max(1U, static_cast<unsigned>(table_->source().begin.line));
+}
+
+std::string TomlTable::describe(const toml::node& node) {
+  constexpr std::size_t longest = 60;
+  if (node.is_table()) return "a table";
+  if (node.is_floating_point()) return fmt::format("{:#}", node.value_or(NAN));
+  std::string found;
+  if (const toml::array* array = node.as_array()) {
+    // toml++ itself breaks lists of small numbers into lines.
+    for (auto item = array->begin(); item != array->end() && found.size() <= longest; ++item)
+      found += (found.empty() ? "[ " : ", ") + describe(*item);
+    found += found.empty() ? "[]" : " ]";
+  } else {
+    std::ostringstream out;
+    out.exceptions(std::ios::badbit);  // which stands for a lack of memory
+    node.visit([&](const auto& value) { out << value; });
+    found = out.str();
+  }
+  std::ranges::replace(found, '\n', ' ');
+  if (found.size() > longest) found = found.substr(0, longest) + "...";
+  return found;
+}
+
+}  // namespace grainlaw

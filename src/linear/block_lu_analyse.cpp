@@ -1,0 +1,194 @@
+// The symbolic analysis: elimination order, tree, and what every column of the factor reaches.
+#include "linear/block_lu.hpp"
+
+#include "base/room.hpp"
+
+#include <amd.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace grainlaw {
+
+namespace {
+
+std::size_t at(std::int32_t place) { return static_cast<std::size_t>(place); }
+
+}  // namespace
+
+void BlockLU::list_neighbours() {
+  resize_with_room(neighbours_begin_, nodes_ + 1);
+  std::fill(neighbours_begin_.begin(), neighbours_begin_.end(), 0);
+  for (const auto& [p, q] : edges_) {
+    ++neighbours_begin_[at(p) + 1];
+    ++neighbours_begin_[at(q) + 1];
+  }
+  std::partial_sum(neighbours_begin_.begin(), neighbours_begin_.end(), neighbours_begin_.begin());
+  resize_with_room(neighbours_, 2 * edges_.size());
+  resize_with_room(next_, nodes_);
+  std::copy_n(neighbours_begin_.begin(), nodes_, next_.begin());
+  for (const auto& [p, q] : edges_) {
+    neighbours_[next_[at(p)]++] = q;
+    neighbours_[next_[at(q)]++] = p;
+  }
+}
+
+void BlockLU::order() {
+  const std::size_t entries = neighbours_.size();
+  const std::size_t slack = entries + entries / 2 + nodes_ + 1;
+  resize_with_room(amd_, 9 * nodes_ + slack);
+  std::fill(amd_.begin(), amd_.end(), 0);
+  std::int32_t* begin = amd_.data();
+  std::int32_t* length = begin + nodes_;
+  std::int32_t* size = length + nodes_;
+  std::int32_t* next = size + nodes_;
+  std::int32_t* last = next + nodes_;
+  std::int32_t* head = last + nodes_;
+  std::int32_t* elements = head + nodes_;
+  std::int32_t* degree = elements + nodes_;
+  std::int32_t* flags = degree + nodes_;
+  std::int32_t* neighbours = flags + nodes_;
+  for (std::size_t q = 0; q < nodes_; ++q) {
+    begin[q] = static_cast<std::int32_t>(neighbours_begin_[q]);
+    length[q] = static_cast<std::int32_t>(neighbours_begin_[q + 1] - neighbours_begin_[q]);
+  }
+  std::copy(neighbours_.begin(), neighbours_.end(), neighbours);
+  double control[AMD_CONTROL];
+  double info[AMD_INFO];
+  amd_defaults(control);
+  amd_2(static_cast<std::int32_t>(nodes_), begin, neighbours, length,
+        static_cast<std::int32_t>(slack), static_cast<std::int32_t>(entries), size, next, last,
+        head, elements, degree, flags, control, info);
+  position_.assign(next, next + nodes_);
+  resize_with_room(node_, nodes_);
+  for (std::size_t q = 0; q < nodes_; ++q) node_[at(position_[q])] = static_cast<std::int32_t>(q);
+}
+
+// The elimination tree (Liu 1986): parent_ of every place, -1 at a root.
+void BlockLU::find_tree() {
+  resize_with_room(parent_, nodes_);
+  resize_with_room(ancestor_, nodes_);
+  for (std::size_t j = 0; j < nodes_; ++j) {
+    const auto place = static_cast<std::int32_t>(j);
+    parent_[j] = ancestor_[j] = -1;
+    const std::size_t node = at(node_[j]);
+    for (std::size_t k = neighbours_begin_[node]; k < neighbours_begin_[node + 1]; ++k) {
+      for (std::int32_t r = position_[at(neighbours_[k])]; r != -1 && r < place;) {
+        const std::int32_t next = ancestor_[at(r)];
+        ancestor_[at(r)] = place;
+        if (next == -1) parent_[at(r)] = place;
+        r = next;
+      }
+    }
+  }
+}
+
+// Children right before their parents, the order of siblings kept: the same elimination otherwise.
+void BlockLU::sort_by_tree() {
+  resize_with_room(child_, nodes_);
+  resize_with_room(sibling_, nodes_);
+  resize_with_room(order_, nodes_);
+  std::fill(child_.begin(), child_.end(), -1);
+  std::int32_t roots = -1;
+  for (std::size_t j = nodes_; j-- > 0;) {
+    std::int32_t& head = parent_[j] == -1 ? roots : child_[at(parent_[j])];
+    sibling_[j] = head;
+    head = static_cast<std::int32_t>(j);
+  }
+  std::int32_t place = 0;
+  for (std::int32_t root = roots; root != -1; root = sibling_[at(root)]) {
+    for (std::int32_t j = root;;) {
+      while (child_[at(j)] != -1) {  // down, forgetting the way
+        const std::int32_t child = child_[at(j)];
+        child_[at(j)] = -1;
+        j = child;
+      }
+      order_[at(j)] = place++;
+      if (j == root) break;
+      j = sibling_[at(j)] != -1 ? sibling_[at(j)] : parent_[at(j)];
+    }
+  }
+  for (std::size_t q = 0; q < nodes_; ++q) position_[q] = order_[at(position_[q])];
+  for (std::size_t q = 0; q < nodes_; ++q) node_[at(position_[q])] = static_cast<std::int32_t>(q);
+  for (std::size_t j = 0; j < nodes_; ++j) {
+    const std::int32_t parent = parent_[j];
+    ancestor_[at(order_[j])] = parent == -1 ? -1 : order_[at(parent)];
+  }
+  parent_.swap(ancestor_);
+}
+
+// For every place the later ones that its column of the factor reaches, in any order; a column that has those
+// of the one before it but for itself shares its list. below_ counts them.
+void BlockLU::find_structure() {
+  find_tree();
+  sort_by_tree();
+  resize_with_room(structure_begin_, nodes_);
+  resize_with_room(below_, nodes_);
+  resize_with_room(mark_, nodes_);
+  std::fill(mark_.begin(), mark_.end(), -1);
+  std::fill(child_.begin(), child_.end(), -1);
+  structure_.clear();
+  fill_ = 0;
+  for (std::size_t j = 0; j < nodes_; ++j) {
+    const auto place = static_cast<std::int32_t>(j);
+    const std::size_t begin = structure_.size();
+    const auto add = [&](std::int32_t row) {
+      if (row <= place || mark_[at(row)] == place) return;
+      mark_[at(row)] = place;
+      structure_.push_back(row);
+    };
+    for (std::int32_t child = child_[j]; child != -1; child = sibling_[at(child)]) {
+      const std::size_t first = structure_begin_[at(child)];
+      for (std::size_t k = 0; k < at(below_[at(child)]); ++k) add(structure_[first + k]);
+    }
+    const std::size_t node = at(node_[j]);
+    for (std::size_t k = neighbours_begin_[node]; k < neighbours_begin_[node + 1]; ++k) {
+      add(position_[at(neighbours_[k])]);
+    }
+    below_[j] = static_cast<std::int32_t>(structure_.size() - begin);
+    structure_begin_[j] = begin;
+    fill_ += below_[j];
+    if (j > 0 && parent_[j - 1] == place && below_[j - 1] == below_[j] + 1) {
+      structure_.resize(begin);
+      const std::size_t first = structure_begin_[j - 1];
+      const auto list = structure_.begin() + static_cast<std::ptrdiff_t>(first);
+      std::iter_swap(list, std::find(list, list + below_[j - 1], place));
+      structure_begin_[j] = first + 1;
+    }
+    if (parent_[j] == -1) continue;
+    sibling_[j] = child_[at(parent_[j])];
+    child_[at(parent_[j])] = place;
+  }
+  keep_room(structure_);
+}
+
+std::size_t BlockLU::factor_blocks() const { return nodes_ + 2 * static_cast<std::size_t>(fill_); }
+
+void BlockLU::analyse(const BlockMatrix& matrix, bool keep_order) {
+  constexpr double more_fill = 1.1;  // that a kept order may leave
+  keep_order = keep_order && analysed_ && nodes_ == matrix.nodes;
+  if (analysed_ && nodes_ == matrix.nodes && components_ == matrix.components &&
+      edges_ == matrix.edges && (keep_order || ordered_)) {
+    return;
+  }
+  analysed_ = false;
+  nodes_ = matrix.nodes;
+  components_ = matrix.components;
+  resize_with_room(edges_, matrix.edges.size());
+  std::copy(matrix.edges.begin(), matrix.edges.end(), edges_.begin());
+  list_neighbours();
+  if (keep_order) find_structure();
+  ordered_ = !keep_order || fill_ > more_fill * own_fill_;
+  if (ordered_) {
+    order();
+    find_structure();
+    own_fill_ = fill_;
+  }
+  find_fronts();
+  link_fronts();
+  place_fronts();
+  find_sources();
+  analysed_ = true;
+}
+
+}  // namespace grainlaw

@@ -1,0 +1,175 @@
+// The fronts of the elimination: which they are, where they lie, and where the matrix goes.
+#include "linear/block_lu.hpp"
+#include "linear/dense_panels.hpp"
+
+#include "base/room.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace grainlaw {
+
+namespace {
+
+std::size_t at(std::int32_t place) { return static_cast<std::size_t>(place); }
+
+}  // namespace
+
+// Columns of one list make a front; so do those of a front and of the one right after it that it is
+// left to, where the zeros that this brings cost less than two fronts do.
+void BlockLU::find_fronts() {
+  const auto goes_on = [&](std::size_t j) {
+    return parent_[j - 1] == static_cast<std::int32_t>(j) && below_[j - 1] == below_[j] + 1;
+  };
+  fronts_.clear();
+  // From the last: what comes after a front has been merged as far as it may be.
+  for (std::size_t end = nodes_, first = end; end > 0; end = first) {
+    --first;
+    while (first > 0 && goes_on(first)) --first;
+    Front front{};
+    front.first = first;
+    front.pivots = end - first;
+    front.others = at(below_[end - 1]);
+    front.rows = structure_begin_[end - 1];
+    while (!fronts_.empty()) {
+      const Front& next = fronts_.back();
+      const std::int32_t parent = parent_[front.first + front.pivots - 1];
+      if (parent == -1 || at(parent) >= next.first + next.pivots) break;
+      const auto cost = [&](std::size_t pivots, std::size_t others) {
+        return dense::Shape(pivots, others, at(components_)).cost();
+      };
+      if (cost(front.pivots + next.pivots, next.others) >
+          cost(front.pivots, front.others) + cost(next.pivots, next.others)) {
+        break;
+      }
+      front.pivots += next.pivots;
+      front.others = next.others;
+      front.rows = next.rows;
+      fronts_.pop_back();
+    }
+    fronts_.push_back(front);
+  }
+  keep_room(fronts_);
+  std::reverse(fronts_.begin(), fronts_.end());
+}
+
+// The others of every front, sorted, and where they are in the front they are left to.
+void BlockLU::link_fronts() {
+  resize_with_room(front_of_, nodes_);
+  rows_.clear();
+  for (std::size_t f = 0; f < fronts_.size(); ++f) {
+    Front& front = fronts_[f];
+    std::fill_n(front_of_.begin() + static_cast<std::ptrdiff_t>(front.first), front.pivots,
+                static_cast<std::int32_t>(f));
+    const auto begin = structure_.begin() + static_cast<std::ptrdiff_t>(front.rows);
+    front.rows = rows_.size();
+    rows_.insert(rows_.end(), begin, begin + static_cast<std::ptrdiff_t>(front.others));
+    std::sort(rows_.begin() + static_cast<std::ptrdiff_t>(front.rows), rows_.end());
+    front.is_leaf = true;
+  }
+  keep_room(rows_);
+  resize_with_room(within_, rows_.size());
+  for (std::size_t f = 0; f < fronts_.size(); ++f) {
+    Front& front = fronts_[f];
+    front.parent = front.others == 0 ? -1 : front_of_[at(rows_[front.rows])];
+    if (front.parent == -1) continue;
+    Front& parent = fronts_[at(front.parent)];
+    front.opens = parent.is_leaf;
+    parent.is_leaf = false;
+    const std::size_t end = parent.first + parent.pivots;
+    std::size_t place = parent.rows;
+    for (std::size_t k = front.rows; k < front.rows + front.others; ++k) {
+      if (at(rows_[k]) < end) {
+        within_[k] = static_cast<std::int32_t>(at(rows_[k]) - parent.first);
+        ++front.passed;
+        continue;
+      }
+      while (rows_[place] != rows_[k]) ++place;
+      within_[k] = static_cast<std::int32_t>(parent.pivots + place - parent.rows);
+    }
+  }
+}
+
+// In memory. What fronts leave lies on two stacks, by their depth in the tree: while a parent takes
+// over what its child leaves, it is on top of the one, the child on top of the other.
+void BlockLU::place_fronts() {
+  const auto b = static_cast<std::size_t>(components_);
+  resize_with_room(mark_, std::max(nodes_, fronts_.size()));
+  std::array<std::size_t, 2> top{}, highest{};
+  for (std::size_t f = fronts_.size(); f-- > 0;) {
+    const std::int32_t parent = fronts_[f].parent;
+    mark_[f] = parent == -1 ? 0 : 1 - mark_[at(parent)];
+  }
+  std::size_t slot = 0;
+  std::size_t most = 0;  // others
+  const auto open = [&](std::size_t f) {
+    Front& front = fronts_[f];
+    const dense::Shape shape(front.pivots, front.others, b);
+    front.values = slot;
+    slot += shape.panel_size();
+    most = std::max(most, front.others);
+    const std::size_t stack = at(mark_[f]);
+    front.left = top[stack];
+    top[stack] += shape.left_size();
+    highest[stack] = std::max(highest[stack], top[stack]);
+  };
+  for (std::size_t f = 0; f < fronts_.size(); ++f) {
+    const Front& front = fronts_[f];
+    if (front.is_leaf) open(f);
+    if (front.opens) open(at(front.parent));
+    top[at(mark_[f])] = front.left;
+  }
+  for (std::size_t f = 0; f < fronts_.size(); ++f) {
+    fronts_[f].left += slot + (mark_[f] == 1 ? highest[0] : 0);
+  }
+  // Registers are filled beyond the last block.
+  resize_with_room(runs_, most);
+  resize_with_room(pivots_, nodes_);
+  resize_with_room(values_, slot + highest[0] + highest[1] + dense::group);
+}
+
+// Where the blocks of the matrix go, front by front.
+void BlockLU::find_sources() {
+  const auto b = static_cast<std::size_t>(components_);
+  const auto for_each = [&](auto&& visit) {
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      const std::int32_t p = position_[at(edges_[e].first)];
+      const std::int32_t q = position_[at(edges_[e].second)];
+      visit(e, std::min(p, q), std::max(p, q), p < q);
+    }
+  };
+  resize_with_room(next_, std::max(nodes_, fronts_.size()));
+  std::fill(next_.begin(), next_.end(), 0);
+  for_each([&](std::size_t, std::int32_t low, std::int32_t, bool) {
+    next_[at(front_of_[at(low)])] += 2;
+  });
+  std::size_t source = 0;
+  for (std::size_t f = 0; f < fronts_.size(); ++f) {
+    fronts_[f].first_source = source;
+    source += next_[f];
+    fronts_[f].last_source = source;
+    next_[f] = fronts_[f].first_source;
+  }
+  resize_with_room(sources_, source + ahead);
+  for_each([&](std::size_t e, std::int32_t low, std::int32_t high, bool ascending) {
+    const std::size_t f = at(front_of_[at(low)]);
+    const Front& front = fronts_[f];
+    const dense::Shape shape(front.pivots, front.others, b);
+    const std::size_t pivot = at(low) - front.first;
+    std::size_t other = at(high) - front.first;
+    if (other >= front.pivots) {
+      const auto begin = rows_.begin() + static_cast<std::ptrdiff_t>(front.rows);
+      const auto end = begin + static_cast<std::ptrdiff_t>(front.others);
+      other = front.pivots + static_cast<std::size_t>(std::lower_bound(begin, end, high) - begin);
+    }
+    const std::size_t upper = nodes_ + e;
+    const std::size_t lower = upper + edges_.size();
+    sources_[next_[f]++] = {front.values + shape.place(pivot, other), shape.pivot_rows,
+                            ascending ? upper : lower};
+    sources_[next_[f]++] = {front.values + shape.place(other, pivot),
+                            other < front.pivots ? shape.pivot_rows : shape.other_rows,
+                            ascending ? lower : upper};
+  });
+}
+
+}  // namespace grainlaw

@@ -1,0 +1,396 @@
+#include "material/packing_file.hpp"
+
+#include "base/error.hpp"
+#include "frame/frame.hpp"
+#include "frame/frame_rows.hpp"
+#include "io/csv_table.hpp"
+#include "io/text_file.hpp"
+#include "packing/lattice.hpp"
+#include "packing/neighbours.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace grainlaw {
+
+namespace {
+
+constexpr std::int64_t largest_shift = 32767;
+constexpr std::int64_t largest_written_shift =
+    1'000'000'000;  // before it is one in shorter vectors
+
+using Ids = ParticleIds;
+
+enum ParticleColumn : std::size_t {
+  id,
+  x,
+  y,
+  r,
+  role,
+  partner,
+  frame_order,
+  reference_x,
+  reference_y
+};
+enum ContactColumn : std::size_t { i, j, shift_x, shift_y, fn, ftx, fty, moment, bonded, bond_gap };
+enum CellColumn : std::size_t { h00, h01, h10, h11, thickness, rho, f00, f01, f10, f11 };
+
+// One of the three files.
+struct Source {
+  std::string path;
+  std::string text;
+};
+
+struct CellFile {
+  Basis basis;                         // that shifts are counted in from here on
+  std::optional<Lattice> deformation;  // of a frame
+};
+
+CellFile read_cell(const Source& source, Packing& packing) {
+  constexpr double furthest_sheared =
+      1e6;  // beyond, sums with shifts lose the digits of an overlap
+  CsvTable<10> table(source.path, source.text,
+                     {"H00", "H01", "H10", "H11", "thickness", "rho", "F00", "F01", "F10", "F11"});
+  table.require(h00, rho);
+  if (!table.next()) table.fail("expected one line of numbers after the header");
+  const Lattice h{table.real(h00), table.real(h01), table.real(h10), table.real(h11)};
+  packing.cell = {h[0], h[1], h[2], h[3]};
+  packing.thickness = table.positive(thickness);
+  if (table.has(rho)) packing.density = table.positive(rho);
+  const double area = h[0] * h[3] - h[1] * h[2];
+  if (!(area > 0) || !std::isfinite(area))
+    table.fail(fmt::format("found a cell of area {} m2, expected det H > 0", area));
+  if (const double times = longest_vector(h) / longest_vector(reduced_basis(h).cell);
+      !(times < furthest_sheared))
+    table.fail(
+        fmt::format("its vectors are {:.3g} times as long as others of the same lattice need "
+                    "to be, expected at most {:g}",
+                    times, furthest_sheared));
+  CellFile cell{{h}, {}};
+  if (table.has(f00)) {
+    table.require(f00, f11 + 1);
+    cell.deformation = {table.real(f00), table.real(f01), table.real(f10), table.real(f11)};
+    const auto& f = *cell.deformation;
+    if (const double det = f[0] * f[3] - f[1] * f[2]; !(det > 0) || !std::isfinite(det))
+      table.fail(fmt::format("found det F = {}, expected a number > 0", det));
+  }
+  if (table.next()) table.fail("expected one line of numbers after the header, found another");
+  return cell;
+}
+
+// A lattice that has much shorter vectors than those of its cell, as one sheared far, is kept in
+// the shortest: the others are many times wider than high. Others stay as they are, to the bit.
+void shorten(CellFile& cell, Packing& packing) {
+  constexpr double much_longer = 4;
+  const Basis reduced = reduced_basis(cell.basis.cell);
+  if (!(longest_vector(cell.basis.cell) > much_longer * longest_vector(reduced.cell))) return;
+  // Else a shift would leave the range of its products, as in a cell far thinner than any disc.
+  const auto in_range = [](std::int64_t n) { return std::abs(n) <= largest_written_shift; };
+  if (!std::ranges::all_of(reduced.change, in_range)) return;
+  cell.basis = reduced;
+  std::ranges::copy(reduced.cell, packing.cell.begin());
+}
+
+template <class Table>
+void read_frame_row(const Table& table, int particle, FrameRows& rows) {
+  if (table.text(role) == "inner") return;
+  const bool corner = table.text(role) == "corner";
+  if (!corner && table.text(role) != "edge") table.complain(role, "inner, edge or corner");
+  if (!rows.particle_at.emplace(table.integer(frame_order), particle).second)
+    table.complain(frame_order, "a place that no other particle has");
+  if (corner) {
+    ++rows.corners;
+  } else {
+    rows.partner_id.emplace(particle, table.integer(partner));
+  }
+}
+
+// The neighbour search numbers cells: no particle is further from the first than half of what it
+// counts to, or so far from the origin that its digits are lost.
+template <class Table>
+void check_place(const Table& table, const Packing& packing, double y_first, double y_last) {
+  constexpr double furthest_apart = 16000, furthest = 1e8;  // [cells]
+  const auto& h = packing.cell;
+  const double area = h[0] * h[3] - h[1] * h[2];
+  const auto cells = [&](double dx, double dy) {
+    return std::max(std::abs(h[3] * dx - h[1] * dy), std::abs(h[0] * dy - h[2] * dx)) / area;
+  };
+  const double x_first = packing.position.front();
+  const double x_last = packing.position.back();
+  if (const double away = cells(x_last, y_last); !(away <= furthest))
+    table.fail(fmt::format("the centre is {:.3g} cells from the origin, expected at most {:g}",
+                           away, furthest));
+  if (const double away = cells(x_last - x_first, y_last - y_first); !(away <= furthest_apart))
+    table.fail(fmt::format("the centre is {:.3g} cells from the first, expected at most {:g}", away,
+                           furthest_apart));
+}
+
+Ids read_particles(const Source& source, CellFile& cell, Packing& packing) {
+  CsvTable<9> table(
+      source.path, source.text,
+      {"id", "x", "y", "r", "role", "partner", "frame_order", "reference_x", "reference_y"});
+  const bool framed = table.has(role) || table.has(partner) || table.has(frame_order);
+  table.require(id, framed ? frame_order + 1 : role);
+  const bool deformed = framed && table.has(reference_x);
+  if (deformed) table.require(reference_x, reference_y + 1);
+  if (deformed != (framed && cell.deformation))
+    table.fail(
+        "found only one of reference_x, reference_y here and F00 to F11 of the cell, expected "
+        "both or none");
+  if (!framed) shorten(cell, packing);
+  Ids ids;
+  std::vector<double> ys, reference_ys;
+  FrameRows rows;
+  Frame frame;
+  while (table.next()) {
+    const auto particle = static_cast<int>(packing.radius.size());
+    if (!ids.emplace(table.integer(id), particle).second)
+      table.complain(id, "an id that no other particle has");
+    packing.position.push_back(table.real(x));
+    ys.push_back(table.real(y));
+    check_place(table, packing, ys.front(), ys.back());
+    packing.radius.push_back(table.positive(r));
+    if (framed) read_frame_row(table, particle, rows);
+    if (!deformed) continue;
+    frame.reference.push_back(table.real(reference_x));
+    reference_ys.push_back(table.real(reference_y));
+  }
+  if (ids.empty()) table.fail("found no particle");
+  packing.position.insert(packing.position.end(), ys.begin(), ys.end());
+  frame.reference.insert(frame.reference.end(), reference_ys.begin(), reference_ys.end());
+  if (deformed) frame.deformation = *cell.deformation;
+  if (framed) build_frame(source.path, rows, ids, std::move(frame), packing);
+  return ids;
+}
+
+double branch_length(const Packing& packing, const InitialContact& contact) {
+  const auto a = static_cast<std::size_t>(contact.i);
+  const auto b = static_cast<std::size_t>(contact.j);
+  const auto& h = packing.cell;
+  const std::size_t n = packing.size();
+  const double s0 = contact.shift[0];
+  const double s1 = contact.shift[1];
+  return std::hypot(packing.position[b] - packing.position[a] + h[0] * s0 + h[1] * s1,
+                    packing.position[n + b] - packing.position[n + a] + h[2] * s0 + h[3] * s1);
+}
+
+using Key = std::array<int, 4>;
+Key key_of(const InitialContact& c) { return {c.i, c.j, c.shift[0], c.shift[1]}; }
+
+// Particles whose centres lie in one another are no packing, but lengths in different units; unless
+// they are named as contacts, whose forces tell, or those of a boundary that was deformed, of which
+// a rigid row does not feel each other.
+void check_sizes(const std::string& path, const Ids& ids, const Packing& packing) {
+  const auto id_of = [&](std::int32_t p) {
+    return std::ranges::find(ids, p, &Ids::value_type::second)->first;
+  };
+  const auto wrong = [&](const std::string& what) {
+    throw Error(GRAINLAW_BAD_PACKING, fmt::format("{}: {}; expected all lengths in m", path, what));
+  };
+  const auto& h = packing.cell;
+  const double area = h[0] * h[3] - h[1] * h[2];
+  const double height = area / longest_vector(reduced_basis({h[0], h[1], h[2], h[3]}).cell);
+  const auto largest = std::ranges::max_element(packing.radius);
+  if (!packing.frame && *largest > height)
+    wrong(fmt::format("particle {} of radius {:g} m is larger than the cell, {:g} m high",
+                      id_of(static_cast<std::int32_t>(largest - packing.radius.begin())), *largest,
+                      height));
+  std::vector<char> in_row(packing.size(), 0);
+  if (packing.frame && !packing.frame->reference.empty())
+    for (const int p : packing.frame->boundary) in_row[static_cast<std::size_t>(p)] = 1;
+  std::vector<NeighbourPair> pairs;
+  const std::size_t n = packing.size();
+  NeighbourSearch().find(n, packing.position.data(), packing.radius.data(),
+                         packing.frame ? nullptr : h.data(), 0, pairs);
+  for (const NeighbourPair& pair : pairs) {
+    const InitialContact contact{pair.i, pair.j, {pair.shift[0], pair.shift[1]}};
+    const double length = branch_length(packing, contact);
+    const auto i = static_cast<std::size_t>(pair.i);
+    const auto j = static_cast<std::size_t>(pair.j);
+    const double r = packing.radius[i];
+    const double s = packing.radius[j];
+    if (!(length < std::max(r, s)) || (in_row[i] && in_row[j])) continue;
+    if (!std::ranges::binary_search(packing.contacts, key_of(contact), {}, key_of))
+      wrong(fmt::format("particles {} and {} of radii {:g} and {:g} m are {:g} m apart",
+                        id_of(pair.i), id_of(pair.j), r, s, length));
+  }
+}
+
+// Returns the line of each.
+std::vector<unsigned> read_contacts(const Source& source, const Ids& ids, const Basis& basis,
+                                    Packing& packing) {
+  CsvTable<10> table(source.path, source.text,
+                     {"i", "j", "shift_x", "shift_y", "fn", "ftx_on_j", "fty_on_j", "moment",
+                      "bonded", "bond_gap"});
+  table.require(i, fty + 1);
+  packing.names_bonds = table.has(bonded);
+  const auto particle = [&](std::size_t column) {
+    const auto found = ids.find(table.integer(column));
+    if (found == ids.end()) table.complain(column, "the id of a particle");
+    return found->second;
+  };
+  const auto in_range = [&](std::size_t column, std::int64_t value, std::int64_t largest) {
+    if (value > largest || value < -largest) table.complain(column, "at most 32767 cells");
+    return value;
+  };
+  const auto written = [&](std::size_t column) {
+    const std::int64_t value = in_range(column, table.integer(column), largest_written_shift);
+    if (value != 0 && packing.frame) table.complain(column, "0, since a frame has no images");
+    return value;
+  };
+  const auto shift = [&]() -> std::array<int, 3> {
+    const auto [s0, s1] = basis.shift(written(shift_x), written(shift_y));
+    return {static_cast<int>(in_range(shift_x, s0, largest_shift)),
+            static_cast<int>(in_range(shift_y, s1, largest_shift))};
+  };
+  std::map<Key, std::pair<unsigned, InitialContact>> contacts;
+  while (table.next()) {
+    InitialContact contact{
+        particle(i), particle(j), shift(), table.real(fn), {table.real(ftx), table.real(fty)}};
+    if (table.has(moment)) contact.moment = table.real(moment);
+    if (table.has(bonded)) {
+      if (const auto flag = table.integer(bonded); flag != 0 && flag != 1)
+        table.complain(bonded, "0 or 1");
+      contact.bonded = table.integer(bonded) == 1;
+    }
+    if (table.has(bond_gap)) contact.bond_gap = table.real(bond_gap);
+    if (contact.i > contact.j ||
+        (contact.i == contact.j &&
+         std::pair(contact.shift[0], contact.shift[1]) < std::pair(0, 0))) {
+      std::swap(contact.i, contact.j);
+      contact.shift = {-contact.shift[0], -contact.shift[1]};
+      contact.tangential_force = {-contact.tangential_force[0], -contact.tangential_force[1]};
+      contact.moment = -contact.moment;
+    }
+    if (contact.i == contact.j && contact.shift[0] == 0 && contact.shift[1] == 0)
+      table.fail(fmt::format("a particle (id {}) in contact with itself", table.text(i)));
+    const auto [other, fresh] = contacts.emplace(key_of(contact), std::pair(table.line(), contact));
+    if (!fresh) table.fail(fmt::format("the contact of line {} again", other->second.first));
+  }
+  std::vector<unsigned> lines;
+  for (const auto& [key, value] : contacts) {
+    packing.contacts.push_back(value.second);
+    lines.push_back(value.first);
+  }
+  return lines;
+}
+
+// Bonds stretch as far as they hold: whether they do is seen by their forces.
+void check_branches(const std::string& path, const std::vector<unsigned>& lines,
+                    const Packing& packing) {
+  for (std::size_t c = 0; c < lines.size(); ++c) {
+    const InitialContact& contact = packing.contacts[c];
+    const double reach = packing.radius[static_cast<std::size_t>(contact.i)] +
+                         packing.radius[static_cast<std::size_t>(contact.j)];
+    const double length = branch_length(packing, contact);
+    if (!contact.bonded && !(length < 1.5 * reach))
+      throw Error(GRAINLAW_BAD_PACKING,
+                  fmt::format("{}:{}: centres are {} m apart, radii add up to {} m: these do not "
+                              "touch; expected x_j - x_i + H shift to be the branch",
+                              path, lines[c], length, reach));
+  }
+}
+
+// Per particle, the text of its columns role, partner and frame_order.
+std::vector<std::string> frame_columns(const Packing& packing) {
+  std::vector<std::string> text(packing.size(), ",inner,-1,-1");
+  const Frame& frame = *packing.frame;
+  for (std::size_t q = 0; q < frame.boundary.size(); ++q) {
+    const int p = frame.boundary[q];
+    const bool corner = std::ranges::find(frame.corner, p) != frame.corner.end();
+    text[static_cast<std::size_t>(p)] =
+        fmt::format(",{},{},{}", corner ? "corner" : "edge", frame.partner[q], q);
+  }
+  return text;
+}
+
+// fmt prints the shortest digits that read back to the same bits.
+std::string particles_text(const Packing& packing) {
+  const std::size_t n = packing.size();
+  const bool deformed = packing.frame && !packing.frame->reference.empty();
+  const auto framed = packing.frame ? frame_columns(packing) : std::vector<std::string>(n);
+  fmt::memory_buffer text;
+  auto out = fmt::appender(text);
+  fmt::format_to(out, "id,x,y,r{}{}\n", packing.frame ? ",role,partner,frame_order" : "",
+                 deformed ? ",reference_x,reference_y" : "");
+  for (std::size_t p = 0; p < n; ++p) {
+    fmt::format_to(out, "{},{},{},{}{}", p, packing.position[p], packing.position[n + p],
+                   packing.radius[p], framed[p]);
+    if (deformed)
+      fmt::format_to(out, ",{},{}", packing.frame->reference[p], packing.frame->reference[n + p]);
+    fmt::format_to(out, "\n");
+  }
+  return fmt::to_string(text);
+}
+
+std::string contacts_text(const Packing& packing) {
+  fmt::memory_buffer text;
+  auto out = fmt::appender(text);
+  const auto& contacts = packing.contacts;
+  const bool moments =
+      std::any_of(contacts.begin(), contacts.end(), [](const auto& c) { return c.moment != 0; });
+  const bool bonds = packing.names_bonds;
+  fmt::format_to(out, "i,j,shift_x,shift_y,fn,ftx_on_j,fty_on_j{}{}\n", moments ? ",moment" : "",
+                 bonds ? ",bonded,bond_gap" : "");
+  for (const InitialContact& c : contacts) {
+    fmt::format_to(out, "{},{},{},{},{},{},{}", c.i, c.j, c.shift[0], c.shift[1], c.normal_force,
+                   c.tangential_force[0], c.tangential_force[1]);
+    if (moments) fmt::format_to(out, ",{}", c.moment);
+    if (bonds) fmt::format_to(out, ",{},{}", c.bonded ? 1 : 0, c.bond_gap);
+    fmt::format_to(out, "\n");
+  }
+  return fmt::to_string(text);
+}
+
+std::string cell_text(const Packing& packing) {
+  const auto& h = packing.cell;
+  std::string header = "H00,H01,H10,H11,thickness,rho";
+  std::string line =
+      fmt::format("{},{},{},{},{},{}", h[0], h[1], h[2], h[3], packing.thickness, packing.density);
+  if (packing.frame && !packing.frame->reference.empty()) {
+    const auto& f = packing.frame->deformation;
+    header += ",F00,F01,F10,F11";
+    line += fmt::format(",{},{},{},{}", f[0], f[1], f[2], f[3]);
+  }
+  return header + "\n" + line + "\n";
+}
+
+// contacts without a path: none.
+Packing parse(const Source& particles, const Source& contacts, const Source& cell) {
+  Packing packing;
+  CellFile of_cell = read_cell(cell, packing);
+  const Ids ids = read_particles(particles, of_cell, packing);
+  std::vector<unsigned> lines;
+  if (!contacts.path.empty()) lines = read_contacts(contacts, ids, of_cell.basis, packing);
+  check_sizes(particles.path, ids, packing);
+  check_branches(contacts.path, lines, packing);
+  return packing;
+}
+
+}  // namespace
+
+Packing read_packing(const PackingPaths& paths) {
+  const auto source = [](const std::string& path) {
+    return Source{path, path.empty() ? "" : read_text(path)};
+  };
+  return parse(source(paths.particles), source(paths.contacts), source(paths.cell));
+}
+
+void write_packing(const std::string& prefix, const Packing& packing) {
+  const Source particles{prefix + "_particles.csv", particles_text(packing)};
+  const Source contacts{prefix + "_contacts.csv", contacts_text(packing)};
+  const Source cell{prefix + "_cell.csv", cell_text(packing)};
+  parse(particles, contacts, cell);  // what nothing could start from is refused here
+  write_together(std::array<TextFile, 3>{
+      {{particles.path, particles.text}, {contacts.path, contacts.text}, {cell.path, cell.text}}});
+}
+
+}  // namespace grainlaw

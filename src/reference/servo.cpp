@@ -1,0 +1,286 @@
+#include "equilibrium/strategy.hpp"
+
+#include "contact/frictional.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace grainlaw {
+
+namespace {
+
+// Corrections of the boundary between relaxations of the inner particles.
+class Servo {
+ public:
+  Servo(Increment& increment, const SolverOptions& options, double tolerance,
+        RelaxationMemory& memory)
+      : increment_(increment),
+        space_(*increment.problem->space),
+        packing_(*increment.problem->packing),
+        options_(options),
+        servo_(space_.options.servo),
+        tolerance_(tolerance),
+        memory_(memory),
+        nodes_(increment.nodes()) {
+    smallest_ = 1e300;
+    for (std::size_t q = 0; q < nodes_; ++q) {
+      if (space_.boundary[q]) smallest_ = std::min(smallest_, increment.node_radius[q]);
+    }
+    dt_ = options.published.time_step_ratio *
+          std::sqrt(mass_of(smallest_) / increment.problem->law->stiffness(smallest_, smallest_));
+    // The relaxations move what is not of the boundary, and what turns freely there.
+    memory.frozen.assign(nodes_, 0);
+    for (std::size_t q = 0; q < nodes_; ++q) {
+      if (!space_.boundary[q]) continue;
+      memory.frozen[q] = space_.boundary[q] == turns_freely ? fixed_translation
+                                                            : fixed_translation | fixed_rotation;
+    }
+  }
+
+  bool run() {
+    if (space_.averages()) find_areas();
+    predict();
+    increment_.keep_neighbours();
+    // The boundary asks for the root of the sum of squares, the relaxation for the largest residual:
+    // what that leaves in many particles may add up to forces on the boundary which no correction
+    // takes away, and which are too small to set the particles moving.
+    constexpr int stalled = 20;  // corrections without a relaxation step
+    constexpr double tighter = 0.3;
+    double tolerance = tolerance_;
+    int without_step = 0;
+    for (int correction = 0; correction <= servo_.max_corrections; ++correction) {
+      const long steps = increment_.relaxation_steps;
+      if (!relax_published(increment_, tolerance, options_.published, memory_.frozen, memory_)) {
+        return false;
+      }
+      without_step = increment_.relaxation_steps > steps ? 0 : without_step + 1;
+      if (without_step == stalled) {
+        tolerance *= tighter;
+        without_step = 0;
+      }
+      memory_.correction.assign(increment_.unknowns(), 0.0);
+      const double residual =
+          std::sqrt(correct_shared() + correct_averaged() + correct_deformation());
+      if (residual <= servo_.tolerance && off_average() <= servo_.tolerance_deformation) {
+        return true;
+      }
+      increment_.move(memory_.correction);
+      increment_.advance_history();
+      increment_.keep_neighbours();
+      ++increment_.servo_corrections;
+    }
+    return false;
+  }
+
+ private:
+  [[nodiscard]] double mass_of(double radius) const {
+    return packing_.density * std::numbers::pi * radius * radius * packing_.thickness;
+  }
+
+  // Of the forces on a boundary particle, eq. 37.
+  [[nodiscard]] double force_scale(double radius) const {
+    return mass_of(radius) * radius / (dt_ * dt_);
+  }
+
+  // Displacement by force; gains scale with 1/M.
+  [[nodiscard]] double compliance(double radius) const {
+    return smallest_ * smallest_ / (radius * radius) /
+           increment_.problem->law->stiffness(radius, radius);
+  }
+
+  [[nodiscard]] const double* reference() const {
+    return space_.bound_to_axes() ? space_.reference.data() : packing_.position.data();
+  }
+
+  // F X, where the particle would be without a fluctuation.
+  [[nodiscard]] double place(std::size_t p, std::size_t i, const std::array<double, 4>& f) const {
+    const auto n = packing_.size();
+    const double offset = space_.bound_to_axes() ? space_.offset[i * n + p] : 0;
+    return f[2 * i] * reference()[p] + f[2 * i + 1] * reference()[n + p] + offset;
+  }
+
+  // Boundary particles to F X + n_f (x - F X at the start), rotations kept (Table 2, 2.1; with n_f
+  // = 0 Table 3, 1.1). Keeping rotations instead of Q = I, and rotating with F, is what makes it
+  // objective.
+  void predict() {
+    const auto n = packing_.size();
+    for (const int q : packing_.frame->boundary) {
+      const auto p = static_cast<std::size_t>(q);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const double w = increment_.start[i * n + p] - place(p, i, increment_.start_deformation);
+        increment_.coordinates[i * n + p] =
+            place(p, i, increment_.deformation) + servo_.inheritance * w;
+      }
+    }
+  }
+
+  [[nodiscard]] bool averaged(std::size_t q, std::size_t direction) const {
+    const auto& node = space_.average[direction].node;
+    return std::binary_search(node.begin(), node.end(), static_cast<std::int32_t>(q));
+  }
+
+  // Boundary nodes under no average (P): eqs. 32-34. Returns the sum of squares of 1.5.A.
+  double correct_shared() {
+    const auto r = increment_.residual();
+    double sum = 0;
+    for (std::size_t q = 0; q < nodes_; ++q) {
+      if (!space_.boundary[q]) continue;
+      const double radius = increment_.node_radius[q];
+      for (std::size_t k = 0; k < 2; ++k) {
+        if ((space_.fixed[q] >> k & 1U) != 0 || averaged(q, k)) continue;
+        // The boundary force a balances the contact forces, so a+ + a- = -r and du = -g (a+ + a-).
+        const double force = r[k * nodes_ + q];
+        memory_.correction[k * nodes_ + q] = servo_.gain_force * compliance(radius) * force;
+        sum += std::pow(force / force_scale(radius), 2);
+      }
+      const bool turned =
+          space_.boundary[q] != turns_freely && (space_.fixed[q] & fixed_rotation) == 0;
+      if (!increment_.problem->law->rotating() || !turned) continue;
+      const double moment = r[2 * nodes_ + q];
+      memory_.correction[2 * nodes_ + q] =
+          servo_.gain_moment * compliance(radius) / (radius * radius) * moment;
+      sum += std::pow(moment / (force_scale(radius) * radius), 2);
+    }
+    return sum;
+  }
+
+  // P by the reference branches (eq. 23).
+  [[nodiscard]] std::array<double, 4> measured_stress() const {
+    const auto n = packing_.size();
+    const double* x = reference();
+    std::array<double, 4> p{};
+    const auto& list = increment_.contacts;
+    for (std::size_t c = 0; c < list.size(); ++c) {
+      const auto i = static_cast<std::size_t>(list.i[c]);
+      const auto j = static_cast<std::size_t>(list.j[c]);
+      const double branch[2] = {x[j] - x[i], x[n + j] - x[n + i]};
+      for (std::size_t k = 0; k < 4; ++k) {
+        p[k] -=
+            (k < 2 ? list.forces[c].x : list.forces[c].y) * branch[k % 2] / space_.reference_volume;
+      }
+    }
+    return p;
+  }
+
+  // Boundary nodes under uniform stress: P A - a, and back to the average (eqs. 35, 36 with V F A
+  // once). Beside a found component of F the multiplier of the average takes the place of P, which
+  // for a jagged side is another. Returns the sum of squares of 1.5.B.
+  double correct_averaged() {
+    if (!space_.averages()) return 0;
+    std::array<double, 4> stress{};
+    const bool published = !found(0) || !found(1);
+    if (published) {
+      memory_.raw.resize(increment_.forces.size());
+      evaluate_contacts(increment_.records, *increment_.problem->law, increment_.contacts,
+                        memory_.raw);
+      stress = measured_stress();
+    }
+    double sum = 0;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto& average = space_.average[i];
+      double* step = memory_.correction.data() + i * nodes_;
+      for (const auto node : average.node) {
+        const auto q = static_cast<std::size_t>(node);
+        const double radius = increment_.node_radius[q];
+        double missing = increment_.residual()[i * nodes_ + q];
+        if (!found(i)) {
+          missing = stress[2 * i] * area_[q][0] + stress[2 * i + 1] * area_[q][1] +
+                    (i == 0 ? memory_.raw[q].x : memory_.raw[q].y);
+        }
+        sum += std::pow(missing / force_scale(radius), 2);
+        step[q] = servo_.gain_force * compliance(radius) * missing;
+      }
+      return_to_average(i, step);
+    }
+    return sum;
+  }
+
+  [[nodiscard]] bool found(std::size_t direction) const {
+    return space_.found[2 * direction] || space_.found[2 * direction + 1];
+  }
+
+  // Beside a found component the step itself stays within the average.
+  void return_to_average(std::size_t i, double* step) {
+    const auto& average = space_.average[i];
+    std::array<double, 2> off{};
+    for (std::size_t k = 0; k < average.node.size(); ++k) {
+      const auto q = static_cast<std::size_t>(average.node[k]);
+      const double by = servo_.gain_deformation * fluctuation(q, i) + (found(i) ? step[q] : 0);
+      off[0] += average.row[k][0] * by;
+      off[1] += average.row[k][1] * by;
+    }
+    for (std::size_t k = 0; k < average.node.size(); ++k) {
+      step[static_cast<std::size_t>(average.node[k])] -=
+          average.row[k][0] * off[0] + average.row[k][1] * off[1];
+    }
+  }
+
+  // Found components of F by the stress that is missing, as stiff as all contacts together.
+  double correct_deformation() {
+    double sum = 0;
+    for (std::size_t k = increment_.node_unknowns(); k < increment_.unknowns(); ++k) {
+      const double missing = increment_.residual()[k];
+      memory_.correction[k] = servo_.gain_force * missing / increment_.mass[k];
+      sum += std::pow(missing / force_scale(smallest_), 2);
+    }
+    return sum;
+  }
+
+  // A_q t of every node under uniform stress, and a particle of it.
+  void find_areas() {
+    area_.assign(nodes_, {0, 0});
+    particle_.assign(nodes_, 0);
+    const auto& frame = *packing_.frame;
+    for (std::size_t q = 0; q < frame.boundary.size(); ++q) {
+      const auto p = static_cast<std::size_t>(frame.boundary[q]);
+      const auto node = static_cast<std::size_t>(space_.node[p]);
+      particle_[node] = p;
+      for (std::size_t k = 0; k < 2; ++k) area_[node][k] += frame.area[q][k] * packing_.thickness;
+    }
+  }
+
+  [[nodiscard]] double fluctuation(std::size_t node, std::size_t i) const {
+    const auto p = particle_[node];
+    return increment_.coordinates[i * packing_.size() + p] - place(p, i, increment_.deformation);
+  }
+
+  // |F - (1/V) sum x (x) A| over the components that are given.
+  [[nodiscard]] double off_average() const {
+    double sum = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (space_.found[k]) continue;
+      double off = 0;
+      for (const auto node : space_.average[k / 2].node) {
+        const auto q = static_cast<std::size_t>(node);
+        off += area_[q][k % 2] * fluctuation(q, k / 2) / space_.reference_volume;
+      }
+      sum += off * off;
+    }
+    return std::sqrt(sum);
+  }
+
+  static constexpr char turns_freely = 2;
+
+  Increment& increment_;
+  const BoundarySpace& space_;
+  const Packing& packing_;
+  const SolverOptions& options_;
+  const ServoOptions& servo_;
+  double tolerance_;
+  RelaxationMemory& memory_;
+  std::size_t nodes_;
+  double smallest_ = 0;  // radius on the boundary [m]
+  double dt_ = 0;        // [s]
+  std::vector<std::array<double, 2>>& area_ = memory_.area;
+  std::vector<std::size_t>& particle_ = memory_.particle;
+};
+
+}  // namespace
+
+bool solve_servo(Increment& increment, const SolverOptions& options, double tolerance,
+                 RelaxationMemory& memory) {
+  return Servo(increment, options, tolerance, memory).run();
+}
+
+}  // namespace grainlaw

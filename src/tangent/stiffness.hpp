@@ -1,0 +1,109 @@
+// The exact stiffness -dr/dz of the reduced residual, and linear solves with it.
+#pragma once
+
+#include "contact/contact_point.hpp"
+#include "increment/increment.hpp"
+#include "linear/block_lu.hpp"
+#include "linear/block_matrix.hpp"
+#include "linear/gmres.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
+namespace grainlaw {
+
+// A contact that touches, at the coordinates of the last assemble().
+struct TouchingContact {
+  TouchingContact() {}  // filled at once: zeros would take as long as a contact's forces
+
+  std::size_t index;  // in the increment's list
+  std::size_t node_i, node_j;
+  double lever_i;
+  ContactPoint point;
+  std::array<double, 9> stiffness;  // contact_stiffness() of it
+};
+
+// Every so many nodes of an average is an anchor: enough to hold the frame, few enough to link.
+inline std::size_t anchor_stride(const AverageConstraint& average) {
+  constexpr std::size_t anchors = 8;
+  return std::max<std::size_t>(1, average.node.size() / anchors);
+}
+
+// Mean of the anchors' rows: without it they do not feel a translation, which nothing may hold.
+inline std::array<double, 2> anchor_mean(const AverageConstraint& average) {
+  std::array<double, 2> mean{};
+  double count = 0;
+  for (std::size_t k = 0; k < average.node.size(); k += anchor_stride(average), ++count) {
+    mean[0] += average.row[k][0];
+    mean[1] += average.row[k][1];
+  }
+  return {mean[0] / count, mean[1] / count};
+}
+
+// What one increment of deformation left here serves the rest of it: the graph while all contacts
+// that touch are in it, the factors for solve_four(). Nothing is carried from one increment to the
+// next that could change a bit there: Increment::factorisations is zero when one begins.
+class Stiffness {
+ public:
+  // K of the present coordinates plus shift x mass on the diagonal; rows of what is prescribed are
+  // the identity. Where fluctuations are constrained on average, kn row row^T over the anchors is
+  // added for every row of the constraint: it holds what only the constraint would hold, in the
+  // factors, and BorderedSystem takes it out of the solutions. The factors are no longer those of K.
+  void assemble(const Increment& increment, double shift);
+
+  // Add to what was assembled, against the rotation of a node, as much as its mass.
+  void hold_rotation(const Increment& increment, std::size_t node) {
+    matrix_.block(node)[2].lane[2] += increment.mass[2 * matrix_.nodes + node];
+  }
+
+  // Factorise what was assembled.
+  void factorise(Increment& increment);
+
+  // x = K^-1 b, refined until the residual is below the tolerance (largest entry, relative to b) or
+  // while that helps; by GMRES where that ends far from it. False when b is not in the range of K to
+  // working precision, or the factors are of no use.
+  bool solve(const Increment& increment, std::span<const double> b, std::span<double> x,
+             double tolerance = 1e-8);
+
+  // The same of four vectors together. Of K just assembled, without factorise() before: old factors
+  // do when refinement with them converges quickly, else K is factorised here.
+  bool solve_four(Increment& increment, std::span<const Quad> b, std::span<Quad> x);
+
+  // Of the last assemble(), ordered by index.
+  [[nodiscard]] std::span<const TouchingContact> touching() const { return touching_; }
+  // The moments of these contacts; empty for laws without.
+  [[nodiscard]] std::span<const ContactMoment> moments() const { return moments_; }
+
+ private:
+  void find_touching(const Increment& increment);
+  [[nodiscard]] bool graph_serves(const Increment& increment) const;
+  void find_graph(const Increment& increment);
+  void add_moments();
+  void hold_fixed_nodes(const Increment& increment);
+  void link_anchors(const Increment& increment);
+  void add_anchors(const Increment& increment);
+  void add_masses(const Increment& increment, double factor);
+  bool solve_four_by_factors(const Increment& increment, std::span<const Quad> b,
+                             std::span<Quad> x);
+  bool solve_by_gmres(const Increment& increment);
+
+  enum class Factors { none, of_earlier_matrix, of_matrix };
+
+  BlockMatrix matrix_;
+  BlockLU lu_;
+  Gmres gmres_;
+  Factors factors_ = Factors::none;
+  std::vector<TouchingContact> touching_;
+  std::vector<ContactMoment> moments_;
+  std::vector<Edge> graph_;
+  std::vector<std::int32_t> edge_of_contact_;
+  std::vector<std::int32_t> edge_of_link_;         // between anchors, as add_anchors() goes
+  std::vector<std::int32_t> listed_i_, listed_j_;  // the contacts that the graph was made from
+  std::vector<std::pair<Edge, std::int32_t>> pairs_;
+  std::vector<Quad> ground_;
+  std::vector<Quad> right_, solution_, check_, kept_;
+};
+
+}  // namespace grainlaw
