@@ -15,19 +15,14 @@ namespace {
 // What a factorisation costs in relaxation steps: some tens of them with hundreds of particles.
 constexpr long steps_per_factorisation = 50;
 
-double determinant(const double* F, int dimension) {
-  if (dimension == 2) return F[0] * F[3] - F[1] * F[2];
-  return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) +
-         F[2] * (F[3] * F[7] - F[4] * F[6]);
-}
-
 // Throws Error (NOT_FINITE, INVERTED, STEP_TOO_LARGE when the determinant overflows).
-void check_deformation(const double* F, int dimension) {
-  for (int i = 0; i < dimension; ++i)
-    for (int j = 0; j < dimension; ++j)
-      if (const double entry = F[i * dimension + j]; !std::isfinite(entry))
+template <int D>
+void check_deformation(const Tensor<D>& F) {
+  for (std::size_t i = 0; i < D; ++i)
+    for (std::size_t j = 0; j < D; ++j)
+      if (const double entry = F[i * D + j]; !std::isfinite(entry))
         throw Error(GRAINLAW_NOT_FINITE, fmt::format("F{}{} is {}", i + 1, j + 1, entry));
-  const double det = determinant(F, dimension);
+  const double det = determinant<D>(F);
   if (!std::isfinite(det)) throw Error(GRAINLAW_STEP_TOO_LARGE, "det F overflows");
   if (det <= 0) throw Error(GRAINLAW_INVERTED, fmt::format("det F = {:.6g}, expected > 0", det));
 }
@@ -58,8 +53,7 @@ grainlaw_status evaluate_point(grainlaw_state& handle, const double* F, unsigned
   const MessageBuffer message{full.message, sizeof full.message};
   const grainlaw_status status = guarded(
       [&] {
-        const auto effective = handle.state.effective(F);
-        check_deformation(effective.data(), handle.state.material().packing.dimension);
+        check_deformation<2>(handle.state.effective(F));
         const TangentKind kind = A == nullptr ? TangentKind::none : tangent_kind(want);
         const grainlaw_status found = handle.state.evaluate(F, kind, P, A, full);
         handle.last_cost = full.relaxation_steps + steps_per_factorisation * full.factorisations;

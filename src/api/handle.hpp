@@ -36,19 +36,19 @@ class Magic {
 }  // namespace grainlaw::api
 
 struct grainlaw_material {
-  explicit grainlaw_material(std::shared_ptr<const grainlaw::Material> shared)
+  explicit grainlaw_material(std::shared_ptr<const grainlaw::Material<2>> shared)
       : material(std::move(shared)) {}
 
   grainlaw::api::Magic<0x6c61'6972'6574'616dULL> magic;
-  std::shared_ptr<const grainlaw::Material> material;
+  std::shared_ptr<const grainlaw::Material<2>> material;
 };
 
 struct grainlaw_state {
-  explicit grainlaw_state(grainlaw::State initial, long cost = 0)
+  explicit grainlaw_state(grainlaw::State<2> initial, long cost = 0)
       : state(std::move(initial)), last_cost(cost) {}
 
   grainlaw::api::Magic<0x6574'6174'735f'6c67ULL> magic;
-  grainlaw::State state;
+  grainlaw::State<2> state;
   long last_cost;  // of the last evaluation in relaxation steps; a batch begins with the dearest
 };
 

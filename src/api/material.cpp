@@ -21,7 +21,7 @@ grainlaw_status create(const void* source, grainlaw_material** out, api::Message
     message.write(grainlaw_status_text(GRAINLAW_NULL_POINTER));
     return GRAINLAW_NULL_POINTER;
   }
-  return api::guarded([&] { *out = new grainlaw_material(make_material(describe())); }, message);
+  return api::guarded([&] { *out = new grainlaw_material(make_material<2>(describe())); }, message);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ grainlaw_status grainlaw_state_create(const grainlaw_material* handle, grainlaw_
   if (out == nullptr) return GRAINLAW_NULL_POINTER;
   *out = nullptr;
   if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
-  return api::guarded([&] { *out = new grainlaw_state(State(handle->material)); });
+  return api::guarded([&] { *out = new grainlaw_state(State<2>(handle->material)); });
 }
 
 grainlaw_status grainlaw_state_clone(const grainlaw_state* handle, grainlaw_state** out) {
@@ -34,8 +34,8 @@ grainlaw_status grainlaw_state_save(const grainlaw_state* handle, void* bytes, s
   if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
   if (size == nullptr) return GRAINLAW_NULL_POINTER;
   return api::guarded([&] {
-    const Material& material = handle->state.material();
-    const Configuration& committed = handle->state.committed();
+    const Material<2>& material = handle->state.material();
+    const Configuration<2>& committed = handle->state.committed();
     const std::size_t need = saved_size(material, committed);
     if (bytes != nullptr) {
       if (*size < need) return GRAINLAW_BUFFER_TOO_SMALL;
@@ -50,8 +50,8 @@ grainlaw_status grainlaw_state_load(grainlaw_state* handle, const void* bytes, s
   if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
   if (bytes == nullptr) return GRAINLAW_NULL_POINTER;
   return api::guarded([&] {
-    handle->state.restore(
-        load_configuration(handle->state.material(), {static_cast<const std::byte*>(bytes), size}));
+    handle->state.restore(load_configuration<2>(handle->state.material(),
+                                                {static_cast<const std::byte*>(bytes), size}));
   });
 }
 
@@ -60,8 +60,8 @@ grainlaw_status grainlaw_state_measure(const grainlaw_state* handle, grainlaw_me
   if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
   if (count == nullptr) return GRAINLAW_NULL_POINTER;
   return api::guarded([&] {
-    const Material& material = handle->state.material();
-    const int components = measure_count(material.problem(), what);
+    const Material<2>& material = handle->state.material();
+    const int components = measure_count(material.packing.dimension, what);
     if (components < 0) return GRAINLAW_BAD_ARGUMENT;
     const auto need = static_cast<std::size_t>(components);
     if (value != nullptr) {

@@ -1,19 +1,21 @@
 #include "contact/contact_list.hpp"
 
 #include "base/room.hpp"
+#include "packing/geometry.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace grainlaw {
 
-void ContactList::resize(std::size_t contacts, bool weighted, double radius,
-                         const ContactLaw& law) {
+template <int D>
+void ContactList<D>::resize(std::size_t contacts, bool weighted, double radius,
+                            const ContactLaw& law) {
   count = contacts;
   turns_far = false;
   const std::size_t padded = (contacts + group - 1) / group * group;
   resize_with_room(forces, padded);
+  resize_with_room(stiffness, padded);
   const auto fit = [&](auto& column, auto filling) {
     resize_with_room(column, padded);
     std::fill(column.begin() + static_cast<std::ptrdiff_t>(contacts), column.end(), filling);
@@ -21,27 +23,32 @@ void ContactList::resize(std::size_t contacts, bool weighted, double radius,
   // Filled up with a particle beside itself at twice its diameter, without stiffness.
   fit(i, 0);
   fit(j, 0);
-  for (auto* column : {&shift_x, &shift_y, &offset_y, &normal_stiffness, &tangential_stiffness,
-                       &start_y, &start_roll, &start_force}) {
-    fit(*column, 0.0);
+  for (std::size_t k = 0; k < D; ++k) {
+    fit(shift[k], 0.0);
+    fit(offset[k], k == 0 ? 4 * radius : 0.0);
+    fit(start_normal[k], k == 0 ? 1.0 : 0.0);
   }
-  fit(offset_x, 4 * radius);
+  for (auto& component : start_force) fit(component, 0.0);
+  for (auto* column : {&normal_stiffness, &tangential_stiffness, &start_roll}) fit(*column, 0.0);
   fit(reach, 2 * radius);
   fit(inverse_reach, 0.5 / radius);
   fit(lever_i, 0.5);
-  fit(start_x, 1.0);
   // Other laws leave their columns behind.
-  for (auto* column : {&hold, &rest, &bending_stiffness, &rolling_length, &start_spin,
-                       &start_moment, &inverse_radius_i, &inverse_radius_j}) {
+  for (auto* column :
+       {&hold, &rest, &bending_stiffness, &rolling_length, &inverse_radius_i, &inverse_radius_j}) {
     column->clear();
+  }
+  for (auto* columns : {&start_spin, &start_moment}) {
+    for (auto& component : *columns) component.clear();
   }
   if (law.bonds()) {
     fit(hold, 0.0);
     fit(rest, 2 * radius);
   }
   if (law.moments()) {
-    for (auto* column : {&bending_stiffness, &rolling_length, &start_spin, &start_moment}) {
-      fit(*column, 0.0);
+    for (auto* column : {&bending_stiffness, &rolling_length}) fit(*column, 0.0);
+    for (auto* columns : {&start_spin, &start_moment}) {
+      for (auto& component : *columns) fit(component, 0.0);
     }
     fit(inverse_radius_i, 1 / radius);
     fit(inverse_radius_j, 1 / radius);
@@ -53,14 +60,14 @@ void ContactList::resize(std::size_t contacts, bool weighted, double radius,
   }
 }
 
-void build_contacts(std::span<const NeighbourPair> pairs, std::span<const double> pair_weights,
+template <int D>
+void build_contacts(std::span<const NeighbourPair<D>> pairs, std::span<const double> pair_weights,
                     std::span<const double> radius, std::span<const int> node, std::size_t nodes,
-                    const ContactLaw& law, const std::array<double, 4>& cell,
-                    const HistoryStart& start, ContactList& list) {
+                    const ContactLaw& law, const Tensor<D>& cell, const HistoryStart<D>& start,
+                    ContactList<D>& list) {
   const std::size_t n = radius.size();
   const double* x = start.coordinates.data();
-  const double* y = x + n;
-  const double* rotation = law.rotating() ? y + n : nullptr;
+  const double* rotation = law.rotating() ? x + D * n : nullptr;
   const double ratio = law.tangential() ? law.ratio : 0;
   const bool bonds = law.bonds();
   const bool moments = law.moments();
@@ -68,18 +75,17 @@ void build_contacts(std::span<const NeighbourPair> pairs, std::span<const double
   std::size_t h = 0;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& pair = pairs[c];
-    const auto key = std::tie(pair.i, pair.j, pair.shift);
     const auto p = static_cast<std::size_t>(pair.i);
     const auto q = static_cast<std::size_t>(pair.j);
-    const double s0 = pair.shift[0];
-    const double s1 = pair.shift[1];
+    const Vec<D> shift = vec_of<D>(pair.shift);
     const double weight = pair_weights.empty() ? 1.0 : pair_weights[c];
     list.i[c] = pair.i;
     list.j[c] = pair.j;
-    list.shift_x[c] = s0;
-    list.shift_y[c] = s1;
-    list.offset_x[c] = cell[0] * s0 + cell[1] * s1;
-    list.offset_y[c] = cell[2] * s0 + cell[3] * s1;
+    const Vec<D> offset = product<D>(cell, shift);
+    for (std::size_t k = 0; k < D; ++k) {
+      list.shift[k][c] = shift[k];
+      list.offset[k][c] = offset[k];
+    }
     list.reach[c] = radius[p] + radius[q];
     list.inverse_reach[c] = 1 / list.reach[c];
     list.lever_i[c] = radius[p] / list.reach[c];
@@ -87,29 +93,29 @@ void build_contacts(std::span<const NeighbourPair> pairs, std::span<const double
     list.tangential_stiffness[c] = ratio * list.normal_stiffness[c];
     if (!pair_weights.empty()) list.weight[c] = weight;
 
-    const double lx = x[q] - x[p] + start.cell[0] * s0 + start.cell[1] * s1;
-    const double ly = y[q] - y[p] + start.cell[2] * s0 + start.cell[3] * s1;
-    const double d = std::hypot(lx, ly);
-    list.start_x[c] = d > 0 ? lx / d : 1;
-    list.start_y[c] = d > 0 ? ly / d : 0;
-    list.start_roll[c] = rotation ? radius[p] * rotation[p] + radius[q] * rotation[q] : 0;
-
-    while (h < start.contacts.size() &&
-           std::tie(start.contacts[h].i, start.contacts[h].j, start.contacts[h].shift) < key) {
-      ++h;
+    const Vec<D> l = branch<D>(x, n, p, q, start.cell, shift);
+    const double d = length<D>(l);
+    for (std::size_t k = 0; k < D; ++k) {
+      list.start_normal[k][c] = d > 0 ? l[k] / d : (k == 0 ? 1 : 0);
     }
-    const bool known =
-        h < start.contacts.size() &&
-        std::tie(start.contacts[h].i, start.contacts[h].j, start.contacts[h].shift) == key;
-    list.start_force[c] = known ? weight * start.contacts[h].tangential_force : 0;
+    if constexpr (D == 2) {
+      list.start_roll[c] = rotation ? radius[p] * rotation[p] + radius[q] * rotation[q] : 0;
+    }
+
+    while (h < start.contacts.size() && key_of(start.contacts[h]) < key_of(pair)) ++h;
+    const bool known = h < start.contacts.size() && key_of(start.contacts[h]) == key_of(pair);
+    for (std::size_t k = 0; k < list.start_force.size(); ++k) {
+      list.start_force[k][c] = known ? weight * start.contacts[h].tangential_force[k] : 0;
+    }
     if (law.plain()) continue;
 
     const bool bonded = bonds && known && start.contacts[h].bonded;
     if (bonds) {
-      list.hold[c] = bonded ? ContactList::held : 0;
+      list.hold[c] = bonded ? ContactList<D>::held : 0;
       list.rest[c] = list.reach[c] + (bonded && !start.gaps.empty() ? start.gaps[h] : 0);
     }
     if (moments) {
+      constexpr std::size_t spins = Dimension<D>::spins;
       const double rolling = law.rolling_ratio(radius[p], radius[q]);
       list.bending_stiffness[c] =
           bonded ? weight * law.bond.bending_stiffness : rolling * list.tangential_stiffness[c];
@@ -117,14 +123,18 @@ void build_contacts(std::span<const NeighbourPair> pairs, std::span<const double
           law.rolls() ? law.rolling.friction * law.common_radius(radius[p], radius[q]) : 0;
       list.inverse_radius_i[c] = 1 / radius[p];
       list.inverse_radius_j[c] = 1 / radius[q];
-      list.start_spin[c] = rotation[q] - rotation[p];
-      list.start_moment[c] = known && !start.moments.empty() ? weight * start.moments[h] : 0;
+      for (std::size_t k = 0; k < spins; ++k) {
+        list.start_spin[k][c] = rotation[k * n + q] - rotation[k * n + p];
+        list.start_moment[k][c] =
+            known && !start.moments.empty() ? weight * start.moments[spins * h + k] : 0;
+      }
     }
     if (law.hertzian()) {
       const double overlap = list.reach[c] - d;
       const double scale = overlap > 0 ? 1 / std::sqrt(std::sqrt(overlap)) : 0;
-      list.start_force[c] *= scale;
-      if (moments) list.start_moment[c] *= scale;
+      for (auto& component : list.start_force) component[c] *= scale;
+      if (!moments) continue;
+      for (auto& component : list.start_moment) component[c] *= scale;
     }
   }
   if (moments) {
@@ -136,5 +146,11 @@ void build_contacts(std::span<const NeighbourPair> pairs, std::span<const double
   const std::span<const std::int32_t> i(list.i), j(list.j);
   list.sums.arrange(i.first(pairs.size()), j.first(pairs.size()), node, nodes);
 }
+
+template struct ContactList<2>;
+template void build_contacts<2>(std::span<const NeighbourPair<2>>, std::span<const double>,
+                                std::span<const double>, std::span<const int>, std::size_t,
+                                const ContactLaw&, const Tensor<2>&, const HistoryStart<2>&,
+                                ContactList<2>&);
 
 }  // namespace grainlaw

@@ -11,15 +11,18 @@ namespace {
 
 using namespace simd;
 
-GRAINLAW_CLONES void store_sums(const ContactSums& of, std::span<const ForceRecord> values,
-                                const ForceRecord& sign, double* sums) {
-  of.for_each(values, sign, [=](std::size_t q, const Record& sum) { store(sums + 4 * q, sum); });
+// Which clone runs is found when the library is loaded, of a template it cannot be.
+GRAINLAW_CLONES void store_sums(const ContactSums<2>& of, const double* values, const double* sign,
+                                double* sums) {
+  of.for_each_record(values, sign,
+                     [=](std::size_t q, const Record& sum) { store(sums + 4 * q, sum); });
 }
 
 }  // namespace
 
-void ContactSums::arrange(std::span<const std::int32_t> i, std::span<const std::int32_t> j,
-                          std::span<const int> node, std::size_t nodes) {
+template <int D>
+void ContactSums<D>::arrange(std::span<const std::int32_t> i, std::span<const std::int32_t> j,
+                             std::span<const int> node, std::size_t nodes) {
   const auto node_of = [&](std::int32_t particle) {
     return static_cast<std::size_t>(node[static_cast<std::size_t>(particle)]);
   };
@@ -66,9 +69,19 @@ void ContactSums::arrange(std::span<const std::int32_t> i, std::span<const std::
   }
 }
 
-void ContactSums::add_up(std::span<const ForceRecord> values, const ForceRecord& sign,
-                         std::span<ForceRecord> sums) const {
-  store_sums(*this, values, sign, &sums.data()->x);
+template <int D>
+void ContactSums<D>::add_up(std::span<const ForceRecord<D>> values, const ForceRecord<D>& sign,
+                            std::span<ForceRecord<D>> sums) const {
+  store_sums(*this, values.empty() ? nullptr : &values.data()->x, &sign.x, &sums.data()->x);
 }
+
+template <int D>
+void ContactSums<D>::add_up(std::span<const StiffnessRecord<D>> values,
+                            std::span<StiffnessRecord<D>> sums) const {
+  constexpr StiffnessRecord<D> as_it_is{1, 1, 1, 1};
+  store_sums(*this, values.empty() ? nullptr : &values.data()->x, &as_it_is.x, &sums.data()->x);
+}
+
+template class ContactSums<2>;
 
 }  // namespace grainlaw

@@ -4,6 +4,7 @@
 
 #include "base/simd.hpp"
 #include "contact/records.hpp"
+#include "math/dimension.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +13,7 @@
 
 namespace grainlaw {
 
+template <int D>
 class ContactSums {
  public:
   // Contacts i[c], j[c] of particles; node[p] is the node of particle p.
@@ -20,26 +22,35 @@ class ContactSums {
 
   // sums[q] = sum of values[c] over contacts whose j is on node q, plus that times `sign` over
   // contacts whose i is.
-  void add_up(std::span<const ForceRecord> values, const ForceRecord& sign,
-              std::span<ForceRecord> sums) const;
+  void add_up(std::span<const ForceRecord<D>> values, const ForceRecord<D>& sign,
+              std::span<ForceRecord<D>> sums) const;
+  // The same of stiffnesses, which have no sign.
+  void add_up(std::span<const StiffnessRecord<D>> values, std::span<StiffnessRecord<D>> sums) const;
 
   // take(q, sum) with the same sum of every node, each node once, instead of storing it.
   template <class Take>
-  GRAINLAW_INLINE void for_each(std::span<const ForceRecord> values, const ForceRecord& sign,
+  GRAINLAW_INLINE void for_each(std::span<const ForceRecord<D>> values, const ForceRecord<D>& sign,
                                 Take&& take) const {
-    const double* const records = values.empty() ? nullptr : &values.data()->x;
-    const simd::Record sign_of_i = simd::load<4>(&sign.x);
+    for_each_record(values.empty() ? nullptr : &values.data()->x, &sign.x, take);
+  }
+
+  // As `lanes` doubles each.
+  template <class Take>
+  GRAINLAW_INLINE void for_each_record(const double* records, const double* sign,
+                                       Take&& take) const {
+    using Record = simd::Lanes<lanes>;
+    const Record sign_of_i = simd::load<lanes>(sign);
     const std::uint32_t* contact = contact_.data();
     const std::uint32_t* node = node_.data();
     for (const Run& run : runs_) {
       for (std::size_t q = 0; q < run.nodes; ++q) {
-        simd::Record on_i{};
-        simd::Record on_j{};
+        Record on_i{};
+        Record on_j{};
         for (std::size_t k = 0; k < run.as_i; ++k) {
-          on_i += simd::load<4>(records + 4 * std::size_t{*contact++});
+          on_i += simd::load<lanes>(records + lanes * std::size_t{*contact++});
         }
         for (std::size_t k = 0; k < run.as_j; ++k) {
-          on_j += simd::load<4>(records + 4 * std::size_t{*contact++});
+          on_j += simd::load<lanes>(records + lanes * std::size_t{*contact++});
         }
         take(std::size_t{*node++}, on_j + sign_of_i * on_i);
       }
@@ -47,6 +58,7 @@ class ContactSums {
   }
 
  private:
+  static constexpr std::size_t lanes = Dimension<D>::lanes;
   // Nodes with equal numbers of contacts follow each other, so that the loops over them are
   // foreseeable.
   struct Run {

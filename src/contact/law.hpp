@@ -62,15 +62,15 @@ struct ContactLaw {
     const double root = hertzian() ? std::sqrt(overlap > 0 ? overlap : 0) : 1;
     return (hertzian() ? 2.0 / 3 : 1) * coefficient(a, b) * root * overlap;
   }
-  // What its springs hold [J]; bonded: by a bond.
-  [[nodiscard]] double energy(double a, double b, double overlap, double tangential_force,
-                              double moment, bool bonded) const {
+  // What its springs hold, by the squares of tangential force and moment [J]; bonded: by a bond.
+  [[nodiscard]] double energy(double a, double b, double overlap, double tangential_square,
+                              double moment_square, bool bonded) const {
     const double kn =
         hertzian() ? coefficient(a, b) * std::sqrt(overlap > 0 ? overlap : 0) : coefficient(a, b);
     const double kr = bonded ? bond.bending_stiffness : rolling_ratio(a, b) * ratio * kn;
     double sum = (hertzian() ? 4.0 / 15 : 0.5) * kn * overlap * overlap;
-    if (tangential_force != 0) sum += 0.5 * tangential_force * tangential_force / (ratio * kn);
-    if (moment != 0) sum += 0.5 * moment * moment / kr;
+    if (tangential_square != 0) sum += 0.5 * tangential_square / (ratio * kn);
+    if (moment_square != 0) sum += 0.5 * moment_square / kr;
     return sum;
   }
   // kr / kt of contacts without a bond [m2].

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include "base/constants.hpp"
 
 namespace grainlaw {
 
 namespace {
 
 // sqrt(sum (r - a m dz)^2 / m): the part of the residual that the flow does not explain.
-double defect_norm(const Increment& increment, std::span<const double> step, double a) {
+template <int D>
+double defect_norm(const Increment<D>& increment, std::span<const double> step, double a) {
   const double* r = increment.residual().data();
   const double* m = increment.mass.data();
   double sum = 0;
@@ -20,7 +22,8 @@ double defect_norm(const Increment& increment, std::span<const double> step, dou
 }
 
 // Largest move of a particle's surface under the step, against its neighbours where F moves [m].
-double largest_move(const Increment& increment, std::span<const double> step) {
+template <int D>
+double largest_move(const Increment<D>& increment, std::span<const double> step) {
   const auto nodes = increment.nodes();
   double largest = 0;
   for (std::size_t k = increment.node_unknowns(); k < step.size(); ++k) {
@@ -28,29 +31,22 @@ double largest_move(const Increment& increment, std::span<const double> step) {
     largest = std::max(largest, std::abs(step[k]) * lever);
   }
   for (std::size_t k = 0; k < increment.node_unknowns(); ++k) {
-    const double lever = k < 2 * nodes ? 1.0 : increment.node_radius[k % nodes];
+    const double lever = k < D * nodes ? 1.0 : increment.node_radius[k % nodes];
     largest = std::max(largest, std::abs(step[k]) * lever);
   }
   return largest;
 }
 
-constexpr double first_shift = 1e-5;
-constexpr double least_shift = 1e-7;
-constexpr double largest_shift = 1e3;
-// Of the residual after a step against before.
-constexpr double good = 0.1;
-constexpr double acceptable = 0.9;
-constexpr double largest_rise = 300;
-
+template <int D>
 class PseudoTransientNewton {
  public:
-  PseudoTransientNewton(Increment& increment, double tolerance, NewtonMemory& memory,
-                        RelaxationMemory* relaxation)
+  PseudoTransientNewton(Increment<D>& increment, double tolerance, NewtonMemory<D>& memory,
+                        RelaxationMemory<D>* relaxation)
       : increment_(increment),
         tolerance_(tolerance),
         memory_(memory),
         relaxation_(relaxation),
-        may_roll_(RollingMechanisms::possible(*increment.problem)) {
+        may_roll_(RollingMechanisms<D>::possible(*increment.problem)) {
     memory.step.assign(increment.unknowns(), 0.0);
     memory.coordinates.reserve(increment.coordinates.size());
     memory.moved.reserve(increment.coordinates.size());
@@ -93,8 +89,7 @@ class PseudoTransientNewton {
 
   // Of mechanisms, that counts [N].
   [[nodiscard]] double least_moment() const {
-    constexpr double enough = 0.3;  // of the tolerance
-    return enough * tolerance_ * increment_.relative_scale();
+    return tuned::least_moment * tolerance_ * increment_.relative_scale();
   }
 
   void turn_mechanisms() {
@@ -110,11 +105,14 @@ class PseudoTransientNewton {
 
   // For memory_.step, at the present coordinates, of what was assembled there.
   bool solve() {
-    auto& [stiffness, border, mechanisms, step, residual, coordinates, moved, best, flow, total] =
-        memory_;
+    auto& stiffness = memory_.stiffness;
+    const auto& residual = memory_.residual;
+    auto& step = memory_.step;
     stiffness.factorise(increment_);
-    if (BorderedSystem::needed(*increment_.problem->space)) {
-      return border.solve(increment_, stiffness, shift_, residual, step);
+    if constexpr (D == 2) {
+      if (BorderedSystem::needed(*increment_.problem->space)) {
+        return memory_.border.solve(increment_, stiffness, shift_, residual, step);
+      }
     }
     return stiffness.solve(increment_, residual, step);
   }
@@ -126,7 +124,7 @@ class PseudoTransientNewton {
     without_gain_ = 0;
   }
 
-  void go_to(const std::vector<double>& coordinates, const std::array<double, 4>& deformation) {
+  void go_to(const std::vector<double>& coordinates, const Tensor<D>& deformation) {
     increment_.coordinates = coordinates;
     increment_.deformation = deformation;
     increment_.keep_neighbours();
@@ -134,34 +132,30 @@ class PseudoTransientNewton {
   }
 
   bool raise_shift() {
-    shift_ = std::max(4 * shift_, first_shift);
-    return shift_ <= largest_shift;
+    shift_ = std::max(4 * shift_, tuned::first_shift);
+    return shift_ <= tuned::largest_shift;
   }
 
   // Whether a step that left so much of what there was before may be worth a relaxation.
   [[nodiscard]] bool may_settle(double after, double before) const {
-    return relaxation_ != nullptr && after > good * before && after < largest_rise * before;
+    return relaxation_ != nullptr && after > tuned::good_step * before &&
+           after < tuned::largest_rise * before;
   }
 
   // Long enough for what a step leaves around single contacts.
   void settle() {
-    constexpr long settling_steps = 60;
-    relax(increment_, tolerance_, settling_steps, History::committed, *relaxation_);
+    relax(increment_, tolerance_, tuned::settling_steps, History::committed, *relaxation_);
   }
 
   // Moves of a few mean overlaps turn contacts over; what lies beyond is another packing. Where next to nothing
   // holds some particles, a shift holds them.
   void full_step() {
-    constexpr double move_limit = 3;  // mean overlaps
-    constexpr int patience = 4;
-    constexpr double the_same = 1e-2;  // change of the residual by a step and what settles after it
-    constexpr double flow_shift = 1e-2;
-    constexpr double least_share = 0.1;  // less of a step does not tell what is wrong with the rest
     const double before = norm_;
-    const double limit = move_limit * increment_.relative_scale() / increment_.mean_stiffness();
+    const double limit =
+        tuned::longest_full_step * increment_.relative_scale() / increment_.mean_stiffness();
     const double share = limit / largest_move(increment_, memory_.step);
-    if (share < least_share && shift_ < flow_shift) {
-      shift_ = std::max(16 * shift_, first_shift);
+    if (share < tuned::least_share && shift_ < tuned::flow_shift) {
+      shift_ = std::max(16 * shift_, tuned::first_shift);
       return;
     }
     increment_.move(memory_.step, std::min(1.0, share));
@@ -174,25 +168,26 @@ class PseudoTransientNewton {
       increment_.refresh_masses();
       norm_ = defect();
     }
-    if (norm_ < acceptable * best_) {
+    if (norm_ < tuned::acceptable_step * best_) {
       keep_best();
-      shift_ = shift_ / 16 < least_shift ? 0 : shift_ / 16;
-    } else if (++without_gain_ == patience || !(norm_ < largest_rise * best_) ||
-               std::abs(norm_ - before) < the_same * before) {
+      shift_ = shift_ / 16 < tuned::least_shift ? 0 : shift_ / 16;
+    } else if (++without_gain_ == tuned::full_step_patience ||
+               !(norm_ < tuned::largest_rise * best_) ||
+               std::abs(norm_ - before) < tuned::the_same * before) {
       go_to(memory_.best, best_deformation_);
       increment_.refresh_masses();
       norm_ = best_;
       full_steps_ = false;
-      shift_ = flow_shift;
+      shift_ = tuned::flow_shift;
     }
   }
 
   // How much of memory_.step leaves particles near where they are.
   [[nodiscard]] double near_share() const {
-    constexpr double move_limit = 0.2;  // of the smallest radius
     const double smallest =
         *std::min_element(increment_.node_radius.begin(), increment_.node_radius.end());
-    return std::min(1.0, move_limit * smallest / largest_move(increment_, memory_.step));
+    return std::min(1.0,
+                    tuned::longest_flow_step * smallest / largest_move(increment_, memory_.step));
   }
 
   void move(double fraction) {
@@ -204,7 +199,6 @@ class PseudoTransientNewton {
   // An implicit Euler step of the overdamped flow, shift_ m dz = r(z + dz): settled or corrected where
   // contacts switch on the way, at last shortened.
   bool flow_step() {
-    constexpr double enough_gain = 0.5;
     memory_.coordinates = increment_.coordinates;
     memory_.flow = memory_.step;
     const auto deformation = increment_.deformation;
@@ -219,14 +213,14 @@ class PseudoTransientNewton {
       move(fraction);
       const double error = defect_norm(increment_, memory_.step, fraction * shift_);
       // A shortened step promises only its share of the decrease.
-      const bool found = error < (1 - fraction * (1 - acceptable)) * norm_;
+      const bool found = error < (1 - fraction * (1 - tuned::acceptable_step)) * norm_;
       if (!found && !(fraction == 1 && (settled(error) || corrected(error)))) continue;
-      if (fraction == 1) shift_ /= error < good * norm_ ? 16 : 4;
+      if (fraction == 1) shift_ /= error < tuned::good_step * norm_ ? 16 : 4;
       if (fraction < cap) shift_ *= 4;
-      if (shift_ < least_shift) shift_ = 0;
+      if (shift_ < tuned::least_shift) shift_ = 0;
       increment_.refresh_masses();
       norm_ = defect();
-      if (norm_ < enough_gain * best_) {
+      if (norm_ < tuned::enough_gain * best_) {
         full_steps_ = true;
         keep_best();
       }
@@ -242,17 +236,16 @@ class PseudoTransientNewton {
     memory_.moved = increment_.coordinates;
     const auto deformation = increment_.deformation;
     settle();
-    if (defect() < acceptable * norm_) return true;
+    if (defect() < tuned::acceptable_step * norm_) return true;
     go_to(memory_.moved, deformation);
     return false;
   }
 
   // Newton on the equation of a whole implicit step, from where the first iteration of it went.
   bool corrected(double error) {
-    constexpr int most_corrections = 5;
-    constexpr double hopeless = 1e4;
     memory_.total = memory_.flow;
-    for (int k = 0; k < most_corrections && error < hopeless * norm_; ++k) {
+    for (int k = 0; k < tuned::most_corrections && error < tuned::hopeless_correction * norm_;
+         ++k) {
       const double* r = increment_.residual().data();
       const double* m = increment_.mass.data();
       for (std::size_t q = 0; q < memory_.total.size(); ++q) {
@@ -263,29 +256,33 @@ class PseudoTransientNewton {
       for (std::size_t q = 0; q < memory_.total.size(); ++q) memory_.total[q] += memory_.step[q];
       move(1);
       error = defect_norm(increment_, memory_.total, shift_);
-      if (error < acceptable * norm_) return true;
+      if (error < tuned::acceptable_step * norm_) return true;
     }
     return false;
   }
 
-  Increment& increment_;
+  Increment<D>& increment_;
   double tolerance_;
-  NewtonMemory& memory_;
-  RelaxationMemory* relaxation_;  // null: none
-  bool may_roll_;                 // there may be some
-  double shift_ = first_shift;
+  NewtonMemory<D>& memory_;
+  RelaxationMemory<D>* relaxation_;  // null: none
+  bool may_roll_;                    // there may be some
+  double shift_ = tuned::first_shift;
   double norm_ = 0;  // of the residual at the present coordinates
   double best_ = 0;  // the least so far, at memory.best
-  std::array<double, 4> best_deformation_{};
+  Tensor<D> best_deformation_{};
   int without_gain_ = 0;
   bool full_steps_ = true;
 };
 
 }  // namespace
 
-bool pseudo_transient_newton(Increment& increment, double tolerance, int max_factorisations,
-                             NewtonMemory& memory, RelaxationMemory* relaxation) {
-  return PseudoTransientNewton(increment, tolerance, memory, relaxation).run(max_factorisations);
+template <int D>
+bool pseudo_transient_newton(Increment<D>& increment, double tolerance, int max_factorisations,
+                             NewtonMemory<D>& memory, RelaxationMemory<D>* relaxation) {
+  return PseudoTransientNewton<D>(increment, tolerance, memory, relaxation).run(max_factorisations);
 }
+
+template bool pseudo_transient_newton(Increment<2>&, double, int, NewtonMemory<2>&,
+                                      RelaxationMemory<2>*);
 
 }  // namespace grainlaw

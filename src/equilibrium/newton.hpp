@@ -13,10 +13,11 @@
 
 namespace grainlaw {
 
+template <int D>
 struct NewtonMemory {
-  Stiffness stiffness;
+  Stiffness<D> stiffness;
   BorderedSystem border;
-  RollingMechanisms mechanisms;
+  RollingMechanisms<D> mechanisms;
   std::vector<double> step, residual, coordinates, moved, best, flow, total;
 };
 
@@ -30,7 +31,8 @@ struct NewtonMemory {
 // relaxation settles is corrected by Newton on its own equation; with s > 0 it is stable exactly
 // where the equilibrium is, flutter included. False after max_factorisations, or a few more to end a
 // step, or when the residual is no longer finite.
-bool pseudo_transient_newton(Increment& increment, double tolerance, int max_factorisations,
-                             NewtonMemory& memory, RelaxationMemory* relaxation = nullptr);
+template <int D>
+bool pseudo_transient_newton(Increment<D>& increment, double tolerance, int max_factorisations,
+                             NewtonMemory<D>& memory, RelaxationMemory<D>* relaxation = nullptr);
 
 }  // namespace grainlaw

@@ -1,6 +1,8 @@
 // How equilibrium is sought.
 #pragma once
 
+#include "reference/local_damping.hpp"
+
 namespace grainlaw {
 
 enum class Start { committed, trial };
@@ -11,13 +13,6 @@ enum class Method { chain, advancing, published };
 
 // What an F is at which no contact carries: stress_free makes it an equilibrium with P = 0.
 enum class ContactsLost { error, stress_free };
-
-struct PublishedOptions {
-  double damping = 0.7;          // alpha = beta of Liu et al. (2017) eq. 10 [-]
-  double time_step_ratio = 0.3;  // of the critical step min sqrt(m / kn) [-]
-  double energy_tolerance = 0;   // tolE of eq. 11; 0: use the residual tolerance alone [-]
-  long max_steps = 400000;
-};
 
 struct SolverOptions {
   double tolerance = 1e-9;  // largest particle residual / mean contact normal force [-]

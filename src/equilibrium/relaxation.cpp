@@ -1,7 +1,8 @@
 #include "equilibrium/relaxation.hpp"
 
+#include "base/constants.hpp"
 #include "base/simd.hpp"
-#include "contact/frictional.hpp"
+#include "contact/contact_forces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +13,9 @@ namespace grainlaw {
 namespace {
 
 using namespace simd;
-constexpr std::size_t width = 4;
 
-// Masses older than this are past the stability limit: contacts have closed meanwhile.
-constexpr long mass_interval = 10;
-constexpr long long_interval = 30;  // where a relaxation is calm
-static_assert(long_interval % mass_interval == 0);
+static_assert(tuned::long_interval % tuned::mass_interval == 0);
+static_assert(tuned::extrapolation_interval % tuned::long_interval == 0);
 
 // One record per node: translation, and rotation as turned length R theta. Its force M / R makes
 // every component a force, and its mass is I / R^2.
@@ -28,26 +26,28 @@ struct Nodes {
   double* z;           // moves along; null: moved by others
 };
 
-using Measured = ContactSides::Measured;
-
 // v <- keep v + gain r / m, and z <- z + v, node by node; what is measured is of the state before.
+template <std::size_t width>
 class NodeStep {
+  using Record = Lanes<width>;
+
  public:
   GRAINLAW_INLINE NodeStep(const Nodes& nodes, double keep, double gain)
       : nodes_(nodes), keep_(keep), gain_(gain) {}
 
   GRAINLAW_INLINE void operator()(std::size_t q, const Record& r) {
     const std::size_t k = width * q;
-    const Record v = load<4>(nodes_.velocity + k);
+    const Record v = load<width>(nodes_.velocity + k);
     largest_ = largest(largest_, magnitude(r));
     power_ += v * r;
-    inertia_ += v * load<4>(nodes_.mass + k) * v;
-    const Record next = keep_ * v + gain_ * r * load<4>(nodes_.gain + k);
+    inertia_ += v * load<width>(nodes_.mass + k) * v;
+    const Record next = keep_ * v + gain_ * r * load<width>(nodes_.gain + k);
     next_power_ += next * r;
     store(nodes_.velocity + k, next);
-    if (nodes_.z != nullptr) store(nodes_.z + k, load<4>(nodes_.z + k) + next);
+    if (nodes_.z != nullptr) store(nodes_.z + k, load<width>(nodes_.z + k) + next);
   }
 
+  template <class Measured>
   GRAINLAW_INLINE Measured measured() const {
     return {most(largest_), sum(power_), sum(next_power_), sum(inertia_)};
   }
@@ -58,30 +58,34 @@ class NodeStep {
   Record largest_{}, power_{}, next_power_{}, inertia_{};
 };
 
-GRAINLAW_CLONES Measured step_all(const Nodes& nodes, std::span<const ForceRecord> residual,
-                                  double keep, double gain) {
-  NodeStep step(nodes, keep, gain);
+// One for each dimension: a template has no clones.
+using OfDiscs = ContactSides<2>::Measured;
+
+GRAINLAW_CLONES OfDiscs step_all(const Nodes& nodes, std::span<const ForceRecord<2>> residual,
+                                 double keep, double gain) {
+  NodeStep<4> step(nodes, keep, gain);
   for (std::size_t q = 0; q < residual.size(); ++q) step(q, load<4>(&residual[q].x));
-  return step.measured();
+  return step.measured<OfDiscs>();
 }
 
 // The same with the sums of the contacts' forces, which nothing else is asked of.
-GRAINLAW_CLONES Measured gather_and_step(const Nodes& nodes, const ContactList& contacts,
-                                         double keep, double gain) {
-  NodeStep step(nodes, keep, gain);
-  contacts.sums.for_each(contacts.forces, opposite,
-                         [&](std::size_t q, const Record& r) { step(q, r); });
-  return step.measured();
+GRAINLAW_CLONES OfDiscs gather_and_step(const Nodes& nodes, const ContactList<2>& contacts,
+                                        double keep, double gain) {
+  NodeStep<4> step(nodes, keep, gain);
+  contacts.sums.for_each(contacts.forces, opposite<2>,
+                         [&](std::size_t q, const Lanes<4>& r) { step(q, r); });
+  return step.measured<OfDiscs>();
 }
 
 GRAINLAW_CLONES void find_gains(const double* mass, double* gain, std::size_t doubles) {
-  for (std::size_t k = 0; k < doubles; k += width) store(gain + k, 1 / load<4>(mass + k));
+  for (std::size_t k = 0; k < doubles; k += 4) store(gain + k, 1 / load<4>(mass + k));
 }
 
 }  // namespace
 
-Relaxation::Relaxation(Increment& increment, History history, RelaxationMemory& memory,
-                       bool may_extrapolate)
+template <int D>
+Relaxation<D>::Relaxation(Increment<D>& increment, History history, RelaxationMemory<D>& memory,
+                          bool may_extrapolate)
     : increment_(increment), history_(history), memory_(memory) {
   const auto& law = *increment.problem->law;
   const bool by_places = history == History::committed && increment.problem->space->identity;
@@ -101,7 +105,8 @@ Relaxation::Relaxation(Increment& increment, History history, RelaxationMemory& 
 }
 
 // Masses, mean force and neighbours of the present coordinates.
-void Relaxation::refresh() {
+template <int D>
+void Relaxation<D>::refresh() {
   if (history_ == History::advancing) increment_.advance_history();
   const bool relisted = increment_.keep_neighbours();
   if (by_sides_) {
@@ -119,62 +124,62 @@ void Relaxation::refresh() {
   if (space.identity) return;
   double* gain = memory_.gain.data();
   for (std::size_t q = 0; q < increment_.nodes(); ++q, gain += width) {
-    if ((space.fixed[q] & fixed_x) != 0) gain[0] = 0;
-    if ((space.fixed[q] & fixed_y) != 0) gain[1] = 0;
-    if ((space.fixed[q] & fixed_rotation) != 0) gain[2] = 0;
+    for (std::size_t k = 0; k < Dimension<D>::unknowns; ++k) {
+      if ((space.fixed[q] & fixed_bit(k)) != 0) gain[k] = 0;
+    }
   }
   if (!space.finds_deformation) return;
-  for (std::size_t k = 0; k < 4; ++k) {
-    if (!space.found[k]) gain[width * (k / 2) + k % 2] = 0;
+  for (std::size_t k = 0; k < squared<D>; ++k) {
+    if (!space.found[k]) gain[width * (k / D) + k % D] = 0;
   }
 }
 
 // Whether a look may wait: contacts hardly move, those that switch find their forces all the same, and
 // masses that no longer do would raise the residual.
-bool Relaxation::calm() const {
-  constexpr double calm_residual = 1e-2;
-  constexpr double rise = 3;  // of the residual since the last look
-  return by_sides_ && residual_ < calm_residual && calm_max_ < rise * calm_start_ &&
-         steps_ % long_interval != 0;
+template <int D>
+bool Relaxation<D>::calm() const {
+  return by_sides_ && residual_ < tuned::calm_residual &&
+         calm_max_ < tuned::calm_rise * calm_start_ && steps_ % tuned::long_interval != 0;
 }
 
-void Relaxation::look() {
+template <int D>
+void Relaxation<D>::look() {
   calm_start_ = calm_max_ = residual_;
   const auto totals = memory_.sides.look(increment_.records, *increment_.problem->law,
-                                         Increment::mass_factor, increment_.contacts);
+                                         tuned::mass_factor, increment_.contacts);
   increment_.touching = totals.touching;
   increment_.mean_force = totals.touching > 0 ? totals.force / totals.weights : 0;
 }
 
-void Relaxation::update() {
+template <int D>
+void Relaxation<D>::update() {
   if (by_sides_) return;  // step() finds them
   const auto& law = *increment_.problem->law;
   auto& forces = increment_.forces;
-  if (at_once_) return find_contact_forces(increment_.records, law, increment_.contacts);
+  if (at_once_) return find_contact_forces<D>(increment_.records, law, increment_.contacts);
   if (history_ == History::advancing) {
-    increment_.dissipated += advance_contacts(increment_.records, law, increment_.contacts, forces);
+    increment_.dissipated +=
+        advance_contacts<D>(increment_.records, law, increment_.contacts, forces);
   } else {
-    evaluate_contacts(increment_.records, law, increment_.contacts, forces);
+    evaluate_contacts<D>(increment_.records, law, increment_.contacts, forces);
   }
   increment_.reduce(forces);
 }
 
-double Relaxation::size() const {
-  return std::max(1.0, static_cast<double>(increment_.nodes()) / 400);
+template <int D>
+double Relaxation<D>::size() const {
+  return std::max(1.0, static_cast<double>(increment_.nodes()) / tuned::usual_nodes);
 }
 
 // A high floor keeps flutter down, a low one lets soft modes move, which are softer in large packings.
-void Relaxation::review_floor() {
-  constexpr double largest_floor = 0.25;   // with up to 400 nodes
-  constexpr double enough_progress = 0.5;  // of the residual, over a window
-  constexpr double oscillating = 2;        // largest / smallest residual of a window
-  if (residual_ > enough_progress * window_start_) {
-    const bool flutter = window_max_ > oscillating * window_min_;
-    const double largest = std::max(first_floor, largest_floor / std::sqrt(size()));
+template <int D>
+void Relaxation<D>::review_floor() {
+  if (residual_ > tuned::slow_window * window_start_) {
+    const bool flutter = window_max_ > tuned::oscillating_window * window_min_;
+    const double largest = std::max(tuned::first_floor, tuned::largest_floor / std::sqrt(size()));
     floor_ = flutter ? std::min(2 * floor_, largest) : 0.5 * floor_;
   }
-  constexpr double gain = 0.7;  // of a window's largest residual over the least before
-  if (window_max_ < gain * least_max_) {
+  if (window_max_ < tuned::gaining_window * least_max_) {
     least_max_ = window_max_;
     last_gain_ = steps_;
   }
@@ -182,26 +187,20 @@ void Relaxation::review_floor() {
 }
 
 // Whether it does so without end: some clusters have no stable equilibrium within reach.
-bool Relaxation::flutters() const {
-  constexpr double flutter_residual = 3e-3;
-  constexpr double flutter_patience = 500;  // with up to 400 nodes [steps]
-  constexpr double growth = 0.25;           // clusters that flutter are as small in large packings
-  if (!rough_ || window_max_ <= flutter_residual) return false;
-  return static_cast<double>(steps_ - last_gain_) > flutter_patience * std::pow(size(), growth);
+template <int D>
+bool Relaxation<D>::flutters() const {
+  if (!rough_ || window_max_ <= tuned::flutter_residual) return false;
+  return static_cast<double>(steps_ - last_gain_) >
+         tuned::flutter_patience * std::pow(size(), tuned::flutter_growth);
 }
 
 // Where soft modes creep under the damping that flutter asks for, on with them at once; whether it
 // did. Less often every time: what an extrapolation disturbs needs the relaxation.
-bool Relaxation::extrapolate() {
-  constexpr long extrapolation_interval = 30;  // from look to look [steps]
-  static_assert(extrapolation_interval % long_interval == 0);
-  constexpr double extrapolation_residual = 2e-3;  // below it the contacts switch seldom
-  constexpr double restless = 6;                 // largest / smallest residual since the last look
-  constexpr double longest_extrapolation = 0.3;  // mean overlaps
-  constexpr double least_stiffness = 1e-6;       // of the mean one
-  constexpr double longer_pause = 1.5;
-  if (steps_ % extrapolation_interval != 0) return false;
-  const bool creeps = residual_ < extrapolation_residual && look_max_ < restless * look_min_;
+template <int D>
+bool Relaxation<D>::extrapolate() {
+  if (steps_ % tuned::extrapolation_interval != 0) return false;
+  const bool creeps =
+      residual_ < tuned::extrapolation_residual && look_max_ < tuned::restless * look_min_;
   look_max_ = look_min_ = residual_;
   if (!creeps || steps_ < next_extrapolation_) {
     memory_.slow.forget();
@@ -211,12 +210,12 @@ bool Relaxation::extrapolate() {
   memory_.slow.see(increment_.records, increment_.forces, residual_);
   if (!memory_.slow.slow()) return false;
   const double stiffness = increment_.mean_stiffness();
-  const double limit = longest_extrapolation * increment_.relative_scale() / stiffness;
+  const double limit = tuned::longest_extrapolation * increment_.relative_scale() / stiffness;
   const bool extrapolated =
-      memory_.slow.extrapolate(increment_.records, limit, least_stiffness * stiffness);
+      memory_.slow.extrapolate(increment_.records, limit, tuned::least_stiffness * stiffness);
   memory_.slow.forget();
   if (!extrapolated) return false;
-  pause_ = longer_pause * pause_ + extrapolation_interval;
+  pause_ = tuned::longer_pause * pause_ + tuned::extrapolation_interval;
   next_extrapolation_ = steps_ + std::lround(pause_);
   increment_.store_records();
   std::fill(memory_.velocity.begin(), memory_.velocity.end(), 0.0);
@@ -227,9 +226,9 @@ bool Relaxation::extrapolate() {
 }
 
 // With the damping that the last step measured.
-void Relaxation::step() {
-  constexpr double largest_damping = 1.9;
-  const double damping = std::clamp(2 * frequency_, floor_, largest_damping);
+template <int D>
+void Relaxation<D>::step() {
+  const double damping = std::clamp(2 * frequency_, floor_, tuned::largest_damping);
   const double keep = (2 - damping) / (2 + damping);
   const double gain = 2 / (2 + damping);
   const auto before =
@@ -246,7 +245,8 @@ void Relaxation::step() {
   ++increment_.relaxation_steps;
 }
 
-Measured Relaxation::step_nodes(double keep, double gain) {
+template <int D>
+auto Relaxation<D>::step_nodes(double keep, double gain) -> Measured {
   const auto& space = *increment_.problem->space;
   double* z = &increment_.records[0].x;
   const Nodes nodes{memory_.velocity.data(), &increment_.mass_records[0].x, memory_.gain.data(),
@@ -257,22 +257,22 @@ Measured Relaxation::step_nodes(double keep, double gain) {
   if (space.finds_deformation) step_deformation();
   for (std::size_t p = 0; p < increment_.particles(); ++p) {
     const double* v = memory_.velocity.data() + width * static_cast<std::size_t>(space.node[p]);
-    store(z + width * p, load<4>(z + width * p) + load<4>(v));
+    store(z + width * p, load<width>(z + width * p) + load<width>(v));
   }
   return before;
 }
 
 // Found components of F move on with the nodes, never far in one step.
-void Relaxation::step_deformation() {
-  constexpr double largest_change = 1e-3;
-  const double limit = largest_change * increment_.deformation_scale();
+template <int D>
+void Relaxation<D>::step_deformation() {
+  const double limit = tuned::largest_deformation_step * increment_.deformation_scale();
   double* v = memory_.velocity.data() + width * increment_.nodes();
-  for (std::size_t k = 0; k < 2 * width; ++k) v[k] = std::clamp(v[k], -limit, limit);
+  for (std::size_t k = 0; k < D * width; ++k) v[k] = std::clamp(v[k], -limit, limit);
   increment_.change_deformation(v, increment_.records);
 }
 
-bool Relaxation::run(double tolerance, long steps, double least_force) {
-  constexpr long window = 100;  // steps after which the floor is reviewed
+template <int D>
+bool Relaxation<D>::run(double tolerance, long steps, double least_force) {
   increment_.load_records();
   arranged_ = false;
   refresh();
@@ -280,10 +280,11 @@ bool Relaxation::run(double tolerance, long steps, double least_force) {
   if (increment_.residual_norm() < tolerance) return true;
   for (const long last = steps_ + steps;;) {
     step();
-    const bool stop = steps_ == last || !std::isfinite(residual_) ||
-                      (steps_ % window == 0 && (increment_.mean_force < least_force || flutters()));
+    const bool stop =
+        steps_ == last || !std::isfinite(residual_) ||
+        (steps_ % tuned::floor_window == 0 && (increment_.mean_force < least_force || flutters()));
     const bool over = residual_ < tolerance || stop;
-    if (over || (steps_ % mass_interval == 0 && !calm())) {
+    if (over || (steps_ % tuned::mass_interval == 0 && !calm())) {
       if (by_sides_) memory_.sides.move(increment_.records);
       increment_.store_records();
       refresh();
@@ -300,14 +301,18 @@ bool Relaxation::run(double tolerance, long steps, double least_force) {
     look_min_ = std::min(look_min_, residual_);
     window_max_ = std::max(window_max_, residual_);
     window_min_ = std::min(window_min_, residual_);
-    if (steps_ % window == 0) review_floor();
+    if (steps_ % tuned::floor_window == 0) review_floor();
   }
 }
 
-bool relax(Increment& increment, double tolerance, long max_steps, History history,
-           RelaxationMemory& memory, double least_force, bool may_extrapolate) {
-  return Relaxation(increment, history, memory, may_extrapolate)
+template <int D>
+bool relax(Increment<D>& increment, double tolerance, long max_steps, History history,
+           RelaxationMemory<D>& memory, double least_force, bool may_extrapolate) {
+  return Relaxation<D>(increment, history, memory, may_extrapolate)
       .run(tolerance, max_steps, least_force);
 }
+
+template class Relaxation<2>;
+template bool relax(Increment<2>&, double, long, History, RelaxationMemory<2>&, double, bool);
 
 }  // namespace grainlaw

@@ -2,13 +2,12 @@
 // contacts.
 #pragma once
 
+#include "base/constants.hpp"
 #include "contact/contact_sides.hpp"
 #include "equilibrium/subspace_extrapolation.hpp"
 #include "increment/increment.hpp"
 
-#include <array>
 #include <limits>
-#include <span>
 #include <vector>
 
 namespace grainlaw {
@@ -16,24 +15,20 @@ namespace grainlaw {
 enum class History { committed, advancing };
 
 // Memory of the relaxations, reused from call to call.
+template <int D>
 struct RelaxationMemory {
-  std::vector<double> velocity, gain, mass, correction;
-  ContactSides sides;
-  SubspaceExtrapolation slow;
-  // Of the servo: what the relaxations do not move, forces before reduction, areas and particles of
-  // nodes under uniform stress.
-  std::vector<unsigned char> frozen;
-  std::vector<ForceRecord> raw;
-  std::vector<std::array<double, 2>> area;
-  std::vector<std::size_t> particle;
+  std::vector<double> velocity, gain;
+  ContactSides<D> sides;
+  SubspaceExtrapolation<D> slow;
 };
 
 // Viscous relaxation: the damping follows the lowest active frequency, and its floor adapts to
 // flutter. Where soft modes creep under it, the relaxation extrapolates along them.
+template <int D>
 class Relaxation {
  public:
   // At rest at the present coordinates. An extrapolation may end on another branch of equilibria.
-  Relaxation(Increment& increment, History history, RelaxationMemory& memory,
+  Relaxation(Increment<D>& increment, History history, RelaxationMemory<D>& memory,
              bool may_extrapolate = true);
 
   // Go on until residual_norm() < tolerance, at most `steps` further steps. Returns whether it got
@@ -42,10 +37,13 @@ class Relaxation {
   bool run(double tolerance, long steps, double least_force = 0);
 
  private:
+  static constexpr std::size_t width = Dimension<D>::lanes;
+  using Measured = typename ContactSides<D>::Measured;
+
   void refresh();
   void look();
   [[nodiscard]] bool calm() const;
-  ContactSides::Measured step_nodes(double keep, double gain);
+  Measured step_nodes(double keep, double gain);
   void update();
   [[nodiscard]] double size() const;  // of the packing, over 400 nodes; 1 where there are fewer
   void review_floor();
@@ -54,9 +52,9 @@ class Relaxation {
   void step();
   void step_deformation();
 
-  Increment& increment_;
+  Increment<D>& increment_;
   History history_;
-  RelaxationMemory& memory_;
+  RelaxationMemory<D>& memory_;
   bool by_sides_ = false;      // forces and steps by ContactSides
   bool at_once_ = false;       // nothing comes between the sums of forces and the step
   bool arranged_ = false;      // of the contacts listed at present
@@ -66,12 +64,10 @@ class Relaxation {
   double residual_ = 0;   // before the last step [-]; infinite: no contact, or not a finite number
   double power_ = 0;      // sum of the last step's velocity times the residual before it
   double frequency_ = 0;  // sqrt of the Rayleigh quotient of the velocity [1 / step]
-  static constexpr double first_floor = 0.1;
-  double floor_ = first_floor;  // of the damping
+  double floor_ = tuned::first_floor;  // of the damping
   long steps_ = 0;
-  static constexpr long first_extrapolation = 200;
-  long next_extrapolation_ = first_extrapolation;  // not before this step
-  double pause_ = 0;                               // after the last extrapolation [steps]
+  long next_extrapolation_ = tuned::first_extrapolation;  // not before this step
+  double pause_ = 0;                                      // after the last extrapolation [steps]
   double calm_start_ = 0, calm_max_ = 0;  // residual at the last look at the geometry, and since
   double look_max_ = 0, look_min_ = std::numeric_limits<double>::infinity();  // residual since then
   double window_start_ = std::numeric_limits<double>::infinity();
@@ -80,17 +76,9 @@ class Relaxation {
   long last_gain_ = 0;                                          // when it fell [steps]
 };
 
-struct PublishedOptions;
-
 // A Relaxation from rest, run once.
-bool relax(Increment& increment, double tolerance, long max_steps, History history,
-           RelaxationMemory& memory, double least_force = 0, bool may_extrapolate = true);
-
-// The papers' dynamic relaxation: physical masses, local damping -alpha |f| sign(v) (Liu, Bosco &
-// Suiker 2017 eq. 10), explicit steps, history advanced at every step. Ends at the residual
-// tolerance or, when energy_tolerance > 0, at Ek/Ep <= tolE (eq. 11) once Ek has fallen. `frozen`
-// has the bits of Fixed of nodes that do not move (may be empty: all do, and F where it is found).
-bool relax_published(Increment& increment, double tolerance, const PublishedOptions& options,
-                     std::span<const unsigned char> frozen, RelaxationMemory& memory);
+template <int D>
+bool relax(Increment<D>& increment, double tolerance, long max_steps, History history,
+           RelaxationMemory<D>& memory, double least_force = 0, bool may_extrapolate = true);
 
 }  // namespace grainlaw

@@ -8,12 +8,12 @@
 
 namespace grainlaw {
 
-bool RollingMechanisms::possible(const Problem& problem) {
+bool RollingMechanisms<2>::possible(const Problem<2>& problem) {
   return problem.law->rotating() && !problem.law->moments() && problem.space->identity;
 }
 
 // Towards the root, on a path that it leaves short.
-RollingMechanisms::Member RollingMechanisms::member(std::size_t node) {
+RollingMechanisms<2>::Member RollingMechanisms<2>::member(std::size_t node) {
   Member result{node, 1};
   while (parent_[result.cluster] != result.cluster) {
     result.sense *= sense_[result.cluster];
@@ -31,8 +31,8 @@ RollingMechanisms::Member RollingMechanisms::member(std::size_t node) {
   return result;
 }
 
-void RollingMechanisms::find(const Increment& increment,
-                             std::span<const TouchingContact> touching) {
+void RollingMechanisms<2>::find(const Increment<2>& increment,
+                                std::span<const TouchingContact<2>> touching) {
   const auto& list = increment.contacts;
   const auto& law = *increment.problem->law;
   const auto nodes = increment.nodes();
@@ -57,7 +57,7 @@ void RollingMechanisms::find(const Increment& increment,
     if (point.status == ContactStatus::sliding) {
       const double overlap = list.rest_of(c) - point.distance;
       const double kt = list.tangential_stiffness[c] * stiffness_scale(overlap, law);
-      const double start = list.start_force[c] * start_scale(overlap, law);
+      const double start = list.start_force[0][c] * start_scale(overlap, law);
       sliding_.push_back({start - kt * point.distance * point.turn,
                           law.friction * point.normal_force, kt,
                           point.distance * list.inverse_reach[c], contact.node_i, contact.node_j});
@@ -75,7 +75,7 @@ void RollingMechanisms::find(const Increment& increment,
   }
 }
 
-void RollingMechanisms::list_sides() {
+void RollingMechanisms<2>::list_sides() {
   sides_.clear();
   for (std::size_t k = 0; k < sliding_.size(); ++k) {
     const Sliding& contact = sliding_[k];
@@ -99,7 +99,7 @@ void RollingMechanisms::list_sides() {
 }
 
 // Along the turn.
-double RollingMechanisms::force(std::span<const Side> sides) const {
+double RollingMechanisms<2>::force(std::span<const Side> sides) const {
   double sum = 0;
   for (const Side& side : sides) {
     const Sliding& contact = sliding_[side.contact];
@@ -109,7 +109,7 @@ double RollingMechanisms::force(std::span<const Side> sides) const {
 }
 
 // The turn that undoes the force, which falls as it goes on, by lines from kink to kink.
-double RollingMechanisms::balance(std::span<const Side> sides, double force) {
+double RollingMechanisms<2>::balance(std::span<const Side> sides, double force) {
   kinks_.clear();
   const double way = force > 0 ? 1 : -1;
   for (const Side& side : sides) {
@@ -138,14 +138,14 @@ double RollingMechanisms::balance(std::span<const Side> sides, double force) {
   return 0;  // rounding: nothing is left to slip back
 }
 
-void RollingMechanisms::hold(const Increment& increment, Stiffness& stiffness) const {
+void RollingMechanisms<2>::hold(const Increment<2>& increment, Stiffness<2>& stiffness) const {
   for (std::size_t q = 0; q < increment.nodes(); ++q) {
     if (parent_[q] == q && locked_[q] == 0) stiffness.hold_rotation(increment, q);
   }
 }
 
-void RollingMechanisms::see(const Increment& increment, std::span<const double> step,
-                            double least) {
+void RollingMechanisms<2>::see(const Increment<2>& increment, std::span<const double> step,
+                               double least) {
   forget(increment);
   const std::size_t n = increment.nodes();
   for (std::size_t q = 0; q < n; ++q) {
@@ -155,12 +155,12 @@ void RollingMechanisms::see(const Increment& increment, std::span<const double> 
   }
 }
 
-void RollingMechanisms::forget(const Increment& increment) {
+void RollingMechanisms<2>::forget(const Increment<2>& increment) {
   resize_with_room(seen_, increment.nodes());
   std::fill(seen_.begin(), seen_.end(), static_cast<unsigned char>(0));
 }
 
-bool RollingMechanisms::turn(Increment& increment, double least) {
+bool RollingMechanisms<2>::turn(Increment<2>& increment, double least) {
   bool any = false;
   for (std::size_t q = 0; q < increment.nodes(); ++q) {
     if (seen_[q] == 0) continue;

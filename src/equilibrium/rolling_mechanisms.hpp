@@ -16,22 +16,26 @@ namespace grainlaw {
 // balance with the forces on them whatever their rotation; where one is not, its moment leads a
 // Newton step far away and a relaxation nowhere soon, until it has turned so far that a contact
 // sticks again.
-class RollingMechanisms {
+template <int D>
+class RollingMechanisms;
+
+template <>
+class RollingMechanisms<2> {
  public:
   // Of discs that are nodes of their own, whose contacts have no moments.
-  static bool possible(const Problem& problem);
+  static bool possible(const Problem<2>& problem);
 
   // Of the contacts that touch at the present coordinates.
-  void find(const Increment& increment, std::span<const TouchingContact> touching);
+  void find(const Increment<2>& increment, std::span<const TouchingContact<2>> touching);
   // Add stiffness against turning to one disc of every cluster.
-  void hold(const Increment& increment, Stiffness& stiffness) const;
+  void hold(const Increment<2>& increment, Stiffness<2>& stiffness) const;
   // Which of them took more than `least` [N] on the surface to be held in a step: what no other
   // motion balances. Until they have turned or the next step.
-  void see(const Increment& increment, std::span<const double> step, double least);
-  void forget(const Increment& increment);
+  void see(const Increment<2>& increment, std::span<const double> step, double least);
+  void forget(const Increment<2>& increment);
   // Turn the clusters with one of these, where their moment is more than `least` [N], to where it
   // vanishes, in increment.coordinates. Returns whether any was turned: then find() them anew.
-  bool turn(Increment& increment, double least);
+  bool turn(Increment<2>& increment, double least);
 
  private:
   struct Sliding {

@@ -1,7 +1,9 @@
 #include "equilibrium/subspace_extrapolation.hpp"
 
+#include "base/constants.hpp"
 #include "base/room.hpp"
 #include "base/simd.hpp"
+#include "math/dimension.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -15,7 +17,7 @@ namespace {
 
 using namespace simd;
 constexpr std::size_t width = 4;
-constexpr std::size_t moves = SubspaceExtrapolation::moves;
+constexpr std::size_t moves = SubspaceExtrapolation<2>::moves;
 
 // What was seen, newest first.
 struct Path {
@@ -90,11 +92,10 @@ bool positive(const Square& matrix) { return Eigen::LLT<Square>(matrix).info() =
 
 // How many of the newest moves are independent, with at least this stiffness along all of them.
 Eigen::Index count_stable(const Square& lengths, const Square& work, double least) {
-  constexpr double independent = 1e-6;  // share of its square that a move adds to the others
   const Square symmetric = 0.5 * (work + work.transpose());
   for (Eigen::Index n = 1; n <= lengths.rows(); ++n) {
     const Square own = lengths.topLeftCorner(n, n).diagonal().asDiagonal();
-    if (!positive(lengths.topLeftCorner(n, n) - independent * own) ||
+    if (!positive(lengths.topLeftCorner(n, n) - tuned::independent_move * own) ||
         !positive(symmetric.topLeftCorner(n, n) - least * lengths.topLeftCorner(n, n))) {
       return n - 1;
     }
@@ -104,29 +105,32 @@ Eigen::Index count_stable(const Square& lengths, const Square& work, double leas
 
 }  // namespace
 
-void SubspaceExtrapolation::reserve(std::size_t nodes) {
+template <int D>
+void SubspaceExtrapolation<D>::reserve(std::size_t nodes) {
   for (Seen& seen : ring_) {
     resize_with_room(seen.place, nodes);
     resize_with_room(seen.forces, nodes);
   }
 }
 
-void SubspaceExtrapolation::see(std::span<const ParticleRecord> place,
-                                std::span<const ForceRecord> forces, double residual) {
+template <int D>
+void SubspaceExtrapolation<D>::see(std::span<const ParticleRecord<D>> place,
+                                   std::span<const ForceRecord<D>> forces, double residual) {
   Seen& seen = ring_[seen_++ % ring_.size()];
   std::copy(place.begin(), place.end(), seen.place.begin());
   std::copy_n(forces.begin(), place.size(), seen.forces.begin());
   seen.residual = residual;
 }
 
-bool SubspaceExtrapolation::slow() const {
-  constexpr double enough_progress = 0.125;  // of the residual, over all moves
-  return seen_ > moves && newest().residual > enough_progress * newest(moves).residual;
+template <int D>
+bool SubspaceExtrapolation<D>::slow() const {
+  return seen_ > moves && newest().residual > tuned::creeping * newest(moves).residual;
 }
 
-bool SubspaceExtrapolation::extrapolate(std::span<ParticleRecord> records, double limit,
-                                        double least) const {
-  Path path{{}, {}, width * records.size()};
+template <int D>
+bool SubspaceExtrapolation<D>::extrapolate(std::span<ParticleRecord<D>> records, double limit,
+                                           double least) const {
+  Path path{{}, {}, Dimension<D>::lanes * records.size()};
   for (std::size_t a = 0; a <= moves; ++a) {
     path.place[a] = &newest(a).place[0].x;
     path.force[a] = &newest(a).forces[0].x;
@@ -146,5 +150,7 @@ bool SubspaceExtrapolation::extrapolate(std::span<ParticleRecord> records, doubl
   add_extrapolation(path, share, &records[0].x);
   return true;
 }
+
+template class SubspaceExtrapolation<2>;
 
 }  // namespace grainlaw

@@ -12,6 +12,7 @@
 
 namespace grainlaw {
 
+template <int D>
 class SubspaceExtrapolation {
  public:
   static constexpr std::size_t moves = 3;
@@ -20,7 +21,7 @@ class SubspaceExtrapolation {
   // Forget where the relaxation has been.
   void forget() { seen_ = 0; }
   // Where it is now, the forces there, and their relative residual.
-  void see(std::span<const ParticleRecord> place, std::span<const ForceRecord> forces,
+  void see(std::span<const ParticleRecord<D>> place, std::span<const ForceRecord<D>> forces,
            double residual);
   // Whether enough has been seen, and the residual fell slowly meanwhile.
   [[nodiscard]] bool slow() const;
@@ -29,12 +30,12 @@ class SubspaceExtrapolation {
   // last moves, by secants; no component by more than `limit` [m]. Only the newest moves count up to
   // where the stiffness [N/m] along all of them falls below `least`: beyond lie unstable equilibria,
   // which nothing goes back to by itself. False, and nothing moves, when it does so along the newest.
-  bool extrapolate(std::span<ParticleRecord> records, double limit, double least) const;
+  bool extrapolate(std::span<ParticleRecord<D>> records, double limit, double least) const;
 
  private:
   struct Seen {
-    std::vector<ParticleRecord> place;
-    std::vector<ForceRecord> forces;
+    std::vector<ParticleRecord<D>> place;
+    std::vector<ForceRecord<D>> forces;
     double residual;
   };
   [[nodiscard]] const Seen& newest(std::size_t before = 0) const {

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "frame/frame_geometry.hpp"
+#include "math/tensor.hpp"
 
 #include <fmt/format.h>
 
@@ -26,13 +27,11 @@ Point centre(const Packing& packing, int particle) {
   return {x[p], x[packing.size() + p]};
 }
 
-double determinant(const std::array<double, 4>& f) { return f[0] * f[3] - f[1] * f[2]; }
-
 // F^-1 H
-std::array<double, 4> undeformed_cell(const Packing& packing) {
+Tensor<2> undeformed_cell(const Packing& packing) {
   const auto& h = packing.cell;
   const auto& f = packing.frame->deformation;
-  const double det = determinant(f);
+  const double det = determinant<2>(f);
   return {(f[3] * h[0] - f[1] * h[2]) / det, (f[3] * h[1] - f[1] * h[3]) / det,
           (f[0] * h[2] - f[2] * h[0]) / det, (f[0] * h[3] - f[2] * h[1]) / det};
 }
@@ -163,7 +162,7 @@ const std::vector<double>& undeformed(const Packing& packing) {
 double polygon_area(const Packing& packing) {
   std::vector<Point> polygon;
   for (const int q : packing.frame->boundary) polygon.push_back(centre(packing, q));
-  return determinant(packing.frame->deformation) * signed_area(polygon);
+  return determinant<2>(packing.frame->deformation) * signed_area(polygon);
 }
 
 }  // namespace grainlaw

@@ -1,5 +1,7 @@
 #include "frame/frame_chain.hpp"
 
+#include "packing/geometry.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,11 +29,11 @@ ChainGraph::ChainGraph(std::vector<double> position, const std::vector<double>& 
                        const std::array<double, 4>& h, double largest_gap)
     : position_(std::move(position)), h_(h) {
   const std::size_t n = radius.size();
-  for (const double r : radius) mean_radius_ += r / static_cast<double>(n);
-  std::vector<NeighbourPair> pairs;
-  NeighbourSearch().find(n, position_.data(), radius.data(), h.data(), largest_gap, pairs);
+  mean_radius_ = mean_radius(radius);
+  std::vector<NeighbourPair<2>> pairs;
+  NeighbourSearch<2>().find(n, position_.data(), radius.data(), h.data(), largest_gap, pairs);
   std::vector<std::vector<Link>> links(n);
-  for (const NeighbourPair& pair : pairs) {
+  for (const NeighbourPair<2>& pair : pairs) {
     const auto i = static_cast<std::size_t>(pair.i);
     const auto j = static_cast<std::size_t>(pair.j);
     const Point a = place({pair.i, {0, 0}});

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "frame/frame_chain.hpp"
 #include "frame/frame_geometry.hpp"
+#include "packing/geometry.hpp"
 #include "packing/neighbours.hpp"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ struct Wrapped {
   std::vector<double> position;
   std::vector<std::array<int, 2>> cells;  // where each particle was
   std::vector<InitialContact> contacts;   // shifts from the moved positions
-  std::vector<NeighbourPair> touching;
+  std::vector<NeighbourPair<2>> touching;
 };
 
 Wrapped wrap(const Packing& packing) {
@@ -39,7 +40,7 @@ Wrapped wrap(const Packing& packing) {
   std::copy_n(packing.cell.begin(), 4, out.h.begin());
   out.position = packing.position;
   const auto& h = out.h;
-  const double area = h[0] * h[3] - h[1] * h[2];
+  const double area = determinant<2>(h);
   for (std::size_t p = 0; p < out.n; ++p) {
     double& x = out.position[p];
     double& y = out.position[out.n + p];
@@ -54,8 +55,8 @@ Wrapped wrap(const Packing& packing) {
     for (std::size_t k = 0; k < 2; ++k)
       c.shift[k] +=
           out.cells[static_cast<std::size_t>(c.j)][k] - out.cells[static_cast<std::size_t>(c.i)][k];
-  NeighbourSearch().find(out.n, out.position.data(), packing.radius.data(), h.data(), 0,
-                         out.touching);
+  NeighbourSearch<2>().find(out.n, out.position.data(), packing.radius.data(), h.data(), 0,
+                            out.touching);
   return out;
 }
 
@@ -220,9 +221,8 @@ Packing cut_frame(const Packing& periodic, double largest_gap) {
   if (periodic.dimension != 2 || periodic.frame)
     throw Error(GRAINLAW_BAD_PACKING, "a frame is cut from a periodic 2D packing");
   const Wrapped wrapped = wrap(periodic);
-  double mean_radius = 0;
-  for (const double r : periodic.radius) mean_radius += r / static_cast<double>(periodic.size());
-  ChainGraph graph(wrapped.position, periodic.radius, wrapped.h, largest_gap * mean_radius);
+  ChainGraph graph(wrapped.position, periodic.radius, wrapped.h,
+                   largest_gap * mean_radius(periodic.radius));
   for (const Candidate& candidate : find_candidates(graph, wrapped.n))
     if (const auto layout = lay_out(candidate, graph, wrapped))
       return assemble(periodic, wrapped, graph, *layout);

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/room.hpp"
 #include "frame/frame.hpp"
+#include "packing/geometry.hpp"
 
 #include <fmt/format.h>
 
@@ -38,7 +39,7 @@ std::vector<unsigned char> sides_of_places(const Frame& frame) {
 
 class Builder {
  public:
-  Builder(const Packing& packing, const Sides& sides, BoundarySpace& space)
+  Builder(const Packing& packing, const Sides& sides, BoundarySpace<2>& space)
       : packing_(packing),
         frame_(*packing.frame),
         sides_(sides),
@@ -150,9 +151,9 @@ class Builder {
       const auto held_y = [](const Side& s) {
         return s.y == SideRule::d || s.row == SideRow::rigid;
       };
-      fix(fixed_x, held_x);
-      fix(fixed_y, held_y);
-      fix(fixed_rotation, [](const Side& s) { return s.rotation == SideRotation::fixed; });
+      fix(fixed_bit(0), held_x);
+      fix(fixed_bit(1), held_y);
+      fix(fixed_rotation<2>, [](const Side& s) { return s.rotation == SideRotation::fixed; });
     }
     // What is periodic both ways is free to move as a whole, unless by the published servo, which
     // prescribes the corners.
@@ -164,7 +165,7 @@ class Builder {
       const int corner = frame_.corner[0];
       if (space_.options.method == BoundaryMethod::servo) {
         const auto node = static_cast<std::size_t>(space_.node[static_cast<std::size_t>(corner)]);
-        space_.fixed[node] |= direction == 0 ? fixed_x : fixed_y;
+        space_.fixed[node] |= fixed_bit(static_cast<std::size_t>(direction));
       } else {
         space_.anchor[static_cast<std::size_t>(direction)] = corner;
       }
@@ -187,7 +188,7 @@ class Builder {
   void average(int direction) {
     constexpr double dependent = 1e-8;  // of the length of A
     auto& average = space_.average[static_cast<std::size_t>(direction)];
-    const unsigned char bit = direction == 0 ? fixed_x : fixed_y;
+    const unsigned char bit = fixed_bit(static_cast<std::size_t>(direction));
     std::vector<std::array<double, 2>> area(space_.nodes, {0, 0});
     std::vector<char> free(space_.nodes, 0);
     std::size_t particles = 0;
@@ -293,36 +294,35 @@ class Builder {
   const Packing& packing_;
   const Frame& frame_;
   const Sides& sides_;
-  BoundarySpace& space_;
+  BoundarySpace<2>& space_;
   std::vector<unsigned char> sides_of_;
 };
 
 // Volume of the particles, copies counted once.
-void count_sources(const Packing& packing, BoundarySpace& space) {
+void count_sources(const Packing& packing, BoundarySpace<2>& space) {
   space.source = packing.frame->source;
   space.sources =
       1 + static_cast<std::size_t>(*std::max_element(space.source.begin(), space.source.end()));
   std::vector<char> counted(space.sources, 0);
   for (std::size_t p = 0; p < packing.size(); ++p) {
     auto& seen = counted[static_cast<std::size_t>(space.source[p])];
-    if (!seen) space.solid_volume += particle_volume(packing, p);
+    if (!seen) space.solid_volume += particle_volume<2>(packing.radius[p], packing.thickness);
     seen = 1;
   }
 }
 
 }  // namespace
 
-BoundarySpace make_boundary_space(const Packing& packing, const BoundaryOptions& options) {
-  if (options.type == BoundaryType::periodic_cell) return make_cell_space(packing, options);
+BoundarySpace<2> make_boundary_space(const Packing& packing, const BoundaryOptions& options) {
+  if (options.type == BoundaryType::periodic_cell) return make_cell_space<2>(packing, options);
   if (!packing.frame) wrong("a frame condition needs a frame packing");
-  BoundarySpace space;
+  BoundarySpace<2> space;
   space.options = options;
   space.identity = false;
   const auto& frame = *packing.frame;
-  const auto& h = packing.cell;
   const bool parallelogram = frame.copies[0] && frame.copies[1];
   space.reference_volume =
-      (parallelogram ? std::abs(h[0] * h[3] - h[1] * h[2]) : polygon_area(packing)) *
+      (parallelogram ? std::abs(determinant<2>(packing.cell.data())) : polygon_area(packing)) *
       packing.thickness;
   count_sources(packing, space);
   for (std::size_t k = 0; k < 4; ++k) {
@@ -340,8 +340,8 @@ BoundarySpace make_boundary_space(const Packing& packing, const BoundaryOptions&
   return space;
 }
 
-void weigh_copies(const BoundarySpace& space, const Packing& packing,
-                  std::span<const NeighbourPair> pairs, std::vector<double>& weights) {
+void weigh_copies(const BoundarySpace<2>& space, const Packing& packing,
+                  std::span<const NeighbourPair<2>> pairs, std::vector<double>& weights) {
   resize_with_room(weights, pairs.size());
   std::fill(weights.begin(), weights.end(), 1.0);
   if (space.options.weight == ContactWeight::one) return;

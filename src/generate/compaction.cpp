@@ -6,12 +6,14 @@
 #include "generate/lubachevsky_stillinger.hpp"
 #include "generate/regular.hpp"
 #include "generate/stress_control.hpp"
+#include "packing/geometry.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <random>
 #include <string>
@@ -34,30 +36,27 @@ constexpr double faded_force = 1e-3;  // of the mean force at the target
               fmt::format("generator: {} = {}, expected {}", name, value, expected));
 }
 
-double mean_radius(const Packing& packing) {
-  double sum = 0;
-  for (const double r : packing.radius) sum += r;
-  return sum / static_cast<double>(packing.size());
+// Divided once: packings made before keep their bits.
+double mean_of(const std::vector<double>& radius) {
+  return std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
 }
 
 double solid_area(const Packing& packing) {
   double sum = 0;
-  for (const double r : packing.radius) sum += std::numbers::pi * r * r;
+  for (const double r : packing.radius) sum += particle_size<2>(r);
   return sum;
 }
 
 // Overlap / radius of Hertz-Mindlin contacts at a pressure: with 2 n contacts of branches 2 R, p V =
 // sum fn 2 R / 2.
 double overlap_at(double pressure, const Packing& packing, const ContactLaw& law) {
-  const double radius = mean_radius(packing);
+  const double radius = mean_of(packing.radius);
   const double force = pressure * packing.thickness * solid_area(packing) /
                        (2 * static_cast<double>(packing.size()) * radius);
   return std::pow(1.5 * force / law.coefficient(radius, radius), 2.0 / 3) / radius;
 }
 
-double cell_area(const Packing& packing) {
-  return packing.cell[0] * packing.cell[3] - packing.cell[1] * packing.cell[2];
-}
+double cell_area(const Packing& packing) { return determinant<2>(packing.cell.data()); }
 
 // p t / kn of equal discs, over their relative overlap: p V = 1/2 sum fn d.
 double largest_pressure(const GeneratorOptions& options, const ContactLaw& law, double radius) {
@@ -120,7 +119,7 @@ Packing make_regular(const GeneratorOptions& options, const ContactLaw& law) {
 class Consolidation {
  public:
   Consolidation(const Packing& loose, const GeneratorOptions& options, const ContactLaw& law)
-      : loose_(loose), options_(options), law_(law), radius_(mean_radius(loose)) {}
+      : loose_(loose), options_(options), law_(law), radius_(mean_of(loose.radius)) {}
 
   // Compression finds rest the easier the softer the discs are against the pressure; the way down
   // from there is another for each.
@@ -157,9 +156,9 @@ class Consolidation {
   }
 
  private:
-  Packing finish(Configuration at, double pressure, bool unload) const {
+  Packing finish(Configuration<2> at, double pressure, bool unload) const {
     if (!unload && !(options_.anisotropy >= 0)) {
-      const BoundarySpace space = make_cell_space(loose_);
+      const BoundarySpace<2> space = make_cell_space<2>(loose_);
       return packing_of({&loose_, &law_, &space}, at);
     }
     StressTarget target;

@@ -2,16 +2,16 @@
 
 #include "base/error.hpp"
 #include "boundary/boundary_space.hpp"
-#include "contact/frictional.hpp"
+#include "contact/contact_forces.hpp"
 #include "equilibrium/strategy.hpp"
 #include "homogenise/stress.hpp"
+#include "packing/geometry.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace grainlaw {
 
@@ -42,11 +42,11 @@ class Compression {
  public:
   Compression(const Packing& loose, const GeneratorOptions& options, const ContactLaw& law)
       : options_(options), packing_(loose), law_(law) {
-    space_ = make_cell_space(packing_);
+    space_ = make_cell_space<2>(packing_);
     const double n = static_cast<double>(packing_.size());
     double radius = 0;
     for (const double r : packing_.radius) {
-      solid_ += std::numbers::pi * r * r;
+      solid_ += particle_size<2>(r);
       radius += r / n;
     }
     // With 2 n contacts of branches 2 R: p V = sum fn 2 R / 2.
@@ -58,10 +58,10 @@ class Compression {
     problem_ = {&packing_, &law_, &space_, faded_force * mean_force};
   }
 
-  Configuration run() {
+  Configuration<2> run() {
     start_.deformation = {1, 0, 0, 1};
     start_.coordinates = packing_.position;
-    if (law_.rotating()) start_.coordinates.resize(3 * packing_.size(), 0.0);
+    if (law_.rotating()) start_.coordinates.resize(Dimension<2>::unknowns * packing_.size(), 0.0);
     increment_.begin(problem_, start_, {1, 0, 0, 1});
     bool borne = void_ratio() < dense_void_ratio;
     for (int step = 0; step < most_steps; ++step) {
@@ -179,22 +179,22 @@ class Compression {
   }
 
   // The increment's friction history starts anew here.
-  [[nodiscard]] Configuration result() {
-    Configuration at;
+  [[nodiscard]] Configuration<2> result() {
+    Configuration<2> at;
     increment_.advance_history();
     increment_.export_to(start_, at);
-    std::copy_n(stress_.begin(), 4, at.stress.begin());
+    at.stress = stress_;
     return at;
   }
 
   const GeneratorOptions& options_;
   const Packing& packing_;  // the start configuration
-  Configuration start_;
+  Configuration<2> start_;
   const ContactLaw& law_;
-  BoundarySpace space_;
-  Problem problem_;
-  Workspace workspace_;
-  Increment& increment_ = workspace_.increment;
+  BoundarySpace<2> space_;
+  Problem<2> problem_;
+  Workspace<2> workspace_;
+  Increment<2>& increment_ = workspace_.increment;
   Stretches stretch_ = {1, 1};      // of the start configuration
   std::array<double, 4> stress_{};  // first Piola-Kirchhoff against it [Pa]
   double solid_ = 0;                // area of the discs [m2]
@@ -203,8 +203,8 @@ class Compression {
 
 }  // namespace
 
-Configuration compress(const Packing& loose, const GeneratorOptions& options,
-                       const ContactLaw& law) {
+Configuration<2> compress(const Packing& loose, const GeneratorOptions& options,
+                          const ContactLaw& law) {
   return Compression(loose, options, law).run();
 }
 

@@ -16,7 +16,7 @@ namespace grainlaw {
 // both normal stresses are -pressure, or the void ratio is the target and both are equal, to 1e-6.
 // Throws Error: BAD_PACKING when the discs bear no load at the target void ratio; NOT_CONVERGED,
 // often where kn / (p t) is beyond 1e4.
-Configuration compress(const Packing& loose, const GeneratorOptions& options,
-                       const ContactLaw& law);
+Configuration<2> compress(const Packing& loose, const GeneratorOptions& options,
+                          const ContactLaw& law);
 
 }  // namespace grainlaw

@@ -1,5 +1,7 @@
 #include "generate/disc_growth.hpp"
 
+#include "packing/geometry.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -36,7 +38,7 @@ void DiscGrowth::for_neighbours(const Disc& disc, const Visit& visit) const {
 DiscGrowth::DiscGrowth(const GeneratorOptions& options, const std::vector<double>& radii) {
   const auto n = radii.size();
   double solid = 0;
-  for (const double r : radii) solid += std::numbers::pi * r * r;
+  for (const double r : radii) solid += particle_size<2>(r);
   const double largest = *std::max_element(radii.begin(), radii.end());
   // Radii that cover all of the box at scale 1.
   const double unit = 1 / std::sqrt(solid);
@@ -45,9 +47,9 @@ DiscGrowth::DiscGrowth(const GeneratorOptions& options, const std::vector<double
   if (2 * largest * unit * end_scale_ > 1) end_scale_ = 1 / (2 * largest * unit);
   cells_ = std::max(1L, static_cast<long>(1 / (2 * largest * unit * end_scale_)));
   members_.resize(static_cast<std::size_t>(cells_ * cells_));
-  double mean_radius = 0;
-  for (const double r : radii) mean_radius += r * unit / static_cast<double>(n);
-  rate_ = options.growth_rate / mean_radius;  // the thermal speed is 1
+  double mean = 0;
+  for (const double r : radii) mean += r * unit / static_cast<double>(n);
+  rate_ = options.growth_rate / mean;  // the thermal speed is 1
   for (const double r : radii) discs_.push_back({0, 0, 0, 0, r * unit, 0, {}});
 }
 

@@ -1,12 +1,12 @@
 #include "generate/generator.hpp"
 
 #include "base/error.hpp"
+#include "packing/geometry.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -106,7 +106,7 @@ Packing scatter(const GeneratorOptions& options) {
   packing.radius = graded_radii(options, engine);
 
   double solid = 0;
-  for (const double r : packing.radius) solid += std::numbers::pi * r * r;
+  for (const double r : packing.radius) solid += particle_size<2>(r);
   const double side = std::sqrt(solid / volume_fraction);
   packing.cell = {side, 0, 0, side};
   packing.position.resize(2 * n);

@@ -2,11 +2,11 @@
 
 #include "base/error.hpp"
 #include "generate/disc_growth.hpp"
+#include "packing/geometry.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace grainlaw {
 
@@ -44,7 +44,7 @@ Packing grow(const GeneratorOptions& options) {
                             scale * scale, options.growth_end));
   // In a box of side 1 the solid area is scale^2.
   double solid = 0;
-  for (const double r : packing.radius) solid += std::numbers::pi * r * r;
+  for (const double r : packing.radius) solid += particle_size<2>(r);
   const double side = std::sqrt(solid) / scale;
   packing.cell = {side, 0, 0, side};
   const std::size_t n = packing.size();

@@ -2,6 +2,7 @@
 
 #include "homogenise/measures.hpp"
 #include "homogenise/stress.hpp"
+#include "packing/geometry.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -45,14 +46,13 @@ Eigen::VectorXd solve_downhill(const Eigen::MatrixXd& matrix, const Eigen::Vecto
 
 }  // namespace
 
-StressControl::StressControl(const Packing& reference, const ContactLaw& law, Configuration at,
+StressControl::StressControl(const Packing& reference, const ContactLaw& law, Configuration<2> at,
                              double force_floor)
     : law_(law),
-      space_(make_cell_space(reference)),
+      space_(make_cell_space<2>(reference)),
       problem_{&reference, &law_, &space_, force_floor, exact_tolerance},
       at_(std::move(at)) {
-  const auto& f = at_.deformation;
-  if (!accept({f[0], f[1], f[2], f[3]}, 0)) at_.stress = {};
+  if (!accept(at_.deformation, 0)) at_.stress = {};
 }
 
 StressControl::Tensor StressControl::cauchy() const {
@@ -68,23 +68,21 @@ double StressControl::pressure() const {
   return -0.5 * (sigma[0] + sigma[3]);
 }
 
-double StressControl::volume() const {
-  return at_.deformation[0] * at_.deformation[3] - at_.deformation[1] * at_.deformation[2];
-}
+double StressControl::volume() const { return determinant<2>(at_.deformation); }
 
 bool StressControl::accept(const Tensor& deformation, double least_pressure) {
-  Request request{&problem_, &options_, &at_, deformation};
+  Request<2> request{&problem_, &options_, &at_, deformation};
   request.tolerance = exact_tolerance;
   request.sensitivities = true;
   const Outcome outcome = solve(request, workspace_);
-  Increment& increment = workspace_.increment;
+  Increment<2>& increment = workspace_.increment;
   if (outcome.status != GRAINLAW_OK || !increment.bears()) return false;
   const Tensor stress = piola_stress(increment);
   const auto tangent = outcome.sensitivities ? condensed_tangent(increment, workspace_.sensitivity)
                                              : elastic_tangent(increment);
   increment.advance_history();
   increment.export_to(at_, next_);
-  next_.stress = {stress[0], stress[1], stress[2], stress[3]};
+  next_.stress = stress;
   std::swap(at_, next_);
   if (!(pressure() >= least_pressure)) {
     std::swap(at_, next_);
@@ -157,8 +155,7 @@ StressControl::Descent StressControl::descent(const StressTarget& target) const 
 
 bool StressControl::reach(const StressTarget& target) {
   const Packing& packing = *problem_.packing;
-  double radius = 0;
-  for (const double r : packing.radius) radius += r / static_cast<double>(packing.size());
+  const double radius = mean_radius(packing.radius);
   const double line_stiffness = law_.stiffness(radius, radius) / packing.thickness;
   // Where no equilibrium is near any more, squeezing finds one further on.
   int escapes = 0;
@@ -209,23 +206,17 @@ bool StressControl::reach(const StressTarget& target) {
   return false;
 }
 
-Packing packing_of(const Problem& problem, const Configuration& at) {
+Packing packing_of(const Problem<2>& problem, const Configuration<2>& at) {
   Packing packing = *problem.packing;
-  const auto& f = at.deformation;
-  const auto& h = problem.packing->cell;
-  packing.cell = {f[0] * h[0] + f[1] * h[2], f[0] * h[1] + f[1] * h[3], f[2] * h[0] + f[3] * h[2],
-                  f[2] * h[1] + f[3] * h[3]};
+  const auto cell = product<2>(at.deformation, tensor_of<2>(packing.cell));
+  std::copy(cell.begin(), cell.end(), packing.cell.begin());
   std::copy_n(at.coordinates.begin(), packing.position.size(), packing.position.begin());
   packing.contacts.clear();
-  for (const ContactView& view : contact_views(problem, at)) {
-    const double distance = std::hypot(view.branch_x, view.branch_y);
-    const double t = view.tangential_force / distance;
-    packing.contacts.push_back({view.i,
-                                view.j,
-                                {view.shift[0], view.shift[1]},
-                                view.normal_force,
-                                {-t * view.branch_y, t * view.branch_x}});
-    packing.contacts.back().moment = view.moment;
+  for (const auto& view : contact_views(problem, at)) {
+    const auto force = view.tangential_force_vector();
+    packing.contacts.push_back(
+        {view.i, view.j, {view.shift[0], view.shift[1]}, view.normal_force, {force[0], force[1]}});
+    packing.contacts.back().moment = view.moment[0];
   }
   return packing;
 }

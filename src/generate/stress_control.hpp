@@ -23,20 +23,20 @@ class StressControl {
  public:
   //   reference  packing at F = I; the configuration starts from it
   //   force_floor  of the residuals' scale [N]
-  StressControl(const Packing& reference, const ContactLaw& law, Configuration at,
+  StressControl(const Packing& reference, const ContactLaw& law, Configuration<2> at,
                 double force_floor);
 
   // To 1e-7 of the pressure, or of the volume. False when no equilibrium was found on the way; the
   // configuration is then the last one found.
   bool reach(const StressTarget& target);
 
-  [[nodiscard]] const Configuration& configuration() const { return at_; }
-  [[nodiscard]] const Problem& problem() const { return problem_; }
+  [[nodiscard]] const Configuration<2>& configuration() const { return at_; }
+  [[nodiscard]] const Problem<2>& problem() const { return problem_; }
   [[nodiscard]] double pressure() const;  // [Pa]
   [[nodiscard]] double volume() const;    // det F
 
  private:
-  using Tensor = std::array<double, 4>;
+  using Tensor = grainlaw::Tensor<2>;
 
   [[nodiscard]] Tensor cauchy() const;
   [[nodiscard]] double misfit(const StressTarget& target) const;
@@ -45,15 +45,15 @@ class StressControl {
   [[nodiscard]] bool accept(const Tensor& deformation, double least_pressure);
 
   ContactLaw law_;
-  BoundarySpace space_;
-  Problem problem_;
+  BoundarySpace<2> space_;
+  Problem<2> problem_;
   SolverOptions options_;
-  Workspace workspace_;
-  Configuration at_, next_;
+  Workspace<2> workspace_;
+  Configuration<2> at_, next_;
   std::array<double, 16> tangent_{};
 };
 
 // The packing as it stands in a configuration: its own reference from now on, with contact forces.
-Packing packing_of(const Problem& problem, const Configuration& at);
+Packing packing_of(const Problem<2>& problem, const Configuration<2>& at);
 
 }  // namespace grainlaw

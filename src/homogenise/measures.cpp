@@ -2,6 +2,7 @@
 
 #include "frame/frame_geometry.hpp"
 #include "frame/frame_space.hpp"
+#include "packing/geometry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,17 +11,22 @@ namespace grainlaw {
 
 namespace {
 
-std::array<double, 4> cauchy_stress(const Configuration& at) {
-  const auto& p = at.stress;
-  const auto& f = at.deformation;
-  const double det = f[0] * f[3] - f[1] * f[2];
-  return {(p[0] * f[0] + p[1] * f[1]) / det, (p[0] * f[2] + p[1] * f[3]) / det,
-          (p[2] * f[0] + p[3] * f[1]) / det, (p[2] * f[2] + p[3] * f[3]) / det};
+template <int D>
+Tensor<D> cauchy_stress(const Configuration<D>& at) {
+  const double det = determinant<D>(at.deformation);
+  Tensor<D> sigma{};
+  for (std::size_t i = 0; i < D; ++i) {
+    for (std::size_t j = 0; j < D; ++j) {
+      sigma[D * i + j] = dot<D>(at.stress.data() + D * i, at.deformation.data() + D * j) / det;
+    }
+  }
+  return sigma;
 }
 
 // Weighted number of contacts of every particle, copies being one.
-std::vector<double> contacts_of_sources(const Problem& problem,
-                                        const std::vector<ContactView>& contacts) {
+template <int D>
+std::vector<double> contacts_of_sources(const Problem<D>& problem,
+                                        const std::vector<ContactView<D>>& contacts) {
   std::vector<double> count(problem.space->sources, 0.0);
   const auto& source = problem.space->source;
   for (const auto& c : contacts) {
@@ -30,13 +36,15 @@ std::vector<double> contacts_of_sources(const Problem& problem,
   return count;
 }
 
-double weighted_number(const std::vector<ContactView>& contacts) {
+template <int D>
+double weighted_number(const std::vector<ContactView<D>>& contacts) {
   double number = 0;
   for (const auto& c : contacts) number += c.weight;
   return number;
 }
 
-double coordination(const Problem& problem, const std::vector<ContactView>& contacts,
+template <int D>
+double coordination(const Problem<D>& problem, const std::vector<ContactView<D>>& contacts,
                     bool rattlers) {
   const double number = weighted_number(contacts);
   const auto particles = static_cast<double>(problem.space->sources);
@@ -51,56 +59,82 @@ double coordination(const Problem& problem, const std::vector<ContactView>& cont
   return bearing > 0 ? (2 * number - one) / bearing : 0;
 }
 
-std::array<double, 4> fabric(const std::vector<ContactView>& contacts) {
-  std::array<double, 4> phi{};
+template <int D>
+Tensor<D> fabric(const std::vector<ContactView<D>>& contacts) {
+  Tensor<D> phi{};
   const double number = weighted_number(contacts);
   for (const auto& c : contacts) {
-    const double d2 = c.branch_x * c.branch_x + c.branch_y * c.branch_y;
-    const double share = c.weight / (number * d2);
-    phi[0] += share * c.branch_x * c.branch_x;
-    phi[1] += share * c.branch_x * c.branch_y;
-    phi[2] += share * c.branch_x * c.branch_y;
-    phi[3] += share * c.branch_y * c.branch_y;
+    const double share = c.weight / (number * square<D>(c.branch));
+    for (std::size_t i = 0; i < D; ++i) {
+      for (std::size_t j = i; j < D; ++j) {
+        phi[D * i + j] += share * c.branch[i] * c.branch[j];
+        phi[D * j + i] = phi[D * i + j];
+      }
+    }
   }
   return phi;
 }
 
-// Half the difference of the fabric's eigenvalues.
-double half_difference(const std::array<double, 4>& phi) {
-  return std::hypot(0.5 * (phi[0] - phi[3]), phi[1]);
+// Half the difference of a plane fabric's eigenvalues, which are 1/2 +- this: its trace is 1.
+double half_difference(const Tensor<2>& phi) { return std::hypot(0.5 * (phi[0] - phi[3]), phi[1]); }
+
+// Largest / smallest eigenvalue - 1.
+double anisotropy(const Tensor<2>& phi) {
+  const double d = half_difference(phi);
+  return (0.5 + d) / std::max(0.5 - d, 0.0) - 1;
+}
+
+// sqrt(1/2 Fa : Fa) of Fa = 4 dev fabric, with dev fabric : dev fabric = 2 d^2.
+double fabric_intensity(const Tensor<2>& phi) { return 4 * half_difference(phi); }
+
+// The square of a spring's force.
+template <std::size_t components>
+double sum_of_squares(const std::array<double, components>& force) {
+  double sum = force[0] * force[0];
+  for (std::size_t k = 1; k < components; ++k) sum += force[k] * force[k];
+  return sum;
 }
 
 // A contact that is not bonded carries no tension.
-double carried_overlap(const ContactView& c) {
+template <int D>
+double carried_overlap(const ContactView<D>& c) {
   return c.bonded ? c.overlap + c.bond_gap : std::max(c.overlap, 0.0);
 }
 
-double elastic_energy(const Problem& problem, const std::vector<ContactView>& contacts) {
+template <int D>
+double elastic_energy(const Problem<D>& problem, const std::vector<ContactView<D>>& contacts) {
   double energy = 0;
   const auto& radius = problem.packing->radius;
   for (const auto& c : contacts) {
-    energy +=
-        c.weight * problem.law->energy(radius[static_cast<std::size_t>(c.i)],
-                                       radius[static_cast<std::size_t>(c.j)], carried_overlap(c),
-                                       c.tangential_force, c.moment, c.bonded);
+    energy += c.weight * problem.law->energy(radius[static_cast<std::size_t>(c.i)],
+                                             radius[static_cast<std::size_t>(c.j)],
+                                             carried_overlap(c), sum_of_squares(c.tangential_force),
+                                             sum_of_squares(c.moment), c.bonded);
   }
   return energy;
 }
 
-double mean_rotation(const Problem& problem, const Configuration& at) {
+// By component, of rotations since F = I.
+template <int D>
+std::array<double, Dimension<D>::spins> mean_rotation(const Problem<D>& problem,
+                                                      const Configuration<D>& at) {
   const auto n = problem.packing->size();
-  if (at.coordinates.size() < 3 * n) return 0;
+  std::array<double, Dimension<D>::spins> mean{};
+  if (at.coordinates.size() < Dimension<D>::unknowns * n) return mean;
   // Copies of a frame turn alike and count once.
   std::vector<double> rotation(problem.space->nodes, 0.0);
-  for (std::size_t p = 0; p < n; ++p) {
-    rotation[static_cast<std::size_t>(problem.space->node[p])] = at.coordinates[2 * n + p];
+  for (std::size_t k = 0; k < mean.size(); ++k) {
+    for (std::size_t p = 0; p < n; ++p) {
+      rotation[static_cast<std::size_t>(problem.space->node[p])] = at.coordinates[(D + k) * n + p];
+    }
+    double sum = 0;
+    for (const double value : rotation) sum += value;
+    mean[k] = sum / static_cast<double>(rotation.size());
   }
-  double sum = 0;
-  for (const double value : rotation) sum += value;
-  return sum / static_cast<double>(rotation.size());
+  return mean;
 }
 
-double escaped_particles(const Problem& problem, const Configuration& at) {
+double escaped_particles(const Problem<2>& problem, const Configuration<2>& at) {
   const auto& packing = *problem.packing;
   if (!packing.frame) return 0;
   const auto n = packing.size();
@@ -120,34 +154,41 @@ double escaped_particles(const Problem& problem, const Configuration& at) {
 
 }  // namespace
 
-std::vector<ContactView> contact_views(const Problem& problem, const Configuration& at) {
+template <>
+Vec<2> ContactView<2>::tangential_force_vector() const {
+  const double per_length = tangential_force[0] / length<2>(branch);
+  return {-branch[1] * per_length, branch[0] * per_length};
+}
+
+template <int D>
+std::vector<ContactView<D>> contact_views(const Problem<D>& problem, const Configuration<D>& at) {
   const auto& packing = *problem.packing;
   const auto n = packing.size();
-  const auto& f = at.deformation;
-  const auto& h = packing.cell;
-  const double* x = at.coordinates.data();
-  std::vector<NeighbourPair> pairs;
+  const Tensor<D> cell = packing.frame ? Tensor<D>{} : tensor_of<D>(packing.cell);
+  std::vector<NeighbourPair<D>> pairs;
   for (const auto& c : at.contacts) pairs.push_back({c.i, c.j, c.shift});
   std::vector<double> weights(pairs.size(), 1.0);
-  if (packing.frame) weigh_copies(*problem.space, packing, pairs, weights);
-  std::vector<ContactView> views;
+  if constexpr (D == 2) {
+    if (packing.frame) weigh_copies(*problem.space, packing, pairs, weights);
+  }
+  std::vector<ContactView<D>> views;
   views.reserve(at.contacts.size());
   for (std::size_t k = 0; k < at.contacts.size(); ++k) {
     const auto& c = at.contacts[k];
     const auto i = static_cast<std::size_t>(c.i);
     const auto j = static_cast<std::size_t>(c.j);
-    ContactView view{};
+    ContactView<D> view{};
     view.i = c.i;
     view.j = c.j;
-    view.shift = {c.shift[0], c.shift[1]};
-    const double sx = packing.frame ? 0 : h[0] * c.shift[0] + h[1] * c.shift[1];
-    const double sy = packing.frame ? 0 : h[2] * c.shift[0] + h[3] * c.shift[1];
-    view.branch_x = x[j] - x[i] + f[0] * sx + f[1] * sy;
-    view.branch_y = x[n + j] - x[n + i] + f[2] * sx + f[3] * sy;
-    view.overlap = packing.radius[i] + packing.radius[j] - std::hypot(view.branch_x, view.branch_y);
+    std::copy(c.shift.begin(), c.shift.end(), view.shift.begin());
+    view.branch = branch<D>(at.coordinates.data(), n, i, j, at.deformation,
+                            product<D>(cell, vec_of<D>(c.shift)));
+    view.overlap = packing.radius[i] + packing.radius[j] - length<D>(view.branch);
     view.bonded = c.bonded;
     view.bond_gap = at.bond_gaps.empty() ? 0 : at.bond_gaps[k];
-    view.moment = at.moments.empty() ? 0 : at.moments[k];
+    for (std::size_t s = 0; s < view.moment.size(); ++s) {
+      view.moment[s] = at.moments.empty() ? 0 : at.moments[view.moment.size() * k + s];
+    }
     view.normal_force =
         problem.law->normal_force(packing.radius[i], packing.radius[j], carried_overlap(view));
     view.tangential_force = c.tangential_force;
@@ -157,8 +198,7 @@ std::vector<ContactView> contact_views(const Problem& problem, const Configurati
   return views;
 }
 
-int measure_count(const Problem& problem, grainlaw_measure what) {
-  const int dimension = problem.packing->dimension;
+int measure_count(int dimension, grainlaw_measure what) {
   switch (what) {
 #define GRAINLAW_X(name, value, count, text)          \
   case name:                                          \
@@ -171,14 +211,12 @@ int measure_count(const Problem& problem, grainlaw_measure what) {
   return -1;
 }
 
-void measure(const Problem& problem, const Configuration& at, grainlaw_measure what,
+template <int D>
+void measure(const Problem<D>& problem, const Configuration<D>& at, grainlaw_measure what,
              double* value) {
-  const auto& f = at.deformation;
-  const double volume = problem.space->reference_volume * (f[0] * f[3] - f[1] * f[2]);
+  const double volume = problem.space->reference_volume * determinant<D>(at.deformation);
   const auto contacts = contact_views(problem, at);
-  const auto copy = [&](const std::array<double, 4>& tensor) {
-    std::copy(tensor.begin(), tensor.end(), value);
-  };
+  const auto copy = [&](const auto& tensor) { std::copy(tensor.begin(), tensor.end(), value); };
   switch (what) {
     case GRAINLAW_CAUCHY_STRESS:
       return copy(cauchy_stress(at));
@@ -196,15 +234,11 @@ void measure(const Problem& problem, const Configuration& at, grainlaw_measure w
       return;
     case GRAINLAW_FABRIC:
       return copy(fabric(contacts));
-    case GRAINLAW_ANISOTROPY: {
-      // The eigenvalues are 1/2 +- d: the fabric's trace is 1.
-      const double d = half_difference(fabric(contacts));
-      *value = (0.5 + d) / std::max(0.5 - d, 0.0) - 1;
+    case GRAINLAW_ANISOTROPY:
+      *value = anisotropy(fabric(contacts));
       return;
-    }
     case GRAINLAW_FABRIC_INTENSITY:
-      // sqrt(1/2 Fa : Fa) of Fa = 4 dev fabric, with dev fabric : dev fabric = 2 d^2.
-      *value = 4 * half_difference(fabric(contacts));
+      *value = fabric_intensity(fabric(contacts));
       return;
     case GRAINLAW_MEAN_OVERLAP: {
       double sum = 0;
@@ -213,8 +247,7 @@ void measure(const Problem& problem, const Configuration& at, grainlaw_measure w
       return;
     }
     case GRAINLAW_MEAN_ROTATION:
-      *value = mean_rotation(problem, at);
-      return;
+      return copy(mean_rotation(problem, at));
     case GRAINLAW_ELASTIC_ENERGY:
       *value = elastic_energy(problem, contacts);
       return;
@@ -234,11 +267,15 @@ void measure(const Problem& problem, const Configuration& at, grainlaw_measure w
       *value = problem.space->reference_volume;
       return;
     case GRAINLAW_DEFORMATION_GRADIENT:
-      return copy({f[0], f[1], f[2], f[3]});
+      return copy(at.deformation);
     case GRAINLAW_ESCAPED_PARTICLES:
-      *value = escaped_particles(problem, at);
+      *value = 0;
+      if constexpr (D == 2) *value = escaped_particles(problem, at);
       return;
   }
 }
+
+template std::vector<ContactView<2>> contact_views(const Problem<2>&, const Configuration<2>&);
+template void measure(const Problem<2>&, const Configuration<2>&, grainlaw_measure, double*);
 
 }  // namespace grainlaw

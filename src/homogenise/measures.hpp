@@ -12,24 +12,33 @@
 namespace grainlaw {
 
 // One touching contact as it stands, for measures and output.
+template <int D>
 struct ContactView {
   int i, j;
-  std::array<int, 2> shift;
-  double branch_x, branch_y;  // x_j - x_i + F H0 shift [m]
-  double overlap;             // [m]
-  double normal_force;        // negative in the tension of a bond [N]
-  double tangential_force;    // on j, along the normal turned by +90 degrees [N]
-  double weight;              // 1, or 1 / copies on a frame [-]
+  std::array<int, static_cast<std::size_t>(D)> shift;
+  Vec<D> branch;        // x_j - x_i + F H0 shift [m]
+  double overlap;       // [m]
+  double normal_force;  // negative in the tension of a bond [N]
+  // On j, as ContactHistory has it [N].
+  std::array<double, Dimension<D>::tangents> tangential_force;
+  double weight;  // 1, or 1 / copies on a frame [-]
   bool bonded;
-  double moment;    // of rolling or bending, on j [N m]
+  // Of rolling or bending, on j [N m].
+  std::array<double, Dimension<D>::spins> moment;
   double bond_gap;  // stress-free branch of a bond - (R_i + R_j) [m]
+
+  // On j.
+  [[nodiscard]] Vec<D> tangential_force_vector() const;
 };
-std::vector<ContactView> contact_views(const Problem& problem, const Configuration& at);
+template <int D>
+std::vector<ContactView<D>> contact_views(const Problem<D>& problem, const Configuration<D>& at);
 
 // Number of components of a measure; -1 when unknown.
-int measure_count(const Problem& problem, grainlaw_measure what);
+int measure_count(int dimension, grainlaw_measure what);
 
 // Fills value[measure_count]. Definitions in grainlaw.h.
-void measure(const Problem& problem, const Configuration& at, grainlaw_measure what, double* value);
+template <int D>
+void measure(const Problem<D>& problem, const Configuration<D>& at, grainlaw_measure what,
+             double* value);
 
 }  // namespace grainlaw

@@ -4,42 +4,44 @@
 
 #include "boundary/boundary_space.hpp"
 #include "contact/contact_list.hpp"
+#include "frame/average_masses.hpp"
 #include "increment/configuration.hpp"
 #include "increment/problem.hpp"
 #include "packing/neighbours.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 namespace grainlaw {
 
+template <int D>
 class Increment {
  public:
-  // Start from a configuration; `deformation` is the F (row-major 2x2) to be reached without
-  // rotation, the guess is the affine image. Rotations are counted from here.
-  void begin(const Problem& problem, const Configuration& from,
-             const std::array<double, 4>& deformation);
+  static constexpr std::size_t dim = D;
+  static constexpr std::size_t spins = Dimension<D>::spins;
+
+  // Start from a configuration; `deformation` is the F to be reached without rotation, the guess is the
+  // affine image. Rotations are counted from here.
+  void begin(const Problem<D>& problem, const Configuration<D>& from, const Tensor<D>& deformation);
 
   // Reach for another F from the present history; the guess moves affinely with it.
-  void deform(const std::array<double, 4>& deformation);
+  void deform(const Tensor<D>& deformation);
 
   // Forces at the present coordinates, and the reduced residual.
   void update_forces();
   // The same with the friction history advanced to here.
   void update_forces_advancing();
 
-  // Mean normal force, and pseudo-masses of the nodes: mass_factor x the stiffness of the touching
+  // Mean normal force, and pseudo-masses of the nodes: tuned::mass_factor x the stiffness of the touching
   // contacts, never below one contact's worth (mechanics of the relaxation: unit pseudo-time step).
-  static constexpr double mass_factor = 0.8;
   void refresh_masses();
 
   // The same from the records and for the records alone: the mass of the roll R theta is I / R^2.
   void sum_masses();
-  // One contact's worth in x, y and roll, and 1 / R in `unused`.
-  [[nodiscard]] std::span<const ForceRecord> least_masses() const { return least_masses_; }
+  // One contact's worth.
+  [[nodiscard]] std::span<const LeastMass<D>> least_masses() const { return least_masses_; }
 
   // Largest residual force (moment / R) of update_forces over max(mean normal force, floor) [-];
   // infinite when no contact is left or a number is not finite.
@@ -61,7 +63,7 @@ class Increment {
   // leaves open: nodes that nothing holds start where the deformation carries their last start, and
   // the mean fluctuation of those that are held.
   void continue_history();
-  // Whether a contact that carries, or the boundary, holds a node in x (fixed_x) and y (fixed_y).
+  // Whether a contact that carries, or the boundary, holds a node: fixed_bit() of each direction.
   void find_held(std::vector<unsigned char>& held) const;
 
   // Break bonds that are beyond their strength here, and the history starts anew from here; false
@@ -84,10 +86,12 @@ class Increment {
     const auto n = particles();
     const auto p = static_cast<std::size_t>(contacts.i[c]);
     const auto q = static_cast<std::size_t>(contacts.j[c]);
-    const double* x = coordinates.data();
-    const double lx = x[q] - x[p] + contacts.offset_x[c];
-    const double ly = x[n + q] - x[n + p] + contacts.offset_y[c];
-    return lx * lx + ly * ly;
+    Vec<D> l{};
+    for (std::size_t k = 0; k < dim; ++k) {
+      const double* x = coordinates.data() + k * n;
+      l[k] = x[q] - x[p] + contacts.offset[k][c];
+    }
+    return square<D>(l);
   }
 
   // Forces differ by this much by chance: tolerance and rounding [N].
@@ -104,22 +108,19 @@ class Increment {
   void release_contacts() { released_ = true; }
 
   // Put contacts, coordinates and dissipation into `to`, rotations added to those of `from`.
-  void export_to(const Configuration& from, Configuration& to) const;
+  void export_to(const Configuration<D>& from, Configuration<D>& to) const;
 
   // Relist neighbours when a particle may have come near one that is not listed; whether it did.
   bool keep_neighbours();
 
   // From forces on nodes to the residual, in place: nothing on what is prescribed, nothing that the
-  // average constraint carries (with the present masses), and behind the nodes two records for what
-  // the prescribed stresses leave to move the rows of F.
-  void reduce(std::span<ForceRecord> residual) const;
+  // average constraint carries (with the present masses), and behind the nodes a record for every row
+  // of F with what the prescribed stresses leave to move it.
+  void reduce(std::span<ForceRecord<D>> residual) const;
 
   // Change F by the record behind the nodes for every row, times scale(), and the records of
   // particles with it.
-  void change_deformation(const double* rows, std::vector<ParticleRecord>& moved);
-
-  // Take out of velocities (component-major, of these masses) what changes the average constraint.
-  void hold_average(std::span<double> velocity, std::span<const double> mass_of) const;
+  void change_deformation(const double* rows, std::vector<ParticleRecord<D>>& moved);
 
   // Components of F that are found count as lengths: F times this [m], so that their residual is a
   // force, the missing stress on the cross section of one particle.
@@ -128,7 +129,7 @@ class Increment {
   [[nodiscard]] double mean_branch() const { return mean_branch_; }  // 2 R [m]
 
   // Reference branch of a listed contact for a space bound to axes: X'_j - X'_i [m].
-  [[nodiscard]] std::array<double, 2> fixed_branch(std::size_t c) const;
+  [[nodiscard]] Vec<D> fixed_branch(std::size_t c) const;
 
   // Whether the boundary lost what it is to carry a uniform stress with: next to no force is left,
   // or a boundary particle has no contact.
@@ -145,7 +146,7 @@ class Increment {
   [[nodiscard]] std::size_t nodes() const { return problem->space->nodes; }
   // Components of nodes, and after them those of F where some are found.
   [[nodiscard]] std::size_t unknowns() const {
-    return node_unknowns() + (problem->space->finds_deformation ? 4 : 0);
+    return node_unknowns() + (problem->space->finds_deformation ? squared<D> : 0);
   }
   [[nodiscard]] std::size_t node_unknowns() const {
     return nodes() * static_cast<std::size_t>(problem->components());
@@ -154,22 +155,22 @@ class Increment {
   // kn between equal particles, mean over the nodes [N/m].
   [[nodiscard]] double mean_stiffness() const;
 
-  const Problem* problem = nullptr;
-  std::array<double, 4> deformation{};        // F being solved, free of the increment's rotation
-  std::array<double, 4> start_deformation{};  // where the history starts
-  std::array<double, 4> cell{};               // F H0, zero on a frame [m]
-  std::vector<double> coordinates;            // component-major: positions, rotation increments
-  std::vector<double> start;                  // coordinates where the history starts
-  std::vector<ContactHistory> history;        // touching contacts there
+  const Problem<D>* problem = nullptr;
+  Tensor<D> deformation{};                 // F being solved, free of the increment's rotation
+  Tensor<D> start_deformation{};           // where the history starts
+  Tensor<D> cell{};                        // F H0, zero on a frame [m]
+  std::vector<double> coordinates;         // component-major: positions, rotation increments
+  std::vector<double> start;               // coordinates where the history starts
+  std::vector<ContactHistory<D>> history;  // touching contacts there
   std::vector<double> history_moments, history_gaps;  // of them, as in Configuration
-  std::vector<ParticleRecord> records;                // the coordinates as contacts read them
-  std::vector<ForceRecord> forces;        // on nodes, and two for F where some of it is found
-  std::vector<double> node_residual;      // reduced, component-major [N, N m]
-  std::vector<double> mass;               // of the unknowns
-  std::vector<ForceRecord> mass_records;  // the same as records
-  std::vector<double> node_radius;        // [m]
-  ContactList contacts;
-  std::vector<NeighbourPair> pairs;
+  std::vector<ParticleRecord<D>> records;             // the coordinates as contacts read them
+  std::vector<ForceRecord<D>> forces;       // on nodes, and rows of F where some of it is found
+  std::vector<double> node_residual;        // reduced, component-major [N, N m]
+  std::vector<double> mass;                 // of the unknowns
+  std::vector<MassRecord<D>> mass_records;  // the same as records
+  std::vector<double> node_radius;          // [m]
+  ContactList<D> contacts;
+  std::vector<NeighbourPair<D>> pairs;
   std::vector<double> pair_weights;
   double mean_force = 0;  // [N]
   int touching = 0;
@@ -180,7 +181,7 @@ class Increment {
   int factorisations = 0;
 
  private:
-  [[nodiscard]] std::array<double, 4> cell_at(const std::array<double, 4>& f) const;
+  [[nodiscard]] Tensor<D> cell_at(const Tensor<D>& f) const;
   void list_neighbours();
   void advance_contacts_and_history();
   void carry_start();
@@ -189,33 +190,33 @@ class Increment {
   [[nodiscard]] double worst_bond() const;
   void build_list();
   void project();
-  void carry_affinely(const std::array<double, 4>& from, const std::array<double, 4>& to,
+  void carry_affinely(const Tensor<D>& from, const Tensor<D>& to,
                       std::vector<double>& positions) const;
   [[nodiscard]] double affine_place(std::size_t p, std::size_t direction) const;
   void place_fixed();
   // How far a packing that nothing holds has moved as a whole [m].
-  [[nodiscard]] std::array<double, 2> drift() const;
+  [[nodiscard]] Vec<D> drift() const;
   void find_least_masses();
-  void take_averages(std::span<ForceRecord> residual) const;
   void find_average_masses();
   void find_deformation_masses();
   [[nodiscard]] double potential_energy() const;
 
-  std::vector<NeighbourPair> merged_pairs_;
+  std::vector<NeighbourPair<D>> merged_pairs_;
   bool released_ = false;
   // Of the state in which bonds broke last: until the next, what the energy falls by is lost.
   bool after_break_ = false;
   double break_energy_ = 0, break_dissipated_ = 0;  // [J]
-  std::vector<ForceRecord> least_masses_;           // of one contact; and 1 / R in `unused`
-  std::vector<double> listed_;                      // positions when the neighbours were listed
+  std::vector<LeastMass<D>> least_masses_;
+  std::vector<StiffnessRecord<D>> stiffness_;  // summed over the contacts of nodes
+  std::vector<double> listed_;                 // positions when the neighbours were listed
   double gap_ = 0;
   double rounding_force_ = 0;  // [N]
   double deformation_scale_ = 1;
-  double mean_branch_ = 0;                               // 2 R [m]
-  std::array<std::array<double, 3>, 2> average_mass_{};  // inverse of sum row row / m
-  std::vector<unsigned char> held_;                      // of nodes, as found last
+  double mean_branch_ = 0;  // 2 R [m]
+  AverageMasses average_masses_;
+  std::vector<unsigned char> held_;  // of nodes, as found last
   std::vector<double> carried_start_;
-  NeighbourSearch search_;
+  NeighbourSearch<D> search_;
 };
 
 }  // namespace grainlaw

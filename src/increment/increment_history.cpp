@@ -1,28 +1,38 @@
 // Where the history of contacts starts, and what ends there: the parts of Increment that outlast an
 // equilibrium.
+#include "base/constants.hpp"
 #include "base/room.hpp"
+#include "contact/contact_forces.hpp"
 #include "contact/contact_point.hpp"
-#include "contact/frictional.hpp"
 #include "increment/increment.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace grainlaw {
 
-double Increment::chance_force() const {
-  constexpr double loosest = 1e-4;  // a coarse solution still has real contacts that carry little
-  return std::max(std::min(problem->tolerance, loosest) * relative_scale(), rounding_force_);
+namespace {
+
+double magnitude_of(const std::array<double, 1>& force) { return std::abs(force[0]); }
+
+}  // namespace
+
+template <int D>
+double Increment<D>::chance_force() const {
+  return std::max(std::min(problem->tolerance, tuned::largest_chance) * relative_scale(),
+                  rounding_force_);
 }
 
-bool Increment::carries(std::size_t c) const {
+template <int D>
+bool Increment<D>::carries(std::size_t c) const {
   if (contacts.bonded(c)) return true;
   if (released_) return false;
-  return normal_force(contacts, c, overlap(c), *problem->law) > 10 * chance_force();
+  return normal_force(contacts, c, overlap(c), *problem->law) >
+         tuned::more_than_chance * chance_force();
 }
 
-bool Increment::bears() const {
+template <int D>
+bool Increment<D>::bears() const {
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (carries(c)) return true;
   }
@@ -31,83 +41,100 @@ bool Increment::bears() const {
 
 // What the springs hold less what the prescribed stresses have given: at the given F and those
 // stresses nothing else gives energy.
-double Increment::potential_energy() const {
+template <int D>
+double Increment<D>::potential_energy() const {
   const auto& space = *problem->space;
   double energy = stored_energy(contacts, coordinates, particles(), *problem->law);
-  for (std::size_t k = 0; k < 4; ++k) {
+  for (std::size_t k = 0; k < squared<D>; ++k) {
     if (space.found[k]) energy -= space.reference_volume * space.stress[k] * deformation[k];
   }
   return energy;
 }
 
-void Increment::advance_contacts_and_history() {
+template <int D>
+void Increment<D>::advance_contacts_and_history() {
   load_records();
   const auto& law = *problem->law;
-  dissipated += advance_contacts(records, law, contacts, forces);
+  dissipated += advance_contacts<D>(records, law, contacts, forces);
   if (after_break_) dissipated = break_dissipated_ + break_energy_ - potential_energy();
   const bool gaps = !history_gaps.empty();
   history.clear();
   history_moments.clear();
   history_gaps.clear();
   if (history.capacity() < pairs.size()) history.reserve(pairs.capacity());
-  if (law.moments()) history_moments.reserve(history.capacity());
+  if (law.moments()) history_moments.reserve(spins * history.capacity());
   if (gaps) history_gaps.reserve(history.capacity());
-  const bool tangential = law.tangential();
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (!carries(c)) continue;
     const double depth = overlap(c);
     const double scale = start_scale(depth, law);
-    const double force = tangential ? contacts.start_force[c] * scale : 0.0;
-    const double bound = law.friction * normal_force(contacts, c, depth, law);
-    const bool bonded = contacts.bonded(c);
     const double weight = contacts.weight_of(c);
-    history.push_back({contacts.i[c], contacts.j[c], pairs[c].shift,
-                       tangential && !bonded && std::abs(force) >= bound - chance_force(), bonded,
-                       force / weight});
-    if (law.moments()) history_moments.push_back(contacts.start_moment[c] * scale / weight);
+    ContactHistory<D>& kept = history.emplace_back();
+    kept.i = contacts.i[c];
+    kept.j = contacts.j[c];
+    kept.shift = pairs[c].shift;
+    kept.bonded = contacts.bonded(c);
+    if (law.tangential()) {
+      std::array<double, Dimension<D>::tangents> force{};
+      for (std::size_t k = 0; k < force.size(); ++k) {
+        force[k] = contacts.start_force[k][c] * scale;
+        kept.tangential_force[k] = force[k] / weight;
+      }
+      const double bound = law.friction * normal_force(contacts, c, depth, law);
+      kept.sliding = !kept.bonded && magnitude_of(force) >= bound - chance_force();
+    }
+    if (law.moments()) {
+      for (const auto& moment : contacts.start_moment) {
+        history_moments.push_back(moment[c] * scale / weight);
+      }
+    }
     if (gaps) history_gaps.push_back(contacts.rest[c] - contacts.reach[c]);
   }
 }
 
-void Increment::advance_history() {
+template <int D>
+void Increment<D>::advance_history() {
   advance_contacts_and_history();
   start = coordinates;
   start_deformation = deformation;
   build_list();
 }
 
-void Increment::continue_history() {
+template <int D>
+void Increment<D>::continue_history() {
   advance_contacts_and_history();
   carry_start();
   start_deformation = deformation;
   build_list();
 }
 
-void Increment::find_held(std::vector<unsigned char>& held) const {
+template <int D>
+void Increment<D>::find_held(std::vector<unsigned char>& held) const {
   const auto& space = *problem->space;
   held.assign(nodes(), 0);
-  for (std::size_t q = 0; q < space.fixed.size(); ++q) held[q] = space.fixed[q] & fixed_translation;
+  for (std::size_t q = 0; q < space.fixed.size(); ++q)
+    held[q] = space.fixed[q] & fixed_translation<D>;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (!carries(c)) continue;
     held[static_cast<std::size_t>(space.node[static_cast<std::size_t>(contacts.i[c])])] =
         held[static_cast<std::size_t>(space.node[static_cast<std::size_t>(contacts.j[c])])] =
-            fixed_translation;
+            fixed_translation<D>;
   }
 }
 
-// Turns stay as they are: a disc is the same however far it has turned.
-void Increment::carry_start() {
+// Turns stay as they are: a particle is the same however far it has turned.
+template <int D>
+void Increment<D>::carry_start() {
   const auto n = particles();
   const auto& node = problem->space->node;
   find_held(held_);
-  carried_start_.assign(start.begin(), start.begin() + static_cast<std::ptrdiff_t>(2 * n));
+  carried_start_.assign(start.begin(), start.begin() + static_cast<std::ptrdiff_t>(dim * n));
   carry_affinely(start_deformation, deformation, carried_start_);
   start = coordinates;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const unsigned char bit = k == 0 ? fixed_x : fixed_y;
+  for (std::size_t k = 0; k < dim; ++k) {
     const double* carried = carried_start_.data() + k * n;
     const auto held = [&](std::size_t p) {
-      return (held_[static_cast<std::size_t>(node[p])] & bit) != 0;
+      return (held_[static_cast<std::size_t>(node[p])] & fixed_bit(k)) != 0;
     };
     double sum = 0;
     double count = 0;
@@ -125,7 +152,8 @@ void Increment::carry_start() {
 }
 
 // Eq. 8 of Liu, Bosco & Suiker (2017), 1 at failure; without a bond 0.
-double Increment::bond_load(std::size_t c) const {
+template <int D>
+double Increment<D>::bond_load(std::size_t c) const {
   if (!contacts.bonded(c)) return 0;
   const auto& law = *problem->law;
   const auto point = contact_point(contacts, c, coordinates, particles(), law);
@@ -138,14 +166,16 @@ double Increment::bond_load(std::size_t c) const {
   return load / contacts.weight_of(c);
 }
 
-double Increment::worst_bond() const {
+template <int D>
+double Increment<D>::worst_bond() const {
   double worst = 0;
   if (!problem->law->bonds()) return worst;
   for (std::size_t c = 0; c < contacts.size(); ++c) worst = std::max(worst, bond_load(c));
   return worst;
 }
 
-bool Increment::break_bonds() {
+template <int D>
+bool Increment<D>::break_bonds() {
   if (!overloads_bonds()) return false;
   const double energy = potential_energy();
   continue_history();
@@ -157,8 +187,7 @@ bool Increment::break_bonds() {
   std::size_t h = 0;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (!contacts.bonded(c)) continue;
-    const auto key = std::tie(contacts.i[c], contacts.j[c], pairs[c].shift);
-    while (std::tie(history[h].i, history[h].j, history[h].shift) != key) ++h;
+    while (key_of(history[h]) != key_of(pairs[c])) ++h;
     if (bond_load(c) < limit) continue;
     history[h].bonded = false;
     broken_bonds += contacts.weight_of(c);
@@ -167,16 +196,17 @@ bool Increment::break_bonds() {
   return true;
 }
 
-void Increment::export_to(const Configuration& from, Configuration& to) const {
+template <int D>
+void Increment<D>::export_to(const Configuration<D>& from, Configuration<D>& to) const {
   const auto n = particles();
-  to.deformation = {deformation[0], deformation[1], deformation[2], deformation[3]};
+  to.deformation = deformation;
   to.coordinates = coordinates;
   const auto moved = drift();
-  for (std::size_t k = 0; k < 2; ++k) {
+  for (std::size_t k = 0; k < dim; ++k) {
     if (problem->space->anchor[k] < 0) continue;
     for (std::size_t p = 0; p < n; ++p) to.coordinates[k * n + p] -= moved[k];
   }
-  for (std::size_t k = 2 * n; k < coordinates.size(); ++k) {
+  for (std::size_t k = dim * n; k < coordinates.size(); ++k) {
     to.coordinates[k] += from.coordinates[k];
   }
   copy_with_room(history, to.contacts, little);
@@ -185,5 +215,7 @@ void Increment::export_to(const Configuration& from, Configuration& to) const {
   to.dissipated = from.dissipated + dissipated;
   to.broken_bonds = from.broken_bonds + broken_bonds;
 }
+
+template class Increment<2>;
 
 }  // namespace grainlaw

@@ -1,60 +1,83 @@
 // Pseudo-masses of the nodes, by which relaxation steps and what residuals are weighed with.
-#include "contact/frictional.hpp"
+#include "base/constants.hpp"
+#include "contact/contact_forces.hpp"
 #include "increment/increment.hpp"
-
-#include <algorithm>
+#include "increment/records.hpp"
 
 namespace grainlaw {
 
-void Increment::find_least_masses() {
-  const auto& law = *problem->law;
+template <int D>
+void Increment<D>::find_least_masses() {
   least_masses_.resize(nodes());
   for (std::size_t q = 0; q < nodes(); ++q) {
-    const double r = node_radius[q];
-    const double kn = law.stiffness(r, r);
-    double kt = law.rotating() ? 2 * law.ratio * kn : 1;
-    if (law.moments()) kt += law.ratio * kn * law.rolling_ratio(r, r) / (r * r);
-    least_masses_[q] = {kn, kn, kt, 1 / r};
+    least_masses_[q] = least_mass(*problem->law, node_radius[q]);
   }
 }
 
-void Increment::refresh_masses() {
+template <int D>
+void Increment<D>::refresh_masses() {
   load_records();
   sum_masses();
-  const auto m = nodes();
-  const bool rotating = problem->law->rotating();
-  for (std::size_t q = 0; q < m; ++q) {
-    const double r = node_radius[q];
-    mass[q] = mass[m + q] = mass_records[q].x;
-    if (rotating) mass[2 * m + q] = mass_records[q].roll * r * r;
-  }
+  put_masses(mass_records.data(), node_radius, problem->law->rotating(), mass.data());
   if (!problem->space->finds_deformation) return;
-  for (std::size_t i = 0; i < 2; ++i) {
-    mass[node_unknowns() + 2 * i] = mass_records[m + i].x;
-    mass[node_unknowns() + 2 * i + 1] = mass_records[m + i].y;
+  for (std::size_t i = 0; i < dim; ++i) {
+    std::copy_n(&mass_records[nodes() + i].x, dim, mass.data() + node_unknowns() + dim * i);
   }
 }
 
-void Increment::sum_masses() {
-  const auto totals = sum_stiffnesses(records, *problem->law, contacts, mass_records);
+template <int D>
+void Increment<D>::sum_masses() {
+  const auto totals = sum_stiffnesses<D>(records, *problem->law, contacts, stiffness_);
   touching = totals.touching;
   mean_force = touching > 0 ? totals.force / totals.weights : 0;
   for (std::size_t q = 0; q < nodes(); ++q) {
-    auto& mass_of = mass_records[q];
-    const auto& least = least_masses_[q];
-    mass_of.x = mass_of.y = mass_factor * std::max(mass_of.x, least.x);
-    mass_of.roll = mass_factor * std::max(mass_of.roll * least.unused, least.roll);
-    mass_of.unused = 1;
+    mass_records[q] = mass_of(stiffness_[q], least_masses_[q], tuned::mass_factor);
   }
   if (problem->space->identity) return;
   find_average_masses();
   find_deformation_masses();
 }
 
-double Increment::mean_stiffness() const {
+template <int D>
+void Increment<D>::find_average_masses() {
+  if constexpr (D == 2) {
+    if (problem->space->averages()) average_masses_.find(*problem->space, mass_records);
+  }
+}
+
+// A contact's stretch (w_j - w_i + dF L) is shared by two particles and by the found components of
+// a row of F; masses 0.8 sum kn L^2 times their number keep the unit step stable.
+template <int D>
+void Increment<D>::find_deformation_masses() {
+  const auto& space = *problem->space;
+  if (!space.finds_deformation) return;
+  Vec<D> sum{};
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const double kn = contacts.stiffness[c].x;
+    if (kn == 0) continue;
+    const auto branch = fixed_branch(c);
+    for (std::size_t k = 0; k < dim; ++k) sum[k] += kn * branch[k] * branch[k];
+  }
+  const double scale = deformation_scale_ * deformation_scale_;
+  const double least = mean_stiffness() * mean_branch_ * mean_branch_ / scale;
+  for (std::size_t i = 0; i < dim; ++i) {
+    double number = 0;
+    for (std::size_t j = 0; j < dim; ++j) number += space.found[dim * i + j] ? 1 : 0;
+    MassRecord<D> row{1, 1, 1, 1};
+    for (std::size_t j = 0; j < dim; ++j) {
+      (&row.x)[j] = tuned::deformation_mass_factor * std::max(number * sum[j] / scale, least);
+    }
+    mass_records[nodes() + i] = row;
+  }
+}
+
+template <int D>
+double Increment<D>::mean_stiffness() const {
   double sum = 0;
   for (std::size_t q = 0; q < nodes(); ++q) sum += least_masses_[q].x;
   return sum / static_cast<double>(nodes());
 }
+
+template class Increment<2>;
 
 }  // namespace grainlaw

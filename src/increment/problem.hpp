@@ -11,14 +11,17 @@ namespace grainlaw {
 // force at F = I, so that a packing without stress does not pass as converged.
 inline constexpr double relative_floor = 1e-3;
 
+template <int D>
 struct Problem {
   const Packing* packing = nullptr;
   const ContactLaw* law = nullptr;
-  const BoundarySpace* space = nullptr;
+  const BoundarySpace<D>* space = nullptr;
   double force_floor = 0;  // residuals are relative to max(mean normal force, this) [N]
   double tolerance = 0;    // of equilibria; contacts that carry about as little are none [-]
 
-  [[nodiscard]] int components() const { return law->rotating() ? 3 : 2; }
+  [[nodiscard]] int components() const {
+    return law->rotating() ? static_cast<int>(Dimension<D>::unknowns) : D;
+  }
 };
 
 }  // namespace grainlaw

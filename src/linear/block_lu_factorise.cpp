@@ -1,7 +1,6 @@
 // The numeric factorisation, front by front.
-#include "linear/block_lu_view.hpp"
+#include "linear/block_lu.hpp"
 #include "linear/dense_pivots.hpp"
-#include "linear/quad.hpp"
 
 namespace grainlaw {
 
@@ -9,9 +8,9 @@ using namespace dense;
 
 namespace {
 
-using View = BlockLU::View;
-using Front = BlockLU::Front;
-using Run = BlockLU::Run;
+using View = Elimination::View;
+using Front = Elimination::Front;
+using Run = Elimination::Run;
 
 // The matrix and what is added to its diagonal, which may be null.
 struct Values {
@@ -28,29 +27,29 @@ GRAINLAW_INLINE void open_front(const View& f, const Front& front) {
 
 template <std::size_t b>
 GRAINLAW_INLINE void add_block(double* to, std::size_t stride, const double* from) {
-#pragma GCC unroll 3
+#pragma GCC unroll 6
   for (std::size_t c = 0; c < b; ++c) {
-#pragma GCC unroll 3
-    for (std::size_t r = 0; r < b; ++r) to[c * stride + r] += from[c * quad::width + r];
+#pragma GCC unroll 6
+    for (std::size_t r = 0; r < b; ++r) to[c * stride + r] += from[c * rows_of(b) + r];
   }
 }
 
 template <std::size_t b>
 GRAINLAW_INLINE void add_matrix(const View& f, const Front& front, const Shape& shape,
                                 const Values& matrix) {
-  constexpr std::size_t size = b * quad::width;
+  constexpr std::size_t size = b * rows_of(b);
   for (std::size_t k = 0; k < front.pivots; ++k) {
     const auto node = static_cast<std::size_t>(f.node[front.first + k]);
     double* const to = f.values + front.values + shape.place(k, k);
     add_block<b>(to, shape.pivot_rows, matrix.blocks + node * size);
     if (matrix.added == nullptr) continue;
     for (std::size_t c = 0; c < b; ++c) {
-      to[c * (shape.pivot_rows + 1)] += matrix.added[node * quad::width + c];
+      to[c * (shape.pivot_rows + 1)] += matrix.added[node * rows_of(b) + c];
     }
   }
   for (std::size_t k = front.first_source; k < front.last_source; ++k) {
     const auto& source = f.sources[k];
-    __builtin_prefetch(matrix.blocks + f.sources[k + BlockLU::ahead].block * size);
+    __builtin_prefetch(matrix.blocks + f.sources[k + Elimination::ahead].block * size);
     add_block<b>(f.values + source.to, source.stride, matrix.blocks + source.block * size);
   }
 }
@@ -164,19 +163,21 @@ GRAINLAW_INLINE bool factorise_fronts(const View& f, const Values& matrix) {
   return true;
 }
 
-GRAINLAW_BY_LANES(bool, factorise_3, factorise_fronts, (const View& f, const Values& m), (f, m), 3)
 GRAINLAW_BY_LANES(bool, factorise_2, factorise_fronts, (const View& f, const Values& m), (f, m), 2)
+GRAINLAW_BY_LANES(bool, factorise_3, factorise_fronts, (const View& f, const Values& m), (f, m), 3)
+GRAINLAW_BY_LANES(bool, factorise_6, factorise_fronts, (const View& f, const Values& m), (f, m), 6)
 
 }  // namespace
 
-BlockLU::View BlockLU::view() {
-  return {fronts_,         rows_.data(),   within_.data(), node_.data(),
-          sources_.data(), values_.data(), pivots_.data(), runs_.data()};
+template <std::size_t width>
+bool BlockLU<width>::factorise(const BlockMatrix<width>& matrix, std::span<const Column> added) {
+  const Values values{matrix.blocks.data()->lane, added.empty() ? nullptr : added.data()->lane};
+  const View view = elimination_.view();
+  if constexpr (width == 8) return factorise_6(view, values);
+  return components_ == 3 ? factorise_3(view, values) : factorise_2(view, values);
 }
 
-bool BlockLU::factorise(const BlockMatrix& matrix, std::span<const Quad> added) {
-  const Values values{matrix.blocks.data()->lane, added.empty() ? nullptr : added.data()->lane};
-  return components_ == 3 ? factorise_3(view(), values) : factorise_2(view(), values);
-}
+template bool BlockLU<4>::factorise(const BlockMatrix<4>&, std::span<const Column>);
+template bool BlockLU<8>::factorise(const BlockMatrix<8>&, std::span<const Column>);
 
 }  // namespace grainlaw

@@ -1,6 +1,6 @@
 // The solves: forward and backward substitution, front by front.
-#include "linear/block_lu_view.hpp"
-#include "linear/quad.hpp"
+#include "linear/block_lu.hpp"
+#include "linear/dense_panels.hpp"
 
 #include "base/room.hpp"
 
@@ -8,99 +8,102 @@
 
 namespace grainlaw {
 
-using namespace quad;
 using dense::Pivot;
 using dense::Shape;
 
 namespace {
 
-using View = BlockLU::View;
-using Front = BlockLU::Front;
+using View = Elimination::View;
+using Front = Elimination::Front;
 
-// A node's unknowns: of one vector, in the lanes; what the last lane holds is never read.
+// A node's unknowns: of one vector, in the lanes; what lanes beyond hold is never read.
 template <std::size_t b>
 struct OneVector {
+  static constexpr std::size_t width = rows_of(b);
   static constexpr std::size_t size = width;
   static constexpr std::size_t backward_pivots = 4;  // at once: sixteen registers hold their sums
-  Lanes value;
+  simd::Lanes<width> value;
 
   struct Spread {
     double by[b];
   };
-  GRAINLAW_INLINE static OneVector load(const double* from) { return {quad::load(from)}; }
-  GRAINLAW_INLINE void store(double* to) const { quad::store(to, value); }
+  GRAINLAW_INLINE static OneVector load(const double* from) { return {simd::load<width>(from)}; }
+  GRAINLAW_INLINE void store(double* to) const { simd::store(to, value); }
   GRAINLAW_INLINE Spread spread() const {
     Spread result;
-#pragma GCC unroll 3
+#pragma GCC unroll 6
     for (std::size_t c = 0; c < b; ++c) result.by[c] = value[c];
     return result;
   }
   GRAINLAW_INLINE void add(const OneVector& other) { value += other.value; }
   // -= a x and = a x; a is a block by columns, `stride` apart.
   GRAINLAW_INLINE void subtract(const double* a, std::size_t stride, const Spread& x) {
-#pragma GCC unroll 3
-    for (std::size_t c = 0; c < b; ++c) value -= quad::load(a + c * stride) * x.by[c];
+#pragma GCC unroll 6
+    for (std::size_t c = 0; c < b; ++c) value -= simd::load<width>(a + c * stride) * x.by[c];
   }
   // The entries of a^-1 x, of a pivot; x lies at `from`.
   GRAINLAW_INLINE static OneVector divide(const double* from, const double* a, std::size_t stride,
                                           const Pivot& pivot) {
     OneVector result{};
     if (!pivot.triangular) {
-      result.value = quad::load(a) * from[0];
-#pragma GCC unroll 3
-      for (std::size_t c = 1; c < b; ++c) result.value += quad::load(a + c * stride) * from[c];
+      result.value = simd::load<width>(a) * from[0];
+#pragma GCC unroll 6
+      for (std::size_t c = 1; c < b; ++c)
+        result.value += simd::load<width>(a + c * stride) * from[c];
       return result;
     }
     double x[b];
     dense::divide_column<b>(x, a, stride, pivot, [&](std::size_t c) { return from[c]; });
-#pragma GCC unroll 3
+#pragma GCC unroll 6
     for (std::size_t c = 0; c < b; ++c) result.value[c] = x[c];
     return result;
   }
 };
 
-// Of four vectors, one in every lane, a register for every unknown.
+// Of several vectors, one in every lane, a register for every unknown.
 template <std::size_t b>
-struct FourVectors {
+struct Several {
+  static constexpr std::size_t width = rows_of(b);
   static constexpr std::size_t size = b * width;
   static constexpr std::size_t backward_pivots = 2;
-  using Spread = FourVectors;
-  Lanes value[b];
+  using Spread = Several;
+  simd::Lanes<width> value[b];
 
-  GRAINLAW_INLINE static FourVectors load(const double* from) {
-    FourVectors result;
-#pragma GCC unroll 3
-    for (std::size_t c = 0; c < b; ++c) result.value[c] = quad::load(from + c * width);
+  GRAINLAW_INLINE static Several load(const double* from) {
+    Several result;
+#pragma GCC unroll 6
+    for (std::size_t c = 0; c < b; ++c) result.value[c] = simd::load<width>(from + c * width);
     return result;
   }
   GRAINLAW_INLINE void store(double* to) const {
-#pragma GCC unroll 3
-    for (std::size_t c = 0; c < b; ++c) quad::store(to + c * width, value[c]);
+#pragma GCC unroll 6
+    for (std::size_t c = 0; c < b; ++c) simd::store(to + c * width, value[c]);
   }
   GRAINLAW_INLINE const Spread& spread() const { return *this; }
-  GRAINLAW_INLINE void add(const FourVectors& other) {
-#pragma GCC unroll 3
+  GRAINLAW_INLINE void add(const Several& other) {
+#pragma GCC unroll 6
     for (std::size_t c = 0; c < b; ++c) value[c] += other.value[c];
   }
   GRAINLAW_INLINE void subtract(const double* a, std::size_t stride, const Spread& x) {
-#pragma GCC unroll 3
+#pragma GCC unroll 6
     for (std::size_t c = 0; c < b; ++c) {
-#pragma GCC unroll 3
+#pragma GCC unroll 6
       for (std::size_t r = 0; r < b; ++r) value[r] -= a[c * stride + r] * x.value[c];
     }
   }
-  GRAINLAW_INLINE static FourVectors divide(const double* from, const double* a, std::size_t stride,
-                                            const Pivot& pivot) {
-    FourVectors result;
-    const auto take = [&](std::size_t c) GRAINLAW_INLINED { return quad::load(from + c * width); };
+  GRAINLAW_INLINE static Several divide(const double* from, const double* a, std::size_t stride,
+                                        const Pivot& pivot) {
+    Several result;
+    const auto take = [&](std::size_t c)
+                          GRAINLAW_INLINED { return simd::load<width>(from + c * width); };
     if (pivot.triangular) {
       dense::divide_column<b>(result.value, a, stride, pivot, take);
       return result;
     }
-#pragma GCC unroll 3
+#pragma GCC unroll 6
     for (std::size_t r = 0; r < b; ++r) {
       result.value[r] = a[r] * take(0);
-#pragma GCC unroll 3
+#pragma GCC unroll 6
       for (std::size_t c = 1; c < b; ++c) result.value[r] += a[c * stride + r] * take(c);
     }
     return result;
@@ -208,39 +211,60 @@ GRAINLAW_INLINE void substitute(const View& f, double* y) {
   for (std::size_t k = f.fronts.size(); k-- > 0;) backward<b, Unknowns>(f, f.fronts[k], y);
 }
 
-GRAINLAW_CLONES void substitute_3(const View& f, double* y) { substitute<3, OneVector<3>>(f, y); }
 GRAINLAW_CLONES void substitute_2(const View& f, double* y) { substitute<2, OneVector<2>>(f, y); }
-GRAINLAW_CLONES void substitute_four_3(const View& f, double* y) {
-  substitute<3, FourVectors<3>>(f, y);
+GRAINLAW_CLONES void substitute_3(const View& f, double* y) { substitute<3, OneVector<3>>(f, y); }
+GRAINLAW_CLONES void substitute_6(const View& f, double* y) { substitute<6, OneVector<6>>(f, y); }
+GRAINLAW_CLONES void substitute_several_2(const View& f, double* y) {
+  substitute<2, Several<2>>(f, y);
 }
-GRAINLAW_CLONES void substitute_four_2(const View& f, double* y) {
-  substitute<2, FourVectors<2>>(f, y);
+GRAINLAW_CLONES void substitute_several_3(const View& f, double* y) {
+  substitute<3, Several<3>>(f, y);
+}
+GRAINLAW_CLONES void substitute_several_6(const View& f, double* y) {
+  substitute<6, Several<6>>(f, y);
 }
 
 }  // namespace
 
-void BlockLU::solve(std::span<Quad> x) {
+template <std::size_t width>
+void BlockLU<width>::solve(std::span<Column> x) {
+  const View view = elimination_.view();
   resize_with_room(work_, x.size());
-  for (std::size_t j = 0; j < nodes_; ++j) work_[j] = x[static_cast<std::size_t>(node_[j])];
+  for (std::size_t j = 0; j < nodes_; ++j) work_[j] = x[static_cast<std::size_t>(view.node[j])];
   double* y = work_.data()->lane;
-  components_ == 3 ? substitute_3(view(), y) : substitute_2(view(), y);
+  if constexpr (width == 8) {
+    substitute_6(view, y);
+  } else {
+    components_ == 3 ? substitute_3(view, y) : substitute_2(view, y);
+  }
   for (std::size_t j = 0; j < nodes_; ++j) {
-    work_[j].lane[3] = 0;
-    x[static_cast<std::size_t>(node_[j])] = work_[j];
+    for (std::size_t r = components_; r < width; ++r) work_[j].lane[r] = 0;
+    x[static_cast<std::size_t>(view.node[j])] = work_[j];
   }
 }
 
-void BlockLU::solve_four(std::span<Quad> x) {
-  const auto b = static_cast<std::size_t>(components_);
-  resize_with_room(work_, x.size());
+template <std::size_t width>
+void BlockLU<width>::solve_together(std::span<Together<width>> x) {
+  const View view = elimination_.view();
+  const std::size_t b = components_;
+  resize_with_room(work_together_, x.size());
   for (std::size_t j = 0; j < nodes_; ++j) {
-    std::copy_n(&x[static_cast<std::size_t>(node_[j]) * b], b, &work_[j * b]);
+    std::copy_n(&x[static_cast<std::size_t>(view.node[j]) * b], b, &work_together_[j * b]);
   }
-  double* y = work_.data()->lane;
-  components_ == 3 ? substitute_four_3(view(), y) : substitute_four_2(view(), y);
+  double* y = work_together_.data()->lane;
+  if constexpr (width == 8) {
+    substitute_several_6(view, y);
+  } else {
+    components_ == 3 ? substitute_several_3(view, y) : substitute_several_2(view, y);
+  }
   for (std::size_t j = 0; j < nodes_; ++j) {
-    std::copy_n(&work_[j * b], b, &x[static_cast<std::size_t>(node_[j]) * b]);
+    std::copy_n(&work_together_[j * b], b, &x[static_cast<std::size_t>(view.node[j]) * b]);
   }
 }
+
+template void BlockLU<4>::solve(std::span<Column>);
+template void BlockLU<8>::solve(std::span<Column>);
+template void BlockLU<4>::solve_together(std::span<Together<4>>);
+template void BlockLU<8>::solve_together(std::span<Together<8>>);
 
 }  // namespace grainlaw

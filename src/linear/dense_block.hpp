@@ -1,7 +1,7 @@
-// A diagonal block of a front: factorised, and divided by. Its columns are a quad apart here, anything in a panel.
+// A diagonal block of a front: factorised, and divided by. Its columns are rows_of(b) apart here, anything in a panel.
 #pragma once
 
-#include "linear/quad.hpp"
+#include "linear/columns.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace grainlaw::dense {
 // rows in this order, with the upper one's diagonal inverted.
 struct Pivot {
   bool triangular = false;
-  std::int8_t row[3] = {0, 1, 2};
+  std::int8_t row[6] = {0, 1, 2, 3, 4, 5};
 };
 
 // Determinants that are this much smaller than the products they are made of have lost digits, and the
@@ -25,7 +25,7 @@ constexpr double safe_determinant = 1e-2;
 
 // By cofactors; false where that is not safe, and nothing is changed.
 GRAINLAW_INLINE bool invert(double* a, std::integral_constant<std::size_t, 3>) {
-  constexpr std::size_t s = quad::width;
+  constexpr std::size_t s = rows_of(3);
   const double a00 = a[0], a10 = a[1], a20 = a[2];
   const double a01 = a[s], a11 = a[s + 1], a21 = a[s + 2];
   const double a02 = a[2 * s], a12 = a[2 * s + 1], a22 = a[2 * s + 2];
@@ -38,25 +38,25 @@ GRAINLAW_INLINE bool invert(double* a, std::integral_constant<std::size_t, 3>) {
                       std::abs(a02) * (std::abs(a10 * a21) + std::abs(a11 * a20));
   if (!(std::abs(determinant) > safe_determinant * size)) return false;
   const double f = 1 / determinant;
-  quad::store(a, quad::Lanes{c00, c10, c20, 0} * f);
-  quad::store(
+  simd::store(a, simd::Lanes<4>{c00, c10, c20, 0} * f);
+  simd::store(
       a + s,
-      quad::Lanes{a02 * a21 - a01 * a22, a00 * a22 - a02 * a20, a01 * a20 - a00 * a21, 0} * f);
-  quad::store(
+      simd::Lanes<4>{a02 * a21 - a01 * a22, a00 * a22 - a02 * a20, a01 * a20 - a00 * a21, 0} * f);
+  simd::store(
       a + 2 * s,
-      quad::Lanes{a01 * a12 - a02 * a11, a02 * a10 - a00 * a12, a00 * a11 - a01 * a10, 0} * f);
+      simd::Lanes<4>{a01 * a12 - a02 * a11, a02 * a10 - a00 * a12, a00 * a11 - a01 * a10, 0} * f);
   return true;
 }
 
 GRAINLAW_INLINE bool invert(double* a, std::integral_constant<std::size_t, 2>) {
-  constexpr std::size_t s = quad::width;
+  constexpr std::size_t s = rows_of(2);
   const double a00 = a[0], a10 = a[1], a01 = a[s], a11 = a[s + 1];
   const double determinant = a00 * a11 - a01 * a10;
   const double size = std::abs(a00 * a11) + std::abs(a01 * a10);
   if (!(std::abs(determinant) > safe_determinant * size)) return false;
   const double f = 1 / determinant;
-  quad::store(a, quad::Lanes{a11, -a10, 0, 0} * f);
-  quad::store(a + s, quad::Lanes{-a01, a00, 0, 0} * f);
+  simd::store(a, simd::Lanes<4>{a11, -a10, 0, 0} * f);
+  simd::store(a + s, simd::Lanes<4>{-a01, a00, 0, 0} * f);
   return true;
 }
 
@@ -64,7 +64,7 @@ GRAINLAW_INLINE bool invert(double* a, std::integral_constant<std::size_t, 2>) {
 // different units. False when singular.
 template <std::size_t b>
 inline bool triangulate(double* a, Pivot& pivot) {
-  constexpr std::size_t s = quad::width;
+  constexpr std::size_t s = rows_of(b);
   double largest[b] = {};
   for (std::size_t r = 0; r < b; ++r) {
     for (std::size_t c = 0; c < b; ++c) largest[r] = std::max(largest[r], std::abs(a[c * s + r]));
@@ -93,7 +93,11 @@ inline bool triangulate(double* a, Pivot& pivot) {
 // In place. False when singular.
 template <std::size_t b>
 GRAINLAW_INLINE bool factorise(double* a, Pivot& pivot) {
-  pivot.triangular = !invert(a, std::integral_constant<std::size_t, b>{});
+  if constexpr (b <= 3) {
+    pivot.triangular = !invert(a, std::integral_constant<std::size_t, b>{});
+  } else {
+    pivot.triangular = true;
+  }
   return !pivot.triangular || triangulate<b>(a, pivot);
 }
 
@@ -102,25 +106,25 @@ template <std::size_t b, class Value, class Put>
 GRAINLAW_INLINE void divide_rows(Value (&x)[b], const double* a, std::size_t stride,
                                  const Pivot& pivot, const Put& put) {
   if (!pivot.triangular) {
-#pragma GCC unroll 3
+#pragma GCC unroll 6
     for (std::size_t c = 0; c < b; ++c) {
       Value product = x[0] * a[c * stride];
-#pragma GCC unroll 3
+#pragma GCC unroll 6
       for (std::size_t k = 1; k < b; ++k) product += x[k] * a[c * stride + k];
       put(c, product);
     }
     return;
   }
-#pragma GCC unroll 3
+#pragma GCC unroll 6
   for (std::size_t c = 0; c < b; ++c) {
-#pragma GCC unroll 3
+#pragma GCC unroll 6
     for (std::size_t k = 0; k < c; ++k) x[c] -= x[k] * a[c * stride + k];
     x[c] *= a[c * stride + c];
   }
-#pragma GCC unroll 3
+#pragma GCC unroll 6
   for (std::size_t done = 0; done < b; ++done) {
     const std::size_t c = b - 1 - done;
-#pragma GCC unroll 3
+#pragma GCC unroll 6
     for (std::size_t k = c + 1; k < b; ++k) x[c] -= x[k] * a[c * stride + k];
     put(static_cast<std::size_t>(pivot.row[c]), x[c]);
   }
@@ -130,16 +134,16 @@ GRAINLAW_INLINE void divide_rows(Value (&x)[b], const double* a, std::size_t str
 template <std::size_t b, class Value, class Take>
 GRAINLAW_INLINE void divide_column(Value (&x)[b], const double* a, std::size_t stride,
                                    const Pivot& pivot, const Take& take) {
-#pragma GCC unroll 3
+#pragma GCC unroll 6
   for (std::size_t r = 0; r < b; ++r) {
     x[r] = take(static_cast<std::size_t>(pivot.row[r]));
-#pragma GCC unroll 3
+#pragma GCC unroll 6
     for (std::size_t k = 0; k < r; ++k) x[r] -= a[k * stride + r] * x[k];
   }
-#pragma GCC unroll 3
+#pragma GCC unroll 6
   for (std::size_t done = 0; done < b; ++done) {
     const std::size_t r = b - 1 - done;
-#pragma GCC unroll 3
+#pragma GCC unroll 6
     for (std::size_t k = r + 1; k < b; ++k) x[r] -= a[k * stride + r] * x[k];
     x[r] *= a[r * stride + r];
   }

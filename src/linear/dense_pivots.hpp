@@ -1,9 +1,9 @@
 // The dense factorisation of a front's pivots, a diagonal block at a time, and solves with it.
 #pragma once
 
+#include "linear/columns.hpp"
 #include "linear/dense_block.hpp"
 #include "linear/dense_panels.hpp"
-#include "linear/quad.hpp"
 
 #include <cstring>
 
@@ -29,37 +29,37 @@ GRAINLAW_INLINE bool factorise_diagonal(const Matrix& a, std::size_t nodes, std:
   using V = simd::Lanes<width>;
   const std::size_t columns = b * nodes;
   for (std::size_t p = 0; p < columns; p += b) {
-    alignas(32) double pivot[b * quad::width] = {};
+    constexpr std::size_t apart = rows_of(b);
+    alignas(64) double pivot[b * apart] = {};
     for (std::size_t c = 0; c < b; ++c) {
-      for (std::size_t r = 0; r < b; ++r) pivot[c * quad::width + r] = a.column(p + c)[p + r];
+      for (std::size_t r = 0; r < b; ++r) pivot[c * apart + r] = a.column(p + c)[p + r];
     }
     const Pivot& how = *kept;
     if (!factorise<b>(pivot, *kept++)) return false;
     for (std::size_t r = 0; r < rows; r += width) {
       V x[b];
-#pragma GCC unroll 3
+#pragma GCC unroll 6
       for (std::size_t c = 0; c < b; ++c) x[c] = load<width>(a.column(p + c) + r);
       const Bits<width> found = first_lanes<width>(std::max(r, p + b) - r);
-      divide_rows<b>(x, pivot, quad::width, how,
-                     [&](std::size_t c, const V& value) GRAINLAW_INLINED {
-                       double* const column = a.column(p + c) + r;
-                       const auto below = (Bits<width>)value & ~found;
-                       store(lower.column(p + c) + r, (V)below);
-                       store(column, (V)(below | ((Bits<width>)load<width>(column) & found)));
-                     });
+      divide_rows<b>(x, pivot, apart, how, [&](std::size_t c, const V& value) GRAINLAW_INLINED {
+        double* const column = a.column(p + c) + r;
+        const auto below = (Bits<width>)value & ~found;
+        store(lower.column(p + c) + r, (V)below);
+        store(column, (V)(below | ((Bits<width>)load<width>(column) & found)));
+      });
     }
     for (std::size_t c = 0; c < b; ++c) {
-      for (std::size_t r = 0; r < b; ++r) a.column(p + c)[p + r] = pivot[c * quad::width + r];
+      for (std::size_t r = 0; r < b; ++r) a.column(p + c)[p + r] = pivot[c * apart + r];
     }
     const std::size_t first = p + b < columns ? (p + b) / width * width : rows;
     for (std::size_t c = p + b; c < columns; ++c) {
       const double* const x = a.column(c) + p;
       double factor[b];
-#pragma GCC unroll 3
+#pragma GCC unroll 6
       for (std::size_t k = 0; k < b; ++k) factor[k] = x[k];
       for (std::size_t r = first; r < rows; r += width) {
         V sum = load<width>(a.column(c) + r);
-#pragma GCC unroll 3
+#pragma GCC unroll 6
         for (std::size_t k = 0; k < b; ++k) sum -= load<width>(lower.column(p + k) + r) * factor[k];
         store(a.column(c) + r, sum);
       }
@@ -90,7 +90,7 @@ GRAINLAW_INLINE void solve_lower_tile(const Matrix& x, const Matrix& lower, std:
       }
     }
     if (p + b >= pivots) break;
-#pragma GCC unroll 3
+#pragma GCC unroll 6
     for (std::size_t k = p; k < p + b; ++k) {
       double right[count];
 #pragma GCC unroll 4
@@ -135,7 +135,7 @@ GRAINLAW_INLINE void solve_upper(const Matrix& x, const Matrix& upper, const Piv
     const Matrix at = x.from(r, 0);
     for (std::size_t p = 0; p < pivots; p += b) {
       V sum[b][vectors];
-#pragma GCC unroll 3
+#pragma GCC unroll 6
       for (std::size_t c = 0; c < b; ++c) {
 #pragma GCC unroll 4
         for (std::size_t v = 0; v < vectors; ++v) {
@@ -146,14 +146,14 @@ GRAINLAW_INLINE void solve_upper(const Matrix& x, const Matrix& upper, const Piv
 #pragma GCC unroll 4
         for (std::size_t v = 0; v < vectors; ++v) {
           const V left = load<width>(at.column(k) + width * v);
-#pragma GCC unroll 3
+#pragma GCC unroll 6
           for (std::size_t c = 0; c < b; ++c) sum[c][v] -= left * upper.column(p + c)[k];
         }
       }
 #pragma GCC unroll 4
       for (std::size_t v = 0; v < vectors; ++v) {
         V right[b];
-#pragma GCC unroll 3
+#pragma GCC unroll 6
         for (std::size_t c = 0; c < b; ++c) right[c] = sum[c][v];
         divide_rows<b>(right, upper.column(p) + p, upper.stride, kept[p / b],
                        [&](std::size_t c, const V& value)

@@ -11,100 +11,99 @@ namespace grainlaw {
 
 namespace {
 
-using Key = std::tuple<std::int32_t, std::int32_t, std::array<std::int16_t, 2>>;
+template <int D>
+using Key =
+    std::tuple<std::int32_t, std::int32_t, std::array<std::int16_t, static_cast<std::size_t>(D)>>;
 
-std::vector<NeighbourPair> near_pairs(const Material& material, double gap) {
+template <int D>
+std::vector<NeighbourPair<D>> near_pairs(const Material<D>& material, double gap) {
   const auto& packing = material.packing;
-  NeighbourSearch search;
-  std::vector<NeighbourPair> pairs;
-  search.find(packing.size(), packing.position.data(), packing.radius.data(),
-              packing.frame ? nullptr : packing.cell.data(), gap, pairs);
+  std::vector<NeighbourPair<D>> pairs;
+  NeighbourSearch<D>().find(packing.size(), packing.position.data(), packing.radius.data(),
+                            packing.frame ? nullptr : packing.cell.data(), gap, pairs);
   return pairs;
 }
 
-// R_i + R_j - |x_j - x_i + H shift| in the packing as given.
-template <class Pair>
-double given_overlap(const Packing& packing, const Pair& pair) {
-  const auto i = static_cast<std::size_t>(pair.i);
-  const auto j = static_cast<std::size_t>(pair.j);
-  const auto n = packing.size();
-  const auto& h = packing.cell;
-  const double s0 = packing.frame ? 0 : pair.shift[0];
-  const double s1 = packing.frame ? 0 : pair.shift[1];
-  return packing.radius[i] + packing.radius[j] -
-         std::hypot(packing.position[j] - packing.position[i] + h[0] * s0 + h[1] * s1,
-                    packing.position[n + j] - packing.position[n + i] + h[2] * s0 + h[3] * s1);
-}
+// What a contact has beside its history.
+template <int D>
+struct Extra {
+  ContactHistory<D> history;
+  std::array<double, Dimension<D>::spins> moment{};
+  double gap = 0;
+};
 
-double mean_radius(const Packing& packing) {
-  double sum = 0;
-  for (const double r : packing.radius) sum += r / static_cast<double>(packing.size());
-  return sum;
-}
+std::array<double, 1> given_moment(const InitialContact& contact) { return {contact.moment}; }
 
 }  // namespace
 
-void add_bonds_and_moments(const Material& material, Configuration& given) {
+template <int D>
+void add_bonds_and_moments(const Material<D>& material, Configuration<D>& given) {
   const auto& packing = material.packing;
   const auto& law = material.law;
   const bool named = packing.names_bonds;
-  struct Extra {
-    double moment = 0, gap = 0;
-  };
-  std::map<Key, std::pair<ContactHistory, Extra>> contacts;
-  for (const auto& c : given.contacts) contacts[{c.i, c.j, c.shift}].first = c;
+  std::map<Key<D>, Extra<D>> contacts;
+  for (const auto& c : given.contacts) contacts[key_of(c)].history = c;
   if (law.bonds() && !named) {
-    constexpr double touch = 1e-9;  // of the radius: discs that rounding holds apart touch too
-    const double reach = std::max(law.bond.gap, touch * mean_radius(packing));
-    for (const auto& pair : near_pairs(material, reach)) {
-      auto& [contact, extra] = contacts[{pair.i, pair.j, pair.shift}];
-      contact.i = pair.i;
-      contact.j = pair.j;
-      contact.shift = pair.shift;
-      contact.bonded = true;
-      extra.gap = std::max(-given_overlap(packing, pair), 0.0);
+    constexpr double touch = 1e-9;  // of the radius: particles that rounding holds apart touch too
+    const double reach = std::max(law.bond.gap, touch * mean_radius(packing.radius));
+    for (const auto& pair : near_pairs<D>(material, reach)) {
+      auto& contact = contacts[key_of(pair)];
+      contact.history.i = pair.i;
+      contact.history.j = pair.j;
+      contact.history.shift = pair.shift;
+      contact.history.bonded = true;
+      contact.gap = std::max(-given_overlap<D>(packing, pair), 0.0);
     }
   }
   for (const auto& c : packing.contacts) {
-    const Key key{
-        c.i, c.j, {static_cast<std::int16_t>(c.shift[0]), static_cast<std::int16_t>(c.shift[1])}};
+    Key<D> key{c.i, c.j, {}};
+    for (std::size_t k = 0; k < D; ++k) {
+      std::get<2>(key)[k] = static_cast<std::int16_t>(c.shift[k]);
+    }
     const auto found = contacts.find(key);
     if (found == contacts.end()) continue;  // named from the other side: files never are
-    auto& [contact, extra] = found->second;
-    extra.moment = c.moment;
+    auto& contact = found->second;
+    contact.moment = given_moment(c);
     if (!named || !law.bonds()) continue;
-    contact.bonded = c.bonded;
-    extra.gap = c.bond_gap;
+    contact.history.bonded = c.bonded;
+    contact.gap = c.bond_gap;
   }
+  const auto has_gap = [](const auto& c) { return c.second.gap > 0; };
   const bool gaps =
-      law.bonds() &&
-      (law.bond.gap > 0 || std::any_of(contacts.begin(), contacts.end(),
-                                       [](const auto& c) { return c.second.second.gap > 0; }));
+      law.bonds() && (law.bond.gap > 0 || std::any_of(contacts.begin(), contacts.end(), has_gap));
   given.contacts.clear();
   for (const auto& [key, contact] : contacts) {
-    given.contacts.push_back(contact.first);
-    if (law.moments()) given.moments.push_back(contact.second.moment);
-    if (gaps) given.bond_gaps.push_back(contact.second.gap);
+    given.contacts.push_back(contact.history);
+    if (law.moments()) {
+      given.moments.insert(given.moments.end(), contact.moment.begin(), contact.moment.end());
+    }
+    if (gaps) given.bond_gaps.push_back(contact.gap);
   }
 }
 
-double mean_overlap(const Material& material) {
+template <int D>
+double mean_overlap(const Material<D>& material) {
   const auto& radius = material.packing.radius;
   double sum = 0;
   double number = 0;
-  for (const auto& pair : near_pairs(material, 0)) {
+  for (const auto& pair : near_pairs<D>(material, 0)) {
     const double r = ContactLaw::common_radius(radius[static_cast<std::size_t>(pair.i)],
                                                radius[static_cast<std::size_t>(pair.j)]);
-    sum += given_overlap(material.packing, pair) / r;
+    sum += given_overlap<D>(material.packing, pair) / r;
     ++number;
   }
   constexpr double rounding = 1e-12;
   return sum > rounding * number ? sum / number : ContactLaw{}.typical_overlap;
 }
 
-double unloaded_force_scale(const Material& material) {
-  const double r = mean_radius(material.packing);
+template <int D>
+double unloaded_force_scale(const Material<D>& material) {
+  const double r = mean_radius(material.packing.radius);
   return 1e-3 * r * material.law.stiffness(r, r);
 }
+
+template void add_bonds_and_moments(const Material<2>&, Configuration<2>&);
+template double mean_overlap(const Material<2>&);
+template double unloaded_force_scale(const Material<2>&);
 
 }  // namespace grainlaw

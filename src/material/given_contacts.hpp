@@ -3,19 +3,39 @@
 
 #include "increment/configuration.hpp"
 #include "material/material.hpp"
+#include "packing/geometry.hpp"
 
 namespace grainlaw {
 
+// x_j - x_i + H shift in the packing as given [m].
+template <int D, class Pair>
+Vec<D> given_branch(const Packing& packing, const Pair& pair) {
+  const Tensor<D> cell = packing.frame ? Tensor<D>{} : tensor_of<D>(packing.cell);
+  return branch<D>(packing.position.data(), packing.size(), static_cast<std::size_t>(pair.i),
+                   static_cast<std::size_t>(pair.j), cell, vec_of<D>(pair.shift));
+}
+
+// R_i + R_j - its length [m].
+template <int D, class Pair>
+double given_overlap(const Packing& packing, const Pair& pair) {
+  return packing.radius[static_cast<std::size_t>(pair.i)] +
+         packing.radius[static_cast<std::size_t>(pair.j)] -
+         length<D>(given_branch<D>(packing, pair));
+}
+
 // Bond what touches, or is nearer than the gap, unless the packing names its bonds; take over
 // moments. given: contacts of the packing in the order of neighbours.
-void add_bonds_and_moments(const Material& material, Configuration& given);
+template <int D>
+void add_bonds_and_moments(const Material<D>& material, Configuration<D>& given);
 
 // Mean overlap of the touching discs over their common radius; 1e-3 when none touch by more than
 // rounding [-].
-double mean_overlap(const Material& material);
+template <int D>
+double mean_overlap(const Material<D>& material);
 
 // What residuals are relative to where there is no force at F = I to compare with: kn times a
 // thousandth of the mean radius [N].
-double unloaded_force_scale(const Material& material);
+template <int D>
+double unloaded_force_scale(const Material<D>& material);
 
 }  // namespace grainlaw

@@ -16,10 +16,10 @@ namespace {
 constexpr double first_step = 0.1;
 constexpr double least_step = 1e-3;
 
-std::array<double, 4> between(const std::array<double, 9>& from, const BoundarySpace& space,
-                              double share) {
-  std::array<double, 4> stress{};
-  for (std::size_t k = 0; k < 4; ++k) {
+template <int D>
+Tensor<D> between(const Tensor<D>& from, const BoundarySpace<D>& space, double share) {
+  Tensor<D> stress{};
+  for (std::size_t k = 0; k < squared<D>; ++k) {
     if (space.found[k]) stress[k] = from[k] + share * (space.stress[k] - from[k]);
   }
   return stress;
@@ -27,29 +27,30 @@ std::array<double, 4> between(const std::array<double, 9>& from, const BoundaryS
 
 }  // namespace
 
-void load_to_stress(const BoundarySpace& space, const Request& request, Workspace& workspace,
-                    Configuration& at) {
-  BoundarySpace loading = space;
+template <int D>
+void load_to_stress(const BoundarySpace<D>& space, const Request<D>& request,
+                    Workspace<D>& workspace, Configuration<D>& at) {
+  BoundarySpace<D> loading = space;
   loading.options.method = BoundaryMethod::direct;
-  Problem problem = *request.problem;
+  Problem<D> problem = *request.problem;
   problem.space = &loading;
   const auto from = at.stress;
   double share = 0;
   double step = first_step;
   while (share < 1) {
     const double next = std::min(1.0, share + step);
-    loading.stress = between(from, space, next);
-    Request part = request;
+    loading.stress = between<D>(from, space, next);
+    Request<D> part = request;
     part.problem = &problem;
     part.from = &at;
-    std::copy_n(at.deformation.begin(), 4, part.deformation.begin());
+    part.deformation = at.deformation;
     const auto outcome = solve(part, workspace);
     if (outcome.status == GRAINLAW_OK && workspace.increment.bears()) {
       const auto stress = piola_stress(workspace.increment);
       workspace.increment.advance_history();
-      Configuration reached;
+      Configuration<D> reached;
       workspace.increment.export_to(at, reached);
-      std::copy_n(stress.begin(), 4, reached.stress.begin());
+      reached.stress = stress;
       reached.dissipated = reached.broken_bonds = 0;
       at = std::move(reached);
       share = next;
@@ -59,11 +60,11 @@ void load_to_stress(const BoundarySpace& space, const Request& request, Workspac
     step *= 0.5;
     if (step >= least_step) continue;
     std::string prescribed;
-    for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t k = 0; k < squared<D>; ++k) {
       if (!space.found[k]) continue;
       prescribed +=
           fmt::format("{}P{}{} = {:.6g} Pa (reached {:.6g} Pa)", prescribed.empty() ? "" : ", ",
-                      k / 2 + 1, k % 2 + 1, space.stress[k], at.stress[k]);
+                      k / D + 1, k % D + 1, space.stress[k], at.stress[k]);
     }
     const auto status = outcome.status == GRAINLAW_OK ? GRAINLAW_CONTACTS_LOST : outcome.status;
     throw Error(GRAINLAW_NOT_CONVERGED,
@@ -71,5 +72,8 @@ void load_to_stress(const BoundarySpace& space, const Request& request, Workspac
                             grainlaw_status_text(status)));
   }
 }
+
+template void load_to_stress(const BoundarySpace<2>&, const Request<2>&, Workspace<2>&,
+                             Configuration<2>&);
 
 }  // namespace grainlaw

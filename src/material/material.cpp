@@ -8,6 +8,7 @@
 #include "homogenise/stress.hpp"
 #include "material/given_contacts.hpp"
 #include "material/initial_stress.hpp"
+#include "packing/geometry.hpp"
 #include "packing/row_order.hpp"
 
 #include <fmt/format.h>
@@ -15,68 +16,62 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 namespace grainlaw {
 
 namespace {
 
+// Seen from the other side branch, normal, tangent and force all turn round; of discs the component
+// along the tangent stays.
+bool is_seen_from_j(const InitialContact& contact) {
+  constexpr std::array<int, 3> none{};
+  return contact.i > contact.j || (contact.i == contact.j && contact.shift < none);
+}
+
+std::array<double, 1> given_force(const Vec<2>& branch, const InitialContact& contact) {
+  return {(-branch[1] * contact.tangential_force[0] + branch[0] * contact.tangential_force[1]) /
+          length<2>(branch)};
+}
+
 // The packing as it is given, in the order in which neighbours are listed.
-Configuration given_configuration(const Material& material) {
+template <int D>
+Configuration<D> given_configuration(const Material<D>& material) {
   const auto& packing = material.packing;
   const auto n = packing.size();
-  Configuration given;
-  given.deformation = {1, 0, 0, 1};
+  Configuration<D> given;
+  given.deformation = identity<D>();
   given.coordinates = packing.position;
-  if (material.law.rotating()) given.coordinates.resize(3 * n, 0.0);
+  if (material.law.rotating()) given.coordinates.resize(Dimension<D>::unknowns * n, 0.0);
   for (const auto& contact : packing.contacts) {
-    ContactHistory history;
-    // Seen from the other side branch, normal, tangent and force all turn round; the component
-    // stays.
-    const bool turn = contact.i > contact.j || (contact.i == contact.j && contact.shift[0] < 0) ||
-                      (contact.i == contact.j && contact.shift[0] == 0 && contact.shift[1] < 0);
+    ContactHistory<D> history;
+    const bool turn = is_seen_from_j(contact);
     history.i = turn ? contact.j : contact.i;
     history.j = turn ? contact.i : contact.j;
-    for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t k = 0; k < D; ++k) {
       history.shift[k] = static_cast<std::int16_t>(turn ? -contact.shift[k] : contact.shift[k]);
     }
-    const auto i = static_cast<std::size_t>(contact.i);
-    const auto j = static_cast<std::size_t>(contact.j);
-    const auto& h = packing.cell;
-    const double s0 = packing.frame ? 0 : contact.shift[0];
-    const double s1 = packing.frame ? 0 : contact.shift[1];
-    const double lx = packing.position[j] - packing.position[i] + h[0] * s0 + h[1] * s1;
-    const double ly = packing.position[n + j] - packing.position[n + i] + h[2] * s0 + h[3] * s1;
-    const double d = std::hypot(lx, ly);
-    history.tangential_force =
-        (-ly * contact.tangential_force[0] + lx * contact.tangential_force[1]) / d;
+    history.tangential_force = given_force(given_branch<D>(packing, contact), contact);
     given.contacts.push_back(history);
   }
-  std::sort(given.contacts.begin(), given.contacts.end(), [](const auto& a, const auto& b) {
-    return std::tie(a.i, a.j, a.shift) < std::tie(b.i, b.j, b.shift);
-  });
+  std::sort(given.contacts.begin(), given.contacts.end(),
+            [](const auto& a, const auto& b) { return key_of(a) < key_of(b); });
   if (material.law.moments() || material.law.bonds()) add_bonds_and_moments(material, given);
   return given;
 }
 
 // Contact forces in the files must be those of this law: a packing made with another stiffness
 // would start from another equilibrium without a word.
-void check_given_forces(const Material& material) {
+template <int D>
+void check_given_forces(const Material<D>& material) {
   constexpr double tolerance = 0.01;
   const auto& packing = material.packing;
-  const auto n = packing.size();
   double given = 0;
   double found = 0;
   for (const auto& contact : packing.contacts) {
     const auto i = static_cast<std::size_t>(contact.i);
     const auto j = static_cast<std::size_t>(contact.j);
-    const auto& h = packing.cell;
-    const double s0 = packing.frame ? 0 : contact.shift[0];
-    const double s1 = packing.frame ? 0 : contact.shift[1];
-    const double lx = packing.position[j] - packing.position[i] + h[0] * s0 + h[1] * s1;
-    const double ly = packing.position[n + j] - packing.position[n + i] + h[2] * s0 + h[3] * s1;
-    const double overlap = packing.radius[i] + packing.radius[j] - std::hypot(lx, ly);
+    const double overlap = given_overlap<D>(packing, contact);
     const bool pulls = contact.bonded && material.law.bonds();
     const auto carried = [&](double value) {
       return pulls ? std::abs(value) : std::max(value, 0.0);
@@ -97,26 +92,23 @@ void check_given_forces(const Material& material) {
 
 // Mean normal force of the packing as it is given: without it, a boundary under uniform stress could
 // begin without any.
-double force_as_given(const Problem& problem, const Configuration& given, Workspace& workspace) {
-  workspace.increment.begin(problem, given, {1, 0, 0, 1});
+template <int D>
+double force_as_given(const Problem<D>& problem, const Configuration<D>& given,
+                      Workspace<D>& workspace) {
+  workspace.increment.begin(problem, given, identity<D>());
   workspace.increment.refresh_masses();
   return workspace.increment.mean_force;
 }
 
-double mean_radius(const Packing& packing) {
-  double sum = 0;
-  for (const double r : packing.radius) sum += r / static_cast<double>(packing.size());
-  return sum;
-}
-
 // What a packing without an equilibrium is like, and what to look at first.
-std::string unsettled(const Increment& increment) {
+template <int D>
+std::string unsettled(const Increment<D>& increment) {
   constexpr double soft = 30, stiff = 1e7;  // kn / p that are hardly meant
   const Packing& packing = *increment.problem->packing;
-  const double r = mean_radius(packing);
+  const double r = mean_radius(packing.radius);
   const double kn = increment.problem->law->stiffness(r, r);
   const auto stress = piola_stress(increment);
-  const double pressure = -0.5 * (stress[0] + stress[3]);
+  const double pressure = -1.0 / D * trace<D>(stress);
   const double ratio = kn / (pressure * packing.thickness);
   std::string text = fmt::format("mean pressure {:.3g} Pa, kn {:.3g} N/m", pressure, kn);
   if (!(pressure > 0)) return text + ": it does not bear; expected a denser packing";
@@ -126,7 +118,8 @@ std::string unsettled(const Increment& increment) {
   return text + "; expected a packing made with these contacts and friction, and its contacts file";
 }
 
-std::uint64_t fingerprint_of(const Material& material) {
+template <int D>
+std::uint64_t fingerprint_of(const Material<D>& material) {
   XXH3_state_t state;
   XXH3_64bits_reset(&state);
   const auto add = [&](const void* data, std::size_t size) {
@@ -169,27 +162,45 @@ std::uint64_t fingerprint_of(const Material& material) {
   return XXH3_64bits_digest(&state);
 }
 
-}  // namespace
-
-std::shared_ptr<const Material> make_material(MaterialDescription description) {
-  if (description.generator) {
-    description.packing = consolidate(*description.generator, description.law);
-  }
-  auto material = std::make_shared<Material>();
-  material->packing = std::move(description.packing);
-  material->law = description.law;
-  material->solver = description.solver;
-  if (description.boundary.type == BoundaryType::periodic_cell) {
-    if (material->packing.frame) {
+// What a frame condition needs: a frame is cut where there is none.
+template <int D>
+void fit_frame(const BoundaryOptions& boundary, Packing& packing) {
+  if (boundary.type == BoundaryType::periodic_cell) {
+    if (packing.frame) {
       throw Error(GRAINLAW_BAD_PACKING,
                   "the packing is a frame; expected a periodic packing, or boundary.type = "
                   "\"frame-p\", \"frame-d\", \"frame-t\" or \"mixed\"");
     }
-  } else if (!material->packing.frame) {
-    material->packing = cut_frame(material->packing);
+  } else if (!packing.frame) {
+    packing = cut_frame(packing);
   }
+}
+
+template <int D>
+BoundarySpace<D> space_of(const Packing& packing, const BoundaryOptions& boundary) {
+  if constexpr (D == 2) {
+    return make_boundary_space(packing, boundary);
+  } else {
+    return make_cell_space<D>(packing, boundary);
+  }
+}
+
+}  // namespace
+
+template <int D>
+std::shared_ptr<const Material<D>> make_material(MaterialDescription description) {
+  if constexpr (D == 2) {
+    if (description.generator) {
+      description.packing = consolidate(*description.generator, description.law);
+    }
+  }
+  auto material = std::make_shared<Material<D>>();
+  material->packing = std::move(description.packing);
+  material->law = description.law;
+  material->solver = description.solver;
+  fit_frame<D>(description.boundary, material->packing);
   material->packing.order = row_order(material->packing);
-  material->space = make_boundary_space(material->packing, description.boundary);
+  material->space = space_of<D>(material->packing, description.boundary);
   material->fingerprint = fingerprint_of(*material);
   check_given_forces(*material);
 
@@ -199,19 +210,19 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
   const bool may_be_free = material->solver.contacts_lost == ContactsLost::stress_free;
   // The servo and the published relaxation start from the same equilibrium as everything else.
   constexpr double tightest_needed = 1e-8;
-  BoundarySpace direct = material->space;
+  BoundarySpace<D> direct = material->space;
   direct.options.method = BoundaryMethod::direct;
   direct.finds_deformation = false;
   direct.found = {};
   SolverOptions options = material->solver;
   options.method = Method::chain;
   const double tolerance = std::min(options.tolerance, tightest_needed);
-  Problem problem{&material->packing, &material->law, &direct,
-                  relative_floor * (may_be_free ? unloaded_force : least_force), tolerance};
-  const Configuration given = given_configuration(*material);
-  Request request{&problem, &options, &given, {1, 0, 0, 1}};
+  Problem<D> problem{&material->packing, &material->law, &direct,
+                     relative_floor * (may_be_free ? unloaded_force : least_force), tolerance};
+  const Configuration<D> given = given_configuration(*material);
+  Request<D> request{&problem, &options, &given, identity<D>()};
   request.tolerance = tolerance;
-  Workspace workspace;
+  Workspace<D> workspace;
   if (direct.averages()) {
     problem.force_floor =
         std::max(problem.force_floor, relative_floor * force_as_given(problem, given, workspace));
@@ -224,15 +235,15 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
                 "solver.contacts_lost = \"stress_free\"");
   }
   if (outcome.status == GRAINLAW_COLLAPSED) {
-    const int let_go = workspace.increment.released_particle();
+    const int released = workspace.increment.released_particle();
     throw Error(
         outcome.status,
         fmt::format("the packing carries no uniform stress at F = I: {}; expected every "
                     "boundary particle under \"T\" to be held by others",
-                    let_go < 0 ? "the forces vanish"
-                               : fmt::format("boundary particle {} (from 0, as written) has "
-                                             "no contact",
-                                             let_go)));
+                    released < 0 ? "the forces vanish"
+                                 : fmt::format("boundary particle {} (from 0, as written) has "
+                                               "no contact",
+                                               released)));
   }
   if (outcome.status != GRAINLAW_OK) {
     throw Error(outcome.status, fmt::format("the packing found no equilibrium at F = I: residual "
@@ -241,10 +252,10 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
                                             workspace.increment.relaxation_steps, request.tolerance,
                                             unsettled(workspace.increment)));
   }
-  const auto stress = free ? std::array<double, 4>{} : piola_stress(workspace.increment);
+  const auto stress = free ? Tensor<D>{} : piola_stress(workspace.increment);
   workspace.increment.advance_history();
   workspace.increment.export_to(given, material->initial);
-  std::copy_n(stress.begin(), 4, material->initial.stress.begin());
+  material->initial.stress = stress;
   material->initial.dissipated = material->initial.broken_bonds = 0;
   material->initial_mean_force =
       free ? unloaded_force : std::max(workspace.increment.mean_force, least_force);
@@ -255,5 +266,7 @@ std::shared_ptr<const Material> make_material(MaterialDescription description) {
   }
   return material;
 }
+
+template std::shared_ptr<const Material<2>> make_material(MaterialDescription);
 
 }  // namespace grainlaw

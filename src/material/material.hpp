@@ -15,17 +15,18 @@
 
 namespace grainlaw {
 
+template <int D>
 struct Material {
   Packing packing;
   ContactLaw law;
-  BoundarySpace space;
+  BoundarySpace<D> space;
   SolverOptions solver;
-  Configuration initial;          // equilibrium at F = I
+  Configuration<D> initial;       // equilibrium at F = I
   double initial_mean_force = 0;  // mean normal contact force there, or what takes its place [N]
   std::uint64_t fingerprint = 0;  // tells saved states of different materials apart
 
   // What the solvers see of it.
-  [[nodiscard]] Problem problem() const {
+  [[nodiscard]] Problem<D> problem() const {
     const double floor =
         solver.force_floor > 0 ? solver.force_floor : relative_floor * initial_mean_force;
     return {&packing, &law, &space, floor, solver.tolerance};
@@ -43,6 +44,7 @@ struct MaterialDescription {
 
 // Cut the frame if the boundary needs one, and bring the packing to equilibrium at F = I.
 // Throws Error (BAD_PACKING, NOT_CONVERGED, CONTACTS_LOST).
-std::shared_ptr<const Material> make_material(MaterialDescription description);
+template <int D>
+std::shared_ptr<const Material<D>> make_material(MaterialDescription description);
 
 }  // namespace grainlaw

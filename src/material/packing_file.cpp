@@ -5,6 +5,7 @@
 #include "frame/frame_rows.hpp"
 #include "io/csv_table.hpp"
 #include "io/text_file.hpp"
+#include "packing/geometry.hpp"
 #include "packing/lattice.hpp"
 #include "packing/neighbours.hpp"
 
@@ -65,7 +66,7 @@ CellFile read_cell(const Source& source, Packing& packing) {
   packing.cell = {h[0], h[1], h[2], h[3]};
   packing.thickness = table.positive(thickness);
   if (table.has(rho)) packing.density = table.positive(rho);
-  const double area = h[0] * h[3] - h[1] * h[2];
+  const double area = determinant<2>(h);
   if (!(area > 0) || !std::isfinite(area))
     table.fail(fmt::format("found a cell of area {} m2, expected det H > 0", area));
   if (const double times = longest_vector(h) / longest_vector(reduced_basis(h).cell);
@@ -79,7 +80,7 @@ CellFile read_cell(const Source& source, Packing& packing) {
     table.require(f00, f11 + 1);
     cell.deformation = {table.real(f00), table.real(f01), table.real(f10), table.real(f11)};
     const auto& f = *cell.deformation;
-    if (const double det = f[0] * f[3] - f[1] * f[2]; !(det > 0) || !std::isfinite(det))
+    if (const double det = determinant<2>(f); !(det > 0) || !std::isfinite(det))
       table.fail(fmt::format("found det F = {}, expected a number > 0", det));
   }
   if (table.next()) table.fail("expected one line of numbers after the header, found another");
@@ -119,7 +120,7 @@ template <class Table>
 void check_place(const Table& table, const Packing& packing, double y_first, double y_last) {
   constexpr double furthest_apart = 16000, furthest = 1e8;  // [cells]
   const auto& h = packing.cell;
-  const double area = h[0] * h[3] - h[1] * h[2];
+  const double area = determinant<2>(h.data());
   const auto cells = [&](double dx, double dy) {
     return std::max(std::abs(h[3] * dx - h[1] * dy), std::abs(h[0] * dy - h[2] * dx)) / area;
   };
@@ -172,14 +173,9 @@ Ids read_particles(const Source& source, CellFile& cell, Packing& packing) {
 }
 
 double branch_length(const Packing& packing, const InitialContact& contact) {
-  const auto a = static_cast<std::size_t>(contact.i);
-  const auto b = static_cast<std::size_t>(contact.j);
-  const auto& h = packing.cell;
-  const std::size_t n = packing.size();
-  const double s0 = contact.shift[0];
-  const double s1 = contact.shift[1];
-  return std::hypot(packing.position[b] - packing.position[a] + h[0] * s0 + h[1] * s1,
-                    packing.position[n + b] - packing.position[n + a] + h[2] * s0 + h[3] * s1);
+  return length<2>(branch<2>(
+      packing.position.data(), packing.size(), static_cast<std::size_t>(contact.i),
+      static_cast<std::size_t>(contact.j), tensor_of<2>(packing.cell), vec_of<2>(contact.shift)));
 }
 
 using Key = std::array<int, 4>;
@@ -196,7 +192,7 @@ void check_sizes(const std::string& path, const Ids& ids, const Packing& packing
     throw Error(GRAINLAW_BAD_PACKING, fmt::format("{}: {}; expected all lengths in m", path, what));
   };
   const auto& h = packing.cell;
-  const double area = h[0] * h[3] - h[1] * h[2];
+  const double area = determinant<2>(h.data());
   const double height = area / longest_vector(reduced_basis({h[0], h[1], h[2], h[3]}).cell);
   const auto largest = std::ranges::max_element(packing.radius);
   if (!packing.frame && *largest > height)
@@ -206,11 +202,11 @@ void check_sizes(const std::string& path, const Ids& ids, const Packing& packing
   std::vector<char> in_row(packing.size(), 0);
   if (packing.frame && !packing.frame->reference.empty())
     for (const int p : packing.frame->boundary) in_row[static_cast<std::size_t>(p)] = 1;
-  std::vector<NeighbourPair> pairs;
+  std::vector<NeighbourPair<2>> pairs;
   const std::size_t n = packing.size();
-  NeighbourSearch().find(n, packing.position.data(), packing.radius.data(),
-                         packing.frame ? nullptr : h.data(), 0, pairs);
-  for (const NeighbourPair& pair : pairs) {
+  NeighbourSearch<2>().find(n, packing.position.data(), packing.radius.data(),
+                            packing.frame ? nullptr : h.data(), 0, pairs);
+  for (const NeighbourPair<2>& pair : pairs) {
     const InitialContact contact{pair.i, pair.j, {pair.shift[0], pair.shift[1]}};
     const double length = branch_length(packing, contact);
     const auto i = static_cast<std::size_t>(pair.i);

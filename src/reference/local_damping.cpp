@@ -1,50 +1,55 @@
+#include "reference/local_damping.hpp"
+
 #include "contact/contact_point.hpp"
-#include "equilibrium/options.hpp"
-#include "equilibrium/relaxation.hpp"
+#include "packing/geometry.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace grainlaw {
 
 namespace {
 
-// Masses of discs and their inertia, summed over the particles of a node (component-major).
-void physical_masses(const Increment& increment, std::vector<double>& mass) {
+// Masses of particles and their inertia, summed over the particles of a node (component-major).
+template <int D>
+void physical_masses(const Increment<D>& increment, std::vector<double>& mass) {
   const auto& packing = *increment.problem->packing;
   const auto m = increment.nodes();
   mass.assign(increment.unknowns(), 0.0);
   for (std::size_t p = 0; p < packing.size(); ++p) {
     const auto q = static_cast<std::size_t>(increment.problem->space->node[p]);
     const double r = packing.radius[p];
-    const double disc = packing.density * std::numbers::pi * r * r * packing.thickness;
-    mass[q] += disc;
-    mass[m + q] += disc;
-    if (increment.problem->law->rotating()) mass[2 * m + q] += 0.5 * disc * r * r;
+    const double own = particle_mass<D>(packing.density, r, packing.thickness);
+    for (std::size_t k = 0; k < D; ++k) mass[k * m + q] += own;
+    if (!increment.problem->law->rotating()) continue;
+    constexpr double share = D == 2 ? 0.5 : 0.4;  // of m R^2
+    for (std::size_t k = D; k < Dimension<D>::unknowns; ++k) mass[k * m + q] += share * own * r * r;
   }
 }
 
 // Found components of F as stable with the time step as they are with the relaxation's unit step.
-void mass_of_deformation(const Increment& increment, double dt, std::vector<double>& mass) {
+template <int D>
+void mass_of_deformation(const Increment<D>& increment, double dt, std::vector<double>& mass) {
   for (std::size_t k = increment.node_unknowns(); k < increment.unknowns(); ++k) {
     mass[k] = dt * dt * increment.mass[k];
   }
 }
 
 // Critical step of the lightest particle on its stiffest contact, min sqrt(m / kn) [s].
-double critical_step(const Increment& increment) {
+template <int D>
+double critical_step(const Increment<D>& increment) {
   const auto& packing = *increment.problem->packing;
   double smallest = 1e300;
   for (const double r : packing.radius) {
-    const double disc = packing.density * std::numbers::pi * r * r * packing.thickness;
-    smallest = std::min(smallest, disc / increment.problem->law->stiffness(r, r));
+    const double own = particle_mass<D>(packing.density, r, packing.thickness);
+    smallest = std::min(smallest, own / increment.problem->law->stiffness(r, r));
   }
   return std::sqrt(smallest);
 }
 
 // Ek / Ep of eqs. 11-12, with the elastic part of the tangential displacement.
-double energy_ratio(const Increment& increment, const std::vector<double>& mass,
+template <int D>
+double energy_ratio(const Increment<D>& increment, const std::vector<double>& mass,
                     const std::vector<double>& velocity) {
   double kinetic = 0;
   for (std::size_t k = 0; k < velocity.size(); ++k) {
@@ -57,8 +62,9 @@ double energy_ratio(const Increment& increment, const std::vector<double>& mass,
 
 }  // namespace
 
-bool relax_published(Increment& increment, double tolerance, const PublishedOptions& options,
-                     std::span<const unsigned char> frozen, RelaxationMemory& memory) {
+template <int D>
+bool relax_published(Increment<D>& increment, double tolerance, const PublishedOptions& options,
+                     std::span<const unsigned char> frozen, ReferenceMemory& memory) {
   constexpr long check_interval = 20;
   const auto& space = *increment.problem->space;
   const std::size_t size = increment.unknowns();
@@ -87,7 +93,7 @@ bool relax_published(Increment& increment, double tolerance, const PublishedOpti
       double largest = 0;
       for (std::size_t k = 0; k < size; ++k) {
         if (is_frozen(k)) continue;
-        const bool rotation = k >= 2 * nodes && k < increment.node_unknowns();
+        const bool rotation = k >= D * nodes && k < increment.node_unknowns();
         const double lever = !rotation ? 1.0 : increment.node_radius[k % nodes];
         largest = std::max(largest, std::abs(r[k]) / lever);
       }
@@ -109,12 +115,15 @@ bool relax_published(Increment& increment, double tolerance, const PublishedOpti
         if (is_frozen(k)) v[k] = 0;
       }
     } else if (space.averages()) {
-      increment.hold_average(memory.velocity, mass);
+      if constexpr (D == 2) AverageMasses::hold(space, nodes, memory.velocity, mass);
     }
     increment.move(memory.velocity, dt);
     ++increment.relaxation_steps;
   }
   return false;
 }
+
+template bool relax_published(Increment<2>&, double, const PublishedOptions&,
+                              std::span<const unsigned char>, ReferenceMemory&);
 
 }  // namespace grainlaw

@@ -1,10 +1,10 @@
-#include "equilibrium/strategy.hpp"
+#include "reference/servo.hpp"
 
-#include "contact/frictional.hpp"
+#include "contact/contact_forces.hpp"
+#include "packing/geometry.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace grainlaw {
 
@@ -13,8 +13,8 @@ namespace {
 // Corrections of the boundary between relaxations of the inner particles.
 class Servo {
  public:
-  Servo(Increment& increment, const SolverOptions& options, double tolerance,
-        RelaxationMemory& memory)
+  Servo(Increment<2>& increment, const PublishedOptions& options, double tolerance,
+        ReferenceMemory& memory)
       : increment_(increment),
         space_(*increment.problem->space),
         packing_(*increment.problem->packing),
@@ -27,14 +27,15 @@ class Servo {
     for (std::size_t q = 0; q < nodes_; ++q) {
       if (space_.boundary[q]) smallest_ = std::min(smallest_, increment.node_radius[q]);
     }
-    dt_ = options.published.time_step_ratio *
+    dt_ = options.time_step_ratio *
           std::sqrt(mass_of(smallest_) / increment.problem->law->stiffness(smallest_, smallest_));
     // The relaxations move what is not of the boundary, and what turns freely there.
     memory.frozen.assign(nodes_, 0);
     for (std::size_t q = 0; q < nodes_; ++q) {
       if (!space_.boundary[q]) continue;
-      memory.frozen[q] = space_.boundary[q] == turns_freely ? fixed_translation
-                                                            : fixed_translation | fixed_rotation;
+      memory.frozen[q] = space_.boundary[q] == turns_freely
+                             ? fixed_translation<2>
+                             : fixed_translation<2> | fixed_rotation<2>;
     }
   }
 
@@ -51,7 +52,7 @@ class Servo {
     int without_step = 0;
     for (int correction = 0; correction <= servo_.max_corrections; ++correction) {
       const long steps = increment_.relaxation_steps;
-      if (!relax_published(increment_, tolerance, options_.published, memory_.frozen, memory_)) {
+      if (!relax_published(increment_, tolerance, options_, memory_.frozen, memory_)) {
         return false;
       }
       without_step = increment_.relaxation_steps > steps ? 0 : without_step + 1;
@@ -75,7 +76,7 @@ class Servo {
 
  private:
   [[nodiscard]] double mass_of(double radius) const {
-    return packing_.density * std::numbers::pi * radius * radius * packing_.thickness;
+    return particle_mass<2>(packing_.density, radius, packing_.thickness);
   }
 
   // Of the forces on a boundary particle, eq. 37.
@@ -135,7 +136,7 @@ class Servo {
         sum += std::pow(force / force_scale(radius), 2);
       }
       const bool turned =
-          space_.boundary[q] != turns_freely && (space_.fixed[q] & fixed_rotation) == 0;
+          space_.boundary[q] != turns_freely && (space_.fixed[q] & fixed_rotation<2>) == 0;
       if (!increment_.problem->law->rotating() || !turned) continue;
       const double moment = r[2 * nodes_ + q];
       memory_.correction[2 * nodes_ + q] =
@@ -172,8 +173,8 @@ class Servo {
     const bool published = !found(0) || !found(1);
     if (published) {
       memory_.raw.resize(increment_.forces.size());
-      evaluate_contacts(increment_.records, *increment_.problem->law, increment_.contacts,
-                        memory_.raw);
+      evaluate_contacts<2>(increment_.records, *increment_.problem->law, increment_.contacts,
+                           memory_.raw);
       stress = measured_stress();
     }
     double sum = 0;
@@ -262,13 +263,13 @@ class Servo {
 
   static constexpr char turns_freely = 2;
 
-  Increment& increment_;
-  const BoundarySpace& space_;
+  Increment<2>& increment_;
+  const BoundarySpace<2>& space_;
   const Packing& packing_;
-  const SolverOptions& options_;
+  const PublishedOptions& options_;
   const ServoOptions& servo_;
   double tolerance_;
-  RelaxationMemory& memory_;
+  ReferenceMemory& memory_;
   std::size_t nodes_;
   double smallest_ = 0;  // radius on the boundary [m]
   double dt_ = 0;        // [s]
@@ -278,8 +279,8 @@ class Servo {
 
 }  // namespace
 
-bool solve_servo(Increment& increment, const SolverOptions& options, double tolerance,
-                 RelaxationMemory& memory) {
+bool solve_servo(Increment<2>& increment, const PublishedOptions& options, double tolerance,
+                 ReferenceMemory& memory) {
   return Servo(increment, options, tolerance, memory).run();
 }
 

@@ -4,7 +4,6 @@
 #include "homogenise/measures.hpp"
 #include "io/vtk.hpp"
 
-#include <cmath>
 #include <span>
 #include <vector>
 
@@ -12,67 +11,64 @@ namespace grainlaw {
 
 namespace {
 
-using Matrix = std::array<double, 4>;
-
-Matrix product(const Matrix& a, const Matrix& b) {
-  return {a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3], a[2] * b[0] + a[3] * b[2],
-          a[2] * b[1] + a[3] * b[3]};
-}
-
 // Whether the conditions on a frame that starts from this state would be those of the material:
 // fluctuations that average to nothing, or keep to axes, are relative to where they were counted from.
-bool is_its_own_reference(const BoundarySpace& space, const Matrix& F) {
-  return F == Matrix{1, 0, 0, 1} && !space.averages() && !space.bound_to_axes();
+bool is_its_own_reference(const BoundarySpace<2>& space, const Tensor<2>& F) {
+  return F == identity<2>() && !space.averages() && !space.bound_to_axes();
+}
+
+void carry_frame(const Material<2>& material, const Tensor<2>& F, Packing& packing) {
+  if (!packing.frame || is_its_own_reference(material.space, F)) return;
+  Frame& frame = *packing.frame;
+  if (frame.reference.empty()) frame.reference = material.packing.position;
+  frame.deformation = product<2>(F, frame.deformation);
+  complete_frame(packing);
+}
+
+// With zeros beyond the plane.
+template <std::size_t size, class Numbers>
+auto filled(const Numbers& numbers) {
+  std::array<typename Numbers::value_type, size> result{};
+  for (std::size_t k = 0; k < numbers.size(); ++k) result[k] = numbers[k];
+  return result;
 }
 
 }  // namespace
 
-void write_force_chains(const std::string& path, const Material& material,
-                        const Configuration& at) {
+template <int D>
+void write_force_chains(const std::string& path, const Material<D>& material,
+                        const Configuration<D>& at) {
   const std::size_t n = material.packing.size();
   std::vector<VtkContact> chains;
-  for (const ContactView& c : contact_views(material.problem(), at))
-    chains.push_back({c.i,
-                      c.j,
-                      {c.branch_x, c.branch_y, 0},
-                      c.normal_force,
-                      c.tangential_force,
-                      c.moment,
-                      c.bonded});
+  for (const auto& c : contact_views(material.problem(), at))
+    chains.push_back({c.i, c.j, filled<3>(c.branch), c.normal_force, c.tangential_force[0],
+                      c.moment[0], c.bonded});
   const std::span<const double> coordinates(at.coordinates);
-  write_vtk(path, coordinates.first(2 * n), material.packing.radius, coordinates.subspan(2 * n),
+  write_vtk(path, coordinates.first(D * n), material.packing.radius, coordinates.subspan(D * n),
             chains);
 }
 
-Packing as_packing(const Material& material, const Configuration& at) {
+template <int D>
+Packing as_packing(const Material<D>& material, const Configuration<D>& at) {
   Packing packing = material.packing;
   const auto split = static_cast<std::ptrdiff_t>(packing.position.size());
   packing.position.assign(at.coordinates.begin(), at.coordinates.begin() + split);
-  const auto& H = material.packing.cell;
-  const std::array F{at.deformation[0], at.deformation[1], at.deformation[2], at.deformation[3]};
-  const auto cell = product(F, {H[0], H[1], H[2], H[3]});
-  packing.cell = {cell[0], cell[1], cell[2], cell[3]};
+  packing.cell = filled<9>(product<D>(at.deformation, tensor_of<D>(packing.cell)));
   packing.contacts.clear();
-  for (const ContactView& c : contact_views(material.problem(), at)) {
-    const double per_length = c.tangential_force / std::hypot(c.branch_x, c.branch_y);
-    packing.contacts.push_back({c.i,
-                                c.j,
-                                {c.shift[0], c.shift[1]},
-                                c.normal_force,
-                                {-c.branch_y * per_length, c.branch_x * per_length}});
+  for (const auto& c : contact_views(material.problem(), at)) {
+    packing.contacts.push_back(
+        {c.i, c.j, filled<3>(c.shift), c.normal_force, filled<3>(c.tangential_force_vector())});
     auto& contact = packing.contacts.back();
-    contact.moment = c.moment;
+    contact.moment = c.moment[0];
     contact.bonded = c.bonded;
     contact.bond_gap = c.bond_gap;
   }
   packing.names_bonds = material.law.bonds();
-  if (packing.frame && !is_its_own_reference(material.space, F)) {
-    Frame& frame = *packing.frame;
-    if (frame.reference.empty()) frame.reference = material.packing.position;
-    frame.deformation = product(F, frame.deformation);
-    complete_frame(packing);
-  }
+  if constexpr (D == 2) carry_frame(material, at.deformation, packing);
   return packing;
 }
+
+template void write_force_chains(const std::string&, const Material<2>&, const Configuration<2>&);
+template Packing as_packing(const Material<2>&, const Configuration<2>&);
 
 }  // namespace grainlaw

@@ -8,9 +8,12 @@
 namespace grainlaw {
 
 // Particles and force chains as one VTK file. Throws Error (FILE_ERROR).
-void write_force_chains(const std::string& path, const Material& material, const Configuration& at);
+template <int D>
+void write_force_chains(const std::string& path, const Material<D>& material,
+                        const Configuration<D>& at);
 
 // The packing whose equilibrium at F = I is this one: deformed cell, particles, contact forces.
-[[nodiscard]] Packing as_packing(const Material& material, const Configuration& at);
+template <int D>
+[[nodiscard]] Packing as_packing(const Material<D>& material, const Configuration<D>& at);
 
 }  // namespace grainlaw

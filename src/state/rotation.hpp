@@ -2,28 +2,43 @@
 // in the packing, so an increment is solved without it: dF = R U, F* = U F_n, P(F) = R P*(F*).
 #pragma once
 
+#include "math/dimension.hpp"
+#include "math/tensor.hpp"
+
 #include <array>
 
 namespace grainlaw {
 
-struct Increment2 {
-  double angle = 0;                  // of R [rad]
-  std::array<double, 4> rotation{};  // R
-  std::array<double, 4> stretch{};   // U
-  std::array<double, 4> target{};    // F* = U F_n
+template <int D>
+struct SplitIncrement {
+  std::array<double, Dimension<D>::spins> turn{};  // of R [rad]
+  Tensor<D> rotation{};                            // R
+  Tensor<D> stretch{};                             // U
+  Tensor<D> target{};                              // F* = U F_n
 };
 
-// Polar decomposition of F F_n^-1 in two dimensions; both row-major, det > 0.
-Increment2 split_rotation(const double* F, const double* committed);
+// Polar decomposition of F F_n^-1; det > 0.
+template <int D>
+SplitIncrement<D> split_rotation(const Tensor<D>& F, const Tensor<D>& committed);
 
 // The same without a rotation, for boundary conditions bound to axes: U = F F_n^-1.
-Increment2 without_rotation(const double* F, const double* committed);
+template <int D>
+SplitIncrement<D> without_rotation(const Tensor<D>& F, const Tensor<D>& committed) {
+  SplitIncrement<D> increment;
+  increment.target = F;
+  increment.rotation = identity<D>();
+  increment.stretch = product<D>(F, inverse<D>(committed));
+  return increment;
+}
 
-std::array<double, 4> rotate_stress(const Increment2& increment, const std::array<double, 4>& p);
+template <int D>
+Tensor<D> rotate_stress(const SplitIncrement<D>& increment, const Tensor<D>& p) {
+  return product<D>(increment.rotation, p);
+}
 
-// dP/dF from dP*/dF* (both A[((i*2+J)*2+k)*2+L]) with the derivatives of R and U.
-std::array<double, 16> rotate_tangent(const Increment2& increment, const double* committed,
-                                      const std::array<double, 4>& p,
-                                      const std::array<double, 16>& tangent);
+// dP/dF from dP*/dF* with the derivatives of R and U.
+template <int D>
+Tensor4<D> rotate_tangent(const SplitIncrement<D>& increment, const Tensor<D>& committed,
+                          const Tensor<D>& p, const Tensor4<D>& tangent);
 
 }  // namespace grainlaw

@@ -12,10 +12,11 @@ namespace {
 
 // A key, since a thread_local object ends the process where there is no memory to register its
 // destructor. It goes with the library, which threads may outlive.
+template <int D>
 class Key {
  public:
   Key()
-      : made_(pthread_key_create(&key_, [](void* of) { delete static_cast<Workspace*>(of); }) ==
+      : made_(pthread_key_create(&key_, [](void* of) { delete static_cast<Workspace<D>*>(of); }) ==
               0) {}
   ~Key() {
     delete get();
@@ -24,10 +25,10 @@ class Key {
   Key(const Key&) = delete;
   Key& operator=(const Key&) = delete;
 
-  [[nodiscard]] Workspace* get() const {
-    return made_ ? static_cast<Workspace*>(pthread_getspecific(key_)) : nullptr;
+  [[nodiscard]] Workspace<D>* get() const {
+    return made_ ? static_cast<Workspace<D>*>(pthread_getspecific(key_)) : nullptr;
   }
-  [[nodiscard]] bool set(const Workspace* workspace) const {
+  [[nodiscard]] bool set(const Workspace<D>* workspace) const {
     return made_ && pthread_setspecific(key_, workspace) == 0;
   }
 
@@ -37,20 +38,30 @@ class Key {
 };
 
 // Made before, and gone after, whatever uses it.
-[[gnu::init_priority(101)]] Key key;
+[[gnu::init_priority(101)]] Key<2> plane_key;
+
+template <int D>
+const Key<D>& key() {
+  return plane_key;
+}
 
 }  // namespace
 
-Workspace& workspace() {
-  if (Workspace* const mine = key.get()) return *mine;
-  auto made = std::make_unique<Workspace>();
-  if (!key.set(made.get())) throw std::bad_alloc();
+template <int D>
+Workspace<D>& workspace() {
+  if (Workspace<D>* const mine = key<D>().get()) return *mine;
+  auto made = std::make_unique<Workspace<D>>();
+  if (!key<D>().set(made.get())) throw std::bad_alloc();
   return *made.release();
 }
 
+template <int D>
 void drop_workspace() noexcept {
-  delete key.get();
-  static_cast<void>(key.set(nullptr));
+  delete key<D>().get();
+  static_cast<void>(key<D>().set(nullptr));
 }
+
+template Workspace<2>& workspace();
+template void drop_workspace<2>() noexcept;
 
 }  // namespace grainlaw

@@ -7,9 +7,11 @@ namespace grainlaw {
 
 // Of the calling thread: made by its first evaluation, reused by the next, gone with the thread.
 // Throws bad_alloc.
-Workspace& workspace();
+template <int D>
+Workspace<D>& workspace();
 
 // Frees it: what an exception left half done serves nobody.
+template <int D>
 void drop_workspace() noexcept;
 
 }  // namespace grainlaw

@@ -1,7 +1,7 @@
 // Layout, little-endian:
 //   "GRAINLAW"  u32 version  u32 contacts  u64 material fingerprint
 //   F [dim*dim]  P [dim*dim]  dissipated  [broken bonds]  coordinates [as many as the material has]
-//   contacts: i32 i  i32 j  i16 shift[2]  u8 1 sliding, 2 bonded  double tangential force  [moment]
+//   contacts: i32 i  i32 j  i16 shift[dim]  u8 1 sliding, 2 bonded  double tangential force, of spheres three  [moment]
 //   [gap of the bond]
 // Doubles; those in brackets only with a law that has bonds, and moments.
 //   u64 XXH3 of everything before
@@ -19,7 +19,6 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
-#include <tuple>
 #include <type_traits>
 
 namespace grainlaw {
@@ -29,8 +28,10 @@ constexpr std::array<char, 8> magic{'G', 'R', 'A', 'I', 'N', 'L', 'A', 'W'};
 constexpr std::uint32_t format_version = 2;
 constexpr std::size_t version_end = magic.size() + sizeof(std::uint32_t);
 constexpr std::size_t header_size = version_end + sizeof(std::uint32_t) + sizeof(std::uint64_t);
+template <int D>
 constexpr std::size_t plain_contact_size =
-    2 * sizeof(std::int32_t) + 2 * sizeof(std::int16_t) + sizeof(std::uint8_t) + sizeof(double);
+    2 * sizeof(std::int32_t) + D * sizeof(std::int16_t) +
+    sizeof(std::uint8_t) + Dimension<D>::tangents * sizeof(double);
 constexpr std::size_t checksum_size = sizeof(std::uint64_t);
 
 template <std::size_t size>
@@ -76,21 +77,17 @@ class Reader {
   const std::byte* next_;
 };
 
-// Of a tensor.
-std::size_t components(const Material& material) {
-  const auto dimension = static_cast<std::size_t>(material.packing.dimension);
-  return dimension * dimension;
-}
-
-std::size_t size_without_contacts(const Material& material) {
+template <int D>
+std::size_t size_without_contacts(const Material<D>& material) {
   return header_size + checksum_size +
-         sizeof(double) * (2 * components(material) + (material.law.bonds() ? 2 : 1) +
+         sizeof(double) * (2 * squared<D> + (material.law.bonds() ? 2 : 1) +
                            material.initial.coordinates.size());
 }
 
-std::size_t contact_size(const Material& material) {
-  return plain_contact_size +
-         sizeof(double) * ((material.law.moments() ? 1U : 0U) + (material.law.bonds() ? 1U : 0U));
+template <int D>
+std::size_t contact_size(const Material<D>& material) {
+  const std::size_t moments = material.law.moments() ? Dimension<D>::spins : 0;
+  return plain_contact_size<D> + sizeof(double) * (moments + (material.law.bonds() ? 1U : 0U));
 }
 
 std::uint64_t checksum(std::span<const std::byte> bytes) {
@@ -113,53 +110,49 @@ void check_envelope(std::span<const std::byte> bytes) {
           "of another format version");
 }
 
-void check_deformation(const Configuration& configuration, int dimension) {
-  // Only 2D materials exist.
-  const auto& F = configuration.deformation;
-  require(dimension == 2 && F[0] * F[3] - F[1] * F[2] > 0, GRAINLAW_BAD_BYTES, "det F <= 0");
-}
-
 // As the contact list keeps them: i <= j, ascending (i, j, shift), each once.
-void check_contacts(const std::vector<ContactHistory>& contacts, std::size_t particles) {
-  constexpr std::array<std::int16_t, 2> none{};
-  const auto key = [](const ContactHistory& c) { return std::tie(c.i, c.j, c.shift); };
+template <int D>
+void check_contacts(const std::vector<ContactHistory<D>>& contacts, std::size_t particles) {
+  constexpr std::array<std::int16_t, static_cast<std::size_t>(D)> none{};
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const auto& [i, j, shift, sliding, bonded, force] = contacts[c];
     require(i >= 0 && i <= j && static_cast<std::size_t>(j) < particles, GRAINLAW_BAD_BYTES,
             "a contact of particles that do not exist");
     require(i != j || shift > none, GRAINLAW_BAD_BYTES, "a contact of a particle with itself");
-    require(c == 0 || key(contacts[c - 1]) < key(contacts[c]), GRAINLAW_BAD_BYTES,
+    require(c == 0 || key_of(contacts[c - 1]) < key_of(contacts[c]), GRAINLAW_BAD_BYTES,
             "contacts out of order");
   }
 }
 
 }  // namespace
 
-std::size_t saved_size(const Material& material, const Configuration& configuration) {
+template <int D>
+std::size_t saved_size(const Material<D>& material, const Configuration<D>& configuration) {
   return size_without_contacts(material) + configuration.contacts.size() * contact_size(material);
 }
 
-void save_configuration(const Material& material, const Configuration& configuration,
+template <int D>
+void save_configuration(const Material<D>& material, const Configuration<D>& configuration,
                         std::span<std::byte> bytes) {
-  const std::size_t square = components(material);
+  const std::size_t spins = material.law.moments() ? Dimension<D>::spins : 0;
   Writer out(bytes);
   for (const char letter : magic) out.put(letter);
   out.put(format_version);
   out.put(static_cast<std::uint32_t>(configuration.contacts.size()));
   out.put(material.fingerprint);
-  for (std::size_t k = 0; k < square; ++k) out.put(configuration.deformation[k]);
-  for (std::size_t k = 0; k < square; ++k) out.put(configuration.stress[k]);
+  for (std::size_t k = 0; k < squared<D>; ++k) out.put(configuration.deformation[k]);
+  for (std::size_t k = 0; k < squared<D>; ++k) out.put(configuration.stress[k]);
   out.put(configuration.dissipated);
   if (material.law.bonds()) out.put(configuration.broken_bonds);
   for (const double coordinate : configuration.coordinates) out.put(coordinate);
   for (std::size_t c = 0; c < configuration.contacts.size(); ++c) {
-    const ContactHistory& contact = configuration.contacts[c];
+    const ContactHistory<D>& contact = configuration.contacts[c];
     out.put(contact.i);
     out.put(contact.j);
     for (const std::int16_t shift : contact.shift) out.put(shift);
     out.put(static_cast<std::uint8_t>((contact.sliding ? 1 : 0) + (contact.bonded ? 2 : 0)));
-    out.put(contact.tangential_force);
-    if (material.law.moments()) out.put(configuration.moments[c]);
+    for (const double component : contact.tangential_force) out.put(component);
+    for (std::size_t k = 0; k < spins; ++k) out.put(configuration.moments[spins * c + k]);
     if (material.law.bonds()) {
       out.put(configuration.bond_gaps.empty() ? 0.0 : configuration.bond_gaps[c]);
     }
@@ -167,7 +160,8 @@ void save_configuration(const Material& material, const Configuration& configura
   out.put(checksum(bytes.first(bytes.size() - checksum_size)));
 }
 
-Configuration load_configuration(const Material& material, std::span<const std::byte> bytes) {
+template <int D>
+Configuration<D> load_configuration(const Material<D>& material, std::span<const std::byte> bytes) {
   check_envelope(bytes);
   require(bytes.size() >= header_size + checksum_size, GRAINLAW_BAD_BYTES, "truncated");
   Reader in(bytes.subspan(version_end));
@@ -179,16 +173,16 @@ Configuration load_configuration(const Material& material, std::span<const std::
       bytes.size() >= fixed_size && bytes.size() - fixed_size == contacts * contact_size(material),
       GRAINLAW_BAD_BYTES, "its length does not fit its content");
 
-  Configuration found;
-  const std::size_t square = components(material);
-  for (std::size_t k = 0; k < square; ++k) found.deformation[k] = in.get_finite();
-  for (std::size_t k = 0; k < square; ++k) found.stress[k] = in.get_finite();
+  Configuration<D> found;
+  for (std::size_t k = 0; k < squared<D>; ++k) found.deformation[k] = in.get_finite();
+  for (std::size_t k = 0; k < squared<D>; ++k) found.stress[k] = in.get_finite();
   found.dissipated = in.get_finite();
   if (material.law.bonds()) found.broken_bonds = in.get_finite();
   found.coordinates.resize(material.initial.coordinates.size());
   for (double& coordinate : found.coordinates) coordinate = in.get_finite();
+  const std::size_t spins = material.law.moments() ? Dimension<D>::spins : 0;
   found.contacts.resize(contacts);
-  for (ContactHistory& contact : found.contacts) {
+  for (ContactHistory<D>& contact : found.contacts) {
     contact.i = in.get<std::int32_t>();
     contact.j = in.get<std::int32_t>();
     for (std::int16_t& shift : contact.shift) shift = in.get<std::int16_t>();
@@ -197,15 +191,19 @@ Configuration load_configuration(const Material& material, std::span<const std::
             "a contact neither sliding nor sticking nor bonded");
     contact.sliding = status == 1;
     contact.bonded = status == 2;
-    contact.tangential_force = in.get_finite();
-    if (material.law.moments()) found.moments.push_back(in.get_finite());
+    for (double& component : contact.tangential_force) component = in.get_finite();
+    for (std::size_t k = 0; k < spins; ++k) found.moments.push_back(in.get_finite());
     if (material.law.bonds()) found.bond_gaps.push_back(in.get_finite());
   }
   const auto none = [](double gap) { return gap == 0; };
   if (std::all_of(found.bond_gaps.begin(), found.bond_gaps.end(), none)) found.bond_gaps.clear();
-  check_deformation(found, material.packing.dimension);
-  check_contacts(found.contacts, material.packing.size());
+  require(determinant<D>(found.deformation) > 0, GRAINLAW_BAD_BYTES, "det F <= 0");
+  check_contacts<D>(found.contacts, material.packing.size());
   return found;
 }
+
+template std::size_t saved_size(const Material<2>&, const Configuration<2>&);
+template void save_configuration(const Material<2>&, const Configuration<2>&, std::span<std::byte>);
+template Configuration<2> load_configuration(const Material<2>&, std::span<const std::byte>);
 
 }  // namespace grainlaw

@@ -10,14 +10,18 @@
 namespace grainlaw {
 
 // Bytes that a configuration of this material takes.
-[[nodiscard]] std::size_t saved_size(const Material& material, const Configuration& configuration);
+template <int D>
+[[nodiscard]] std::size_t saved_size(const Material<D>& material,
+                                     const Configuration<D>& configuration);
 
 // Fills bytes, of saved_size.
-void save_configuration(const Material& material, const Configuration& configuration,
+template <int D>
+void save_configuration(const Material<D>& material, const Configuration<D>& configuration,
                         std::span<std::byte> bytes);
 
 // Any bytes of any length may be given. Throws Error (BAD_BYTES, WRONG_VERSION, WRONG_MATERIAL).
-[[nodiscard]] Configuration load_configuration(const Material& material,
-                                               std::span<const std::byte> bytes);
+template <int D>
+[[nodiscard]] Configuration<D> load_configuration(const Material<D>& material,
+                                                  std::span<const std::byte> bytes);
 
 }  // namespace grainlaw

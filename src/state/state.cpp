@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <tuple>
 #include <utility>
 
 namespace grainlaw {
@@ -29,109 +28,127 @@ void describe(grainlaw_report& report, const char* text) {
 }
 
 // Contacts that opened, closed, lost their bond, began or ceased to slide between two configurations.
-int status_changes(const Configuration& before, const Configuration& after) {
-  const auto key = [](const ContactHistory& c) { return std::tie(c.i, c.j, c.shift); };
+template <int D>
+int status_changes(const Configuration<D>& before, const Configuration<D>& after) {
   auto a = before.contacts.begin();
   int changes = 0;
   for (const auto& contact : after.contacts) {
-    for (; a != before.contacts.end() && key(*a) < key(contact); ++a) ++changes;
-    const bool known = a != before.contacts.end() && key(*a) == key(contact);
+    for (; a != before.contacts.end() && key_of(*a) < key_of(contact); ++a) ++changes;
+    const bool known = a != before.contacts.end() && key_of(*a) == key_of(contact);
     if (!known || a->sliding != contact.sliding || a->bonded != contact.bonded) ++changes;
     if (known) ++a;
   }
   return changes + static_cast<int>(before.contacts.end() - a);
 }
 
-void rotate_configuration(const Increment2& increment, const double* F, std::size_t particles,
-                          Configuration& configuration) {
-  const auto& r = increment.rotation;
-  auto& z = configuration.coordinates;
+// x -> R x
+template <int D>
+void rotate_positions(const Tensor<D>& rotation, std::size_t particles, double* x) {
   for (std::size_t p = 0; p < particles; ++p) {
-    const double x = z[p];
-    const double y = z[particles + p];
-    z[p] = r[0] * x + r[1] * y;
-    z[particles + p] = r[2] * x + r[3] * y;
+    Vec<D> at{};
+    for (std::size_t k = 0; k < D; ++k) at[k] = x[k * particles + p];
+    const Vec<D> to = product<D>(rotation, at);
+    for (std::size_t k = 0; k < D; ++k) x[k * particles + p] = to[k];
   }
-  for (std::size_t k = 2 * particles; k < z.size(); ++k) z[k] += increment.angle;
-  std::copy_n(F, 4, configuration.deformation.begin());
 }
 
-bool too_far(const Increment2& split) {
-  for (std::size_t k = 0; k < 4; ++k) {
-    const double identity = k == 0 || k == 3 ? 1 : 0;
-    if (!(std::abs(split.stretch[k] - identity) <= largest_stretch_change)) return true;
+// Of discs a turn is one number, and they add up.
+void add_turn(const SplitIncrement<2>& increment, std::size_t particles, std::vector<double>& z) {
+  for (std::size_t k = 2 * particles; k < z.size(); ++k) z[k] += increment.turn[0];
+}
+void take_turn(const SplitIncrement<2>& increment, const Configuration<2>& from,
+               std::size_t particles, std::vector<double>& z) {
+  for (std::size_t k = 2 * particles; k < z.size(); ++k) {
+    z[k] -= from.coordinates[k] + increment.turn[0];
+  }
+}
+
+template <int D>
+void rotate_configuration(const SplitIncrement<D>& increment, const Tensor<D>& F,
+                          std::size_t particles, Configuration<D>& configuration) {
+  rotate_positions<D>(increment.rotation, particles, configuration.coordinates.data());
+  add_turn(increment, particles, configuration.coordinates);
+  configuration.deformation = F;
+}
+
+template <int D>
+bool too_far(const SplitIncrement<D>& split) {
+  const Tensor<D> one = identity<D>();
+  for (std::size_t k = 0; k < squared<D>; ++k) {
+    if (!(std::abs(split.stretch[k] - one[k]) <= largest_stretch_change)) return true;
   }
   return false;
 }
 
-Increment2 split(const BoundarySpace& space, const double* F, const double* committed) {
-  return space.bound_to_axes() ? without_rotation(F, committed) : split_rotation(F, committed);
+template <int D>
+SplitIncrement<D> split(const BoundarySpace<D>& space, const Tensor<D>& F,
+                        const Tensor<D>& committed) {
+  return space.bound_to_axes() ? without_rotation<D>(F, committed)
+                               : split_rotation<D>(F, committed);
 }
 
 // Start the iteration from the last trial, turned back to where `from` stands.
-void guess_from_trial(const Configuration& from, const Configuration& trial, std::size_t particles,
-                      Workspace& w, Request& request) {
-  const auto last =
-      split(*request.problem->space, trial.deformation.data(), from.deformation.data());
-  const auto& r = last.rotation;
+template <int D>
+void guess_from_trial(const Configuration<D>& from, const Configuration<D>& trial,
+                      std::size_t particles, Workspace<D>& w, Request<D>& request) {
+  const auto last = split<D>(*request.problem->space, trial.deformation, from.deformation);
   auto& z = w.guess;
   z = trial.coordinates;
-  for (std::size_t p = 0; p < particles; ++p) {
-    const double x = z[p];
-    const double y = z[particles + p];
-    z[p] = r[0] * x + r[2] * y;
-    z[particles + p] = r[1] * x + r[3] * y;
-  }
-  for (std::size_t k = 2 * particles; k < z.size(); ++k) z[k] -= from.coordinates[k] + last.angle;
+  rotate_positions<D>(transpose<D>(last.rotation), particles, z.data());
+  take_turn(last, from, particles, z);
   request.guess = &z;
   request.guess_deformation = last.target;
 }
 
-void add_cost(const Increment& increment, grainlaw_report& report) {
+template <int D>
+void add_cost(const Increment<D>& increment, grainlaw_report& report) {
   report.relaxation_steps += increment.relaxation_steps;
   report.servo_corrections += increment.servo_corrections;
   report.factorisations += increment.factorisations;
 }
 
 // Forward differences of P, each from the same history (Guo & Zhao 2014, eq. 8, as dP/dF).
-grainlaw_status perturb(Request request, Workspace& w, std::array<double, 16>& tangent,
+template <int D>
+grainlaw_status perturb(Request<D> request, Workspace<D>& w, Tensor4<D>& tangent,
                         grainlaw_report& report) {
   const auto centre = request.deformation;
   request.tolerance = std::min(request.tolerance, perturbed_tolerance);
   request.loose_tolerance = 0;  // differences need it all
   request.sensitivities = false;
   request.guess = nullptr;
-  const auto stress_at = [&](std::size_t component, double step, std::array<double, 4>& p) {
+  const auto stress_at = [&](std::size_t component, double step, Tensor<D>& p) {
     request.deformation = centre;
     request.deformation[component] += step;
     const auto outcome = solve(request, w);
     add_cost(w.increment, report);
-    p = w.increment.bears() ? piola_stress(w.increment) : std::array<double, 4>{};
+    p = w.increment.bears() ? piola_stress(w.increment) : Tensor<D>{};
     return outcome.status;
   };
-  std::array<double, 4> p0{};
+  Tensor<D> p0{};
   if (const auto status = stress_at(0, 0, p0); status != GRAINLAW_OK) return status;
   const auto& found = request.problem->space->found;
-  for (std::size_t k = 0; k < 4; ++k) {
+  for (std::size_t k = 0; k < squared<D>; ++k) {
     if (found[k]) continue;
-    std::array<double, 4> p{};
+    Tensor<D> p{};
     if (const auto status = stress_at(k, perturbation, p); status != GRAINLAW_OK) return status;
-    for (std::size_t m = 0; m < 4; ++m) {
-      if (!found[m]) tangent[m * 4 + k] = (p[m] - p0[m]) / perturbation;
+    for (std::size_t m = 0; m < squared<D>; ++m) {
+      if (!found[m]) tangent[m * squared<D> + k] = (p[m] - p0[m]) / perturbation;
     }
   }
   return GRAINLAW_OK;
 }
 
-double norm(const std::array<double, 16>& tangent) {
+template <std::size_t size>
+double norm(const std::array<double, size>& tangent) {
   double squares = 0;
   for (const double a : tangent) squares += a * a;
   return std::sqrt(squares);
 }
 
 // Exact or elastic; zero for the other kinds.
-std::array<double, 16> tangent_of(const Workspace& w, const Outcome& outcome, TangentKind kind,
-                                  grainlaw_report& report) {
+template <int D>
+Tensor4<D> tangent_of(const Workspace<D>& w, const Outcome& outcome, TangentKind kind,
+                      grainlaw_report& report) {
   if (kind != TangentKind::exact && kind != TangentKind::elastic) return {};
   if (kind == TangentKind::exact && outcome.sensitivities && !outcome.loose) {
     report.tangent_exact = outcome.history_advanced ? 0 : 1;
@@ -158,7 +175,8 @@ std::array<double, 16> tangent_of(const Workspace& w, const Outcome& outcome, Ta
 
 }  // namespace
 
-State::State(std::shared_ptr<const Material> material)
+template <int D>
+State<D>::State(std::shared_ptr<const Material<D>> material)
     : material_(std::move(material)), committed_(material_->initial) {
   const auto& initial = material_->initial;
   // The two take turns, and contacts come and go.
@@ -168,47 +186,49 @@ State::State(std::shared_ptr<const Material> material)
   }
 }
 
-bool State::commit() {
+template <int D>
+bool State<D>::commit() {
   if (!has_trial_) return false;
   std::swap(committed_, trial_);
   has_trial_ = false;
   return true;
 }
 
-void State::restore(Configuration committed) {
+template <int D>
+void State<D>::restore(Configuration<D> committed) {
   committed_ = std::move(committed);
   has_trial_ = false;
 }
 
-std::array<double, 9> State::effective(const double* F) const {
-  std::array<double, 9> f{};
-  const int dimension = material_->packing.dimension;
-  std::copy_n(F, dimension * dimension, f.begin());
-  for (std::size_t k = 0; k < 4; ++k) {
+template <int D>
+Tensor<D> State<D>::effective(const double* F) const {
+  Tensor<D> f = tensor_of<D>(F);
+  for (std::size_t k = 0; k < squared<D>; ++k) {
     if (material_->space.found[k]) f[k] = committed_.deformation[k];
   }
   return f;
 }
 
-grainlaw_status State::evaluate(const double* given, TangentKind kind, double* P, double* A,
-                                grainlaw_report& report) {
+template <int D>
+grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double* P, double* A,
+                                   grainlaw_report& report) {
   try {
-    return evaluate(given, kind, P, A, report, workspace());
+    return evaluate(given, kind, P, A, report, workspace<D>());
   } catch (...) {
-    drop_workspace();
+    drop_workspace<D>();
     throw;
   }
 }
 
-grainlaw_status State::evaluate(const double* given, TangentKind kind, double* P, double* A,
-                                grainlaw_report& report, Workspace& w) {
-  const Material& material = *material_;
+template <int D>
+grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double* P, double* A,
+                                   grainlaw_report& report, Workspace<D>& w) {
+  const Material<D>& material = *material_;
   const auto particles = material.packing.size();
-  const double* committed = committed_.deformation.data();
-  const auto to_reach = effective(given);
-  const double* F = to_reach.data();
+  const Tensor<D>& committed = committed_.deformation;
+  const Tensor<D> F = effective(given);
   const bool bound_to_axes = material.space.bound_to_axes();
-  const auto split = grainlaw::split(material.space, F, committed);
+  const auto split = grainlaw::split<D>(material.space, F, committed);
   const bool had_trial = std::exchange(has_trial_, false);
   if (too_far(split)) {
     report.step_ratio = 0.1;
@@ -216,8 +236,8 @@ grainlaw_status State::evaluate(const double* given, TangentKind kind, double* P
     return GRAINLAW_STEP_TOO_LARGE;
   }
 
-  const Problem problem = material.problem();
-  Request request{&problem, &material.solver, &committed_, split.target};
+  const Problem<D> problem = material.problem();
+  Request<D> request{&problem, &material.solver, &committed_, split.target};
   request.tolerance = material.solver.tolerance;
   request.loose_tolerance = material.solver.loose_tolerance;
   request.sensitivities = kind == TangentKind::exact;
@@ -243,8 +263,8 @@ grainlaw_status State::evaluate(const double* given, TangentKind kind, double* P
     describe(report, grainlaw_status_text(GRAINLAW_CONTACTS_LOST));
     return GRAINLAW_CONTACTS_LOST;
   }
-  std::array<double, 4> stress{};
-  std::array<double, 16> tangent{};
+  Tensor<D> stress{};
+  Tensor4<D> tangent{};
   if (free) {
     // And stays so: no tangent either.
     report.residual = 0;
@@ -269,18 +289,20 @@ grainlaw_status State::evaluate(const double* given, TangentKind kind, double* P
     }
   }
 
-  const auto rotated = rotate_stress(split, stress);
+  const auto rotated = rotate_stress<D>(split, stress);
   if (!bound_to_axes) rotate_configuration(split, F, particles, trial_);
-  std::copy_n(rotated.begin(), 4, trial_.stress.begin());
-  if (P != nullptr) std::copy_n(rotated.begin(), 4, P);
+  trial_.stress = rotated;
+  if (P != nullptr) std::copy(rotated.begin(), rotated.end(), P);
   if (A != nullptr && kind != TangentKind::none) {
-    const auto a = bound_to_axes ? tangent : rotate_tangent(split, committed, stress, tangent);
-    std::copy_n(a.begin(), 16, A);
+    const auto a = bound_to_axes ? tangent : rotate_tangent<D>(split, committed, stress, tangent);
+    std::copy(a.begin(), a.end(), A);
   }
   trial_loose_ = outcome.loose;
   trial_advanced_ = outcome.history_advanced;
   has_trial_ = true;
   return GRAINLAW_OK;
 }
+
+template class State<2>;
 
 }  // namespace grainlaw

@@ -5,19 +5,20 @@
 
 #include <grainlaw/grainlaw.h>
 
-#include <array>
 #include <memory>
 #include <optional>
 
 namespace grainlaw {
 
+template <int D>
 struct Workspace;
 
 enum class TangentKind { none, exact, elastic, perturbed };
 
+template <int D>
 class State {
  public:
-  explicit State(std::shared_ptr<const Material> material);
+  explicit State(std::shared_ptr<const Material<D>> material);
 
   // Find the equilibrium at F (dim x dim row-major, finite, det F > 0) from the committed state and
   // keep it as the trial. P [dim*dim] and A [dim^4] may be null; both and the trial are written on
@@ -27,23 +28,23 @@ class State {
                            grainlaw_report& report);
 
   // F with the components that are found, not given, as they are committed.
-  [[nodiscard]] std::array<double, 9> effective(const double* F) const;
+  [[nodiscard]] Tensor<D> effective(const double* F) const;
 
   bool commit();  // false: there is no trial
   void revert() { has_trial_ = false; }
   [[nodiscard]] bool has_trial() const { return has_trial_; }
-  [[nodiscard]] const Configuration& committed() const { return committed_; }
-  [[nodiscard]] const Configuration& current() const { return has_trial_ ? trial_ : committed_; }
-  void restore(Configuration committed);
-  [[nodiscard]] const Material& material() const { return *material_; }
+  [[nodiscard]] const Configuration<D>& committed() const { return committed_; }
+  [[nodiscard]] const Configuration<D>& current() const { return has_trial_ ? trial_ : committed_; }
+  void restore(Configuration<D> committed);
+  [[nodiscard]] const Material<D>& material() const { return *material_; }
 
  private:
   grainlaw_status evaluate(const double* F, TangentKind kind, double* P, double* A,
-                           grainlaw_report& report, Workspace& workspace);
+                           grainlaw_report& report, Workspace<D>& workspace);
 
-  std::shared_ptr<const Material> material_;
-  Configuration committed_;
-  Configuration trial_;
+  std::shared_ptr<const Material<D>> material_;
+  Configuration<D> committed_;
+  Configuration<D> trial_;
   bool has_trial_ = false;
   bool trial_loose_ = false;     // ended at the loose tolerance
   bool trial_advanced_ = false;  // by advancing history

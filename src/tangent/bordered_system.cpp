@@ -8,7 +8,7 @@
 
 namespace grainlaw {
 
-void BorderedSystem::find_columns(const BoundarySpace& space) {
+void BorderedSystem::find_columns(const BoundarySpace<2>& space) {
   size_ = 0;
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t r = 0; r < space.average[i].rows; ++r) {
@@ -22,13 +22,13 @@ void BorderedSystem::find_columns(const BoundarySpace& space) {
 }
 
 // The columns of a group, and the residual behind the last of them.
-void BorderedSystem::set_right_side(const Increment& increment, const Stiffness& stiffness,
+void BorderedSystem::set_right_side(const Increment<2>& increment, const Stiffness<2>& stiffness,
                                     std::size_t group, std::span<const double> residual) {
   const auto& space = *increment.problem->space;
   const auto nodes = increment.nodes();
   const std::size_t b = increment.node_unknowns() / nodes;
-  std::fill(right_.begin(), right_.end(), Quad{});
-  DeformationChange change{};
+  std::fill(right_.begin(), right_.end(), ByDeformation<2>{});
+  DeformationChange<2> change{};
   const std::size_t first = group * lanes;
   const std::size_t last = std::min(first + lanes, size_);
   for (std::size_t c = first; c < last; ++c) {
@@ -36,7 +36,7 @@ void BorderedSystem::set_right_side(const Increment& increment, const Stiffness&
       change[columns_[c].direction].lane[c - first] = 1 / increment.deformation_scale();
     }
   }
-  if (space.finds_deformation) add_residual_changes(increment, stiffness, change, {}, right_);
+  if (space.finds_deformation) add_residual_changes<2>(increment, stiffness, change, {}, right_);
   for (std::size_t c = first; c < last; ++c) {
     const auto& column = columns_[c];
     if (column.kind == Kind::deformation) continue;
@@ -62,10 +62,10 @@ void BorderedSystem::set_right_side(const Increment& increment, const Stiffness&
 }
 
 // Averages of the motions, and changes of V P / scale.
-BorderedSystem::Values BorderedSystem::values_of(const Increment& increment,
-                                                 std::span<const TouchingContact> touching,
-                                                 std::span<const ContactChange> changes,
-                                                 std::span<const Quad> motion) const {
+BorderedSystem::Values BorderedSystem::values_of(const Increment<2>& increment,
+                                                 std::span<const TouchingContact<2>> touching,
+                                                 std::span<const ContactChange<2>> changes,
+                                                 std::span<const ByDeformation<2>> motion) const {
   const auto& space = *increment.problem->space;
   const std::size_t b = increment.node_unknowns() / increment.nodes();
   Values values{};
@@ -88,14 +88,15 @@ BorderedSystem::Values BorderedSystem::values_of(const Increment& increment,
       const auto& column = columns_[f];
       if (column.kind != Kind::deformation) continue;
       const double length = branch[column.direction % 2] / increment.deformation_scale();
-      const Quad& force = column.direction < 2 ? changes[c].force_x : changes[c].force_y;
+      const ByDeformation<2>& force =
+          column.direction < 2 ? changes[c].force[0] : changes[c].force[1];
       for (std::size_t l = 0; l < lanes; ++l) values[f].lane[l] -= force.lane[l] * length;
     }
   }
   return values;
 }
 
-bool BorderedSystem::respond(Increment& increment, Stiffness& stiffness, double shift,
+bool BorderedSystem::respond(Increment<2>& increment, Stiffness<2>& stiffness, double shift,
                              std::span<const double> residual) {
   const auto& space = *increment.problem->space;
   find_columns(space);
@@ -106,8 +107,8 @@ bool BorderedSystem::respond(Increment& increment, Stiffness& stiffness, double 
     auto& response = response_[group];
     resize_with_room(response, right_.size());
     set_right_side(increment, stiffness, group, residual);
-    if (!stiffness.solve_four(increment, right_, response)) return false;
-    DeformationChange change{};
+    if (!stiffness.solve_together(increment, right_, response)) return false;
+    DeformationChange<2> change{};
     const std::size_t first = group * lanes;
     for (std::size_t c = first; c < std::min(first + lanes, size_); ++c) {
       if (columns_[c].kind != Kind::deformation) continue;
@@ -115,7 +116,7 @@ bool BorderedSystem::respond(Increment& increment, Stiffness& stiffness, double 
     }
     if (space.finds_deformation) {
       resize_with_room(changes_, touching.size());
-      find_contact_changes(increment, touching, change, {}, response, changes_);
+      find_contact_changes<2>(increment, touching, change, {}, response, changes_);
     }
     const auto values = values_of(increment, touching, changes_, response);
     for (std::size_t f = 0; f < size_; ++f) {
@@ -160,7 +161,7 @@ bool BorderedSystem::eliminate(Values& values) const {
   return true;
 }
 
-bool BorderedSystem::solve(Increment& increment, Stiffness& stiffness, double shift,
+bool BorderedSystem::solve(Increment<2>& increment, Stiffness<2>& stiffness, double shift,
                            std::span<const double> residual, std::span<double> step) {
   if (!respond(increment, stiffness, shift, residual)) return false;
   Values values{};
@@ -190,13 +191,14 @@ bool BorderedSystem::solve(Increment& increment, Stiffness& stiffness, double sh
   return true;
 }
 
-bool BorderedSystem::prepare(Increment& increment, Stiffness& stiffness) {
+bool BorderedSystem::prepare(Increment<2>& increment, Stiffness<2>& stiffness) {
   return respond(increment, stiffness, 0, {});
 }
 
-bool BorderedSystem::complete(const Increment& increment, std::span<const TouchingContact> touching,
-                              std::span<const ContactChange> changes, std::span<Quad> motion,
-                              DeformationChange& change) {
+bool BorderedSystem::complete(const Increment<2>& increment,
+                              std::span<const TouchingContact<2>> touching,
+                              std::span<const ContactChange<2>> changes,
+                              std::span<ByDeformation<2>> motion, DeformationChange<2>& change) {
   auto values = values_of(increment, touching, changes, motion);
   if (!eliminate(values)) return false;
   for (std::size_t c = 0; c < size_; ++c) {

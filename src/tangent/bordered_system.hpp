@@ -1,4 +1,4 @@
-// What borders the stiffness of the nodes: average constraints with their multipliers, and found
+// The bordered system (Keller 1977) of frames. What borders the stiffness of the nodes: average constraints with their multipliers, and found
 // components of F with the stresses that are prescribed for them.
 #pragma once
 
@@ -14,29 +14,29 @@ namespace grainlaw {
 
 class BorderedSystem {
  public:
-  static bool needed(const BoundarySpace& space) {
+  static bool needed(const BoundarySpace<2>& space) {
     return space.averages() || space.finds_deformation;
   }
 
   // Newton's step from a residual over all unknowns: K of the last assemble() with its shift,
   // factorised. Under the step the averages stay and the missing stresses (with the shift's share)
   // vanish. False when the matrix is singular.
-  bool solve(Increment& increment, Stiffness& stiffness, double shift,
+  bool solve(Increment<2>& increment, Stiffness<2>& stiffness, double shift,
              std::span<const double> residual, std::span<double> step);
 
   // Responses to the border itself, of K just assembled without shift.
-  bool prepare(Increment& increment, Stiffness& stiffness);
+  bool prepare(Increment<2>& increment, Stiffness<2>& stiffness);
 
   // Four motions with changes of F and of contacts, completed by what the border adds: averages
   // stay, prescribed stresses do not change. False when it is singular.
-  bool complete(const Increment& increment, std::span<const TouchingContact> touching,
-                std::span<const ContactChange> changes, std::span<Quad> motion,
-                DeformationChange& change);
+  bool complete(const Increment<2>& increment, std::span<const TouchingContact<2>> touching,
+                std::span<const ContactChange<2>> changes, std::span<ByDeformation<2>> motion,
+                DeformationChange<2>& change);
 
  private:
   static constexpr std::size_t most = 12;  // four averages, of anchors too, four components of F
   static constexpr std::size_t lanes = 4;
-  using Values = std::array<Quad, most>;  // per row of the border
+  using Values = std::array<ByDeformation<2>, most>;  // per row of the border
 
   enum class Kind { average, anchors, deformation };
   struct Column {
@@ -52,23 +52,24 @@ class BorderedSystem {
     }
   };
 
-  void find_columns(const BoundarySpace& space);
-  bool respond(Increment& increment, Stiffness& stiffness, double shift,
+  void find_columns(const BoundarySpace<2>& space);
+  bool respond(Increment<2>& increment, Stiffness<2>& stiffness, double shift,
                std::span<const double> residual);
-  void set_right_side(const Increment& increment, const Stiffness& stiffness, std::size_t group,
-                      std::span<const double> residual);
-  [[nodiscard]] Values values_of(const Increment& increment,
-                                 std::span<const TouchingContact> touching,
-                                 std::span<const ContactChange> changes,
-                                 std::span<const Quad> motion) const;
+  void set_right_side(const Increment<2>& increment, const Stiffness<2>& stiffness,
+                      std::size_t group, std::span<const double> residual);
+  [[nodiscard]] Values values_of(const Increment<2>& increment,
+                                 std::span<const TouchingContact<2>> touching,
+                                 std::span<const ContactChange<2>> changes,
+                                 std::span<const ByDeformation<2>> motion) const;
   [[nodiscard]] bool eliminate(Values& values) const;
 
   std::array<Column, most> columns_{};
   std::size_t size_ = 0;
-  std::array<std::vector<Quad>, 4> response_;  // to the columns, four in each, then to a residual
+  std::array<std::vector<ByDeformation<2>>, 4>
+      response_;  // to the columns, four in each, then to a residual
   std::array<std::array<double, most + 1>, most> matrix_{};  // rows by responses
-  std::vector<Quad> right_;
-  std::vector<ContactChange> changes_;
+  std::vector<ByDeformation<2>> right_;
+  std::vector<ContactChange<2>> changes_;
 };
 
 }  // namespace grainlaw

@@ -1,8 +1,8 @@
-// First-order changes of contacts under motions of the nodes and changes of F, four at once.
+// First-order changes of contacts under motions of the nodes and changes of F, several at once.
 #pragma once
 
 #include "increment/increment.hpp"
-#include "linear/block_matrix.hpp"
+#include "linear/columns.hpp"
 #include "tangent/stiffness.hpp"
 
 #include <array>
@@ -10,37 +10,53 @@
 
 namespace grainlaw {
 
-// Of F (row-major); a lane per change.
-using DeformationChange = std::array<Quad, 4>;
+// The derivatives of one number by the components of F, one in every lane.
+template <int D>
+using ByDeformation = Together<Dimension<D>::lanes>;
 
-// Of what the history of listed contacts starts from: turn and tangential force; moment and
-// difference of the rotations, of laws that have moments. Null: none.
-struct HistoryChange {
-  const Quad* turn = nullptr;
-  const Quad* force = nullptr;
-  const Quad* moment = nullptr;
-  const Quad* spin = nullptr;
+// Of F.
+template <int D>
+using DeformationChange = std::array<ByDeformation<D>, squared<D>>;
+
+// Of what the history of listed contacts starts from. Null: none.
+template <int D>
+struct HistoryChange;
+// Turn and tangential force; moment and difference of the rotations, of laws that have moments.
+template <>
+struct HistoryChange<2> {
+  const ByDeformation<2>* turn = nullptr;
+  const ByDeformation<2>* force = nullptr;
+  const ByDeformation<2>* moment = nullptr;
+  const ByDeformation<2>* spin = nullptr;
 };
 
-// Change of the force on j (x, y) and of the branch (x, y) of a contact that touches.
+// Of a contact that touches: force on j, branch, and the spring's force.
+template <int D>
 struct ContactChange {
-  Quad force_x, force_y, branch_x, branch_y, tangential_force;
+  std::array<ByDeformation<D>, static_cast<std::size_t>(D)> force, branch;
+  std::array<ByDeformation<D>, Dimension<D>::tangents> tangential_force;
 };
 
 // Add the changes of the residual with F and history, nodes fixed in their affine place, to
 // `residual` (per node and component).
-void add_residual_changes(const Increment& increment, const Stiffness& stiffness,
-                          const DeformationChange& change, const HistoryChange& history,
-                          std::span<Quad> residual);
+template <int D>
+void add_residual_changes(const Increment<D>& increment, const Stiffness<D>& stiffness,
+                          const DeformationChange<D>& change, const HistoryChange<D>& history,
+                          std::span<ByDeformation<D>> residual);
 
 // Changes of all touching contacts, with `motion` of the nodes (per node and component) beside.
-void find_contact_changes(const Increment& increment, std::span<const TouchingContact> touching,
-                          const DeformationChange& change, const HistoryChange& history,
-                          std::span<const Quad> motion, std::span<ContactChange> changes);
+template <int D>
+void find_contact_changes(const Increment<D>& increment,
+                          std::span<const TouchingContact<D>> touching,
+                          const DeformationChange<D>& change, const HistoryChange<D>& history,
+                          std::span<const ByDeformation<D>> motion,
+                          std::span<ContactChange<D>> changes);
 
-// Changes of the moments on j of all touching contacts, of laws that have moments.
-void find_moment_changes(const Increment& increment, const Stiffness& stiffness,
-                         const DeformationChange& change, const HistoryChange& history,
-                         std::span<const Quad> motion, std::span<Quad> changes);
+// Changes of the moments on j of all touching contacts, of laws that have moments: spins per contact.
+template <int D>
+void find_moment_changes(const Increment<D>& increment, const Stiffness<D>& stiffness,
+                         const DeformationChange<D>& change, const HistoryChange<D>& history,
+                         std::span<const ByDeformation<D>> motion,
+                         std::span<ByDeformation<D>> changes);
 
 }  // namespace grainlaw

@@ -1,93 +1,22 @@
 #include "tangent/stiffness.hpp"
 
-#include "base/room.hpp"
-#include "linear/quad.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include "base/constants.hpp"
+#include "base/room.hpp"
 
 namespace grainlaw {
 
-using namespace quad;
-
 namespace {
 
-// Contacts with a smaller gap than this, in radii, are kept in the graph although they carry
-// nothing, so that it lasts while they open and close.
-constexpr double graph_gap = 1e-3;
 constexpr std::int32_t not_in_graph = -2;
 constexpr std::int32_t on_the_diagonal = -1;
 
-GRAINLAW_INLINE void add(double* block, const Lanes& value) { store(block, load(block) + value); }
-
-// The blocks of (i, i), (i, j), (j, i), (j, j), which may be one.
-template <std::size_t b>
-GRAINLAW_INLINE void add_contact(const TouchingContact& contact, double* ii, double* ij, double* ji,
-                                 double* jj) {
-  const double nx = contact.point.normal_x;
-  const double ny = contact.point.normal_y;
-  const double li = contact.lever_i;
-  const double lj = 1 - li;
-  const auto& s = contact.stiffness;
-  // Force and d ft on j by the motion of the branch along n and t, by that along x and y, and by
-  // the weighted rotation.
-  const Lanes by_normal{s[0] * nx - s[3] * ny, s[0] * ny + s[3] * nx, s[6], 0};
-  const Lanes by_tangential{s[1] * nx - s[4] * ny, s[1] * ny + s[4] * nx, s[7], 0};
-  const Lanes by_rotation{s[2] * nx - s[5] * ny, s[2] * ny + s[5] * nx, s[8], 0};
-  const Lanes by_x = nx * by_normal - ny * by_tangential;
-  const Lanes by_y = ny * by_normal + nx * by_tangential;
-  // -dr: minus the force on i is the one on j; both take their share of minus the moment.
-  const Lanes row_i{1, 1, b == 3 ? li : 0, 0};
-  const Lanes row_j{-1, -1, b == 3 ? lj : 0, 0};
-  add(ii, -by_x * row_i);
-  add(ii + width, -by_y * row_i);
-  add(ij, by_x * row_i);
-  add(ij + width, by_y * row_i);
-  add(ji, -by_x * row_j);
-  add(ji + width, -by_y * row_j);
-  add(jj, by_x * row_j);
-  add(jj + width, by_y * row_j);
-  if constexpr (b == 3) {
-    const Lanes at_i = by_rotation * row_i;
-    const Lanes at_j = by_rotation * row_j;
-    add(ii + 2 * width, li * at_i);
-    add(ij + 2 * width, lj * at_i);
-    add(ji + 2 * width, li * at_j);
-    add(jj + 2 * width, lj * at_j);
-  }
-}
-
-template <std::size_t b>
-GRAINLAW_INLINE void add_all(std::span<const TouchingContact> contacts,
-                             const std::int32_t* edge_of_contact, BlockMatrix& matrix) {
-  double* const blocks = matrix.blocks.data()->lane;
-  const std::size_t edges = matrix.edges.size();
-  const auto block = [=](std::size_t index) { return blocks + index * b * width; };
-  for (const auto& contact : contacts) {
-    const std::size_t i = contact.node_i;
-    const std::size_t j = contact.node_j;
-    const std::int32_t edge = edge_of_contact[contact.index];
-    const auto e = edge < 0 ? i : matrix.nodes + static_cast<std::size_t>(edge);
-    const auto upper = e;
-    const auto lower = edge < 0 ? i : e + edges;
-    add_contact<b>(contact, block(i), block(i < j ? upper : lower), block(i < j ? lower : upper),
-                   block(j));
-  }
-}
-
-GRAINLAW_CLONES void add_contacts_3(std::span<const TouchingContact> contacts,
-                                    const std::int32_t* edge_of_contact, BlockMatrix& matrix) {
-  add_all<3>(contacts, edge_of_contact, matrix);
-}
-GRAINLAW_CLONES void add_contacts_2(std::span<const TouchingContact> contacts,
-                                    const std::int32_t* edge_of_contact, BlockMatrix& matrix) {
-  add_all<2>(contacts, edge_of_contact, matrix);
-}
-
 }  // namespace
 
-void Stiffness::find_touching(const Increment& increment) {
+template <int D>
+void Stiffness<D>::find_touching(const Increment<D>& increment) {
   const auto& list = increment.contacts;
   const auto& node = increment.problem->space->node;
   const auto& law = *increment.problem->law;
@@ -115,19 +44,21 @@ void Stiffness::find_touching(const Increment& increment) {
 }
 
 // Whether the graph was made in this increment, from these contacts, and holds all that touch.
-bool Stiffness::graph_serves(const Increment& increment) const {
+template <int D>
+bool Stiffness<D>::graph_serves(const Increment<D>& increment) const {
   const auto& list = increment.contacts;
   if (increment.factorisations == 0 || listed_i_.size() != list.size() ||
       !std::equal(listed_i_.begin(), listed_i_.end(), list.i.begin()) ||
       !std::equal(listed_j_.begin(), listed_j_.end(), list.j.begin())) {
     return false;
   }
-  return std::all_of(touching_.begin(), touching_.end(), [this](const TouchingContact& contact) {
+  return std::all_of(touching_.begin(), touching_.end(), [this](const TouchingContact<D>& contact) {
     return edge_of_contact_[contact.index] != not_in_graph;
   });
 }
 
-void Stiffness::find_graph(const Increment& increment) {
+template <int D>
+void Stiffness<D>::find_graph(const Increment<D>& increment) {
   const auto& list = increment.contacts;
   const auto& node = increment.problem->space->node;
   resize_with_room(listed_i_, list.size());
@@ -138,13 +69,15 @@ void Stiffness::find_graph(const Increment& increment) {
   resize_with_room(edge_of_contact_, list.size());
   std::fill(edge_of_contact_.begin(), edge_of_contact_.end(), not_in_graph);
   for (std::size_t c = 0; c < list.size(); ++c) {
-    if (increment.overlap(c) < -0.5 * graph_gap * list.reach[c] && !list.bonded(c)) continue;
+    if (increment.overlap(c) < -0.5 * tuned::graph_gap * list.reach[c] && !list.bonded(c)) continue;
     const auto [a, b] = std::minmax(node[static_cast<std::size_t>(list.i[c])],
                                     node[static_cast<std::size_t>(list.j[c])]);
     edge_of_contact_[c] = on_the_diagonal;
     if (a != b) pairs_.push_back({{a, b}, static_cast<std::int32_t>(c)});
   }
-  if (increment.problem->space->averages()) link_anchors(increment);
+  if constexpr (D == 2) {
+    if (increment.problem->space->averages()) link_anchors(increment);
+  }
   keep_room(pairs_);
   if (!std::is_sorted(pairs_.begin(), pairs_.end())) std::sort(pairs_.begin(), pairs_.end());
   graph_.clear();
@@ -160,7 +93,8 @@ void Stiffness::find_graph(const Increment& increment) {
   keep_room(graph_);
 }
 
-void Stiffness::assemble(const Increment& increment, double shift) {
+template <int D>
+void Stiffness<D>::assemble(const Increment<D>& increment, double shift) {
   find_touching(increment);
   if (graph_serves(increment)) {
     matrix_.set_zero();
@@ -170,22 +104,20 @@ void Stiffness::assemble(const Increment& increment, double shift) {
     matrix_.reset(increment.nodes(), increment.problem->components(), graph_);
     factors_ = Factors::none;
   }
-  if (matrix_.components == 3) {
-    add_contacts_3(touching_, edge_of_contact_.data(), matrix_);
-  } else {
-    add_contacts_2(touching_, edge_of_contact_.data(), matrix_);
-  }
+  add_contacts();
   if (!moments_.empty()) add_moments();
   add_masses(increment, shift);
   if (increment.problem->space->identity) return;
-  if (increment.problem->space->averages()) add_anchors(increment);
+  if constexpr (D == 2) {
+    if (increment.problem->space->averages()) add_anchors(increment);
+  }
   hold_fixed_nodes(increment);
 }
 
 // Calls visit(number of the link, direction, place of the one node, of the other) for all pairs of
 // anchors.
 template <class Visit>
-void for_each_link(const BoundarySpace& space, Visit&& visit) {
+void for_each_link(const BoundarySpace<2>& space, Visit&& visit) {
   std::size_t link = 0;
   for (std::size_t i = 0; i < 2; ++i) {
     const auto& node = space.average[i].node;
@@ -197,7 +129,8 @@ void for_each_link(const BoundarySpace& space, Visit&& visit) {
 }
 
 // A negative number stands for a link where others have that of a contact.
-void Stiffness::link_anchors(const Increment& increment) {
+template <>
+void Stiffness<2>::link_anchors(const Increment<2>& increment) {
   const auto& space = *increment.problem->space;
   std::size_t links = 0;
   for_each_link(space, [&](std::size_t link, std::size_t i, std::size_t a, std::size_t b) {
@@ -208,7 +141,8 @@ void Stiffness::link_anchors(const Increment& increment) {
   resize_with_room(edge_of_link_, links);
 }
 
-void Stiffness::add_anchors(const Increment& increment) {
+template <>
+void Stiffness<2>::add_anchors(const Increment<2>& increment) {
   const auto& space = *increment.problem->space;
   const double kn = increment.mean_stiffness();
   std::array<double, 2> mean{};
@@ -233,35 +167,12 @@ void Stiffness::add_anchors(const Increment& increment) {
   });
 }
 
-// -dr by the moments: m on j and -m on i, changed by the normal displacement and by theta_j - theta_i.
-void Stiffness::add_moments() {
-  const std::size_t edges = matrix_.edges.size();
-  for (std::size_t k = 0; k < touching_.size(); ++k) {
-    const auto& contact = touching_[k];
-    const auto& moment = moments_[k];
-    const std::size_t i = contact.node_i;
-    const std::size_t j = contact.node_j;
-    const std::int32_t edge = edge_of_contact_[contact.index];
-    const std::size_t upper = edge < 0 ? i : matrix_.nodes + static_cast<std::size_t>(edge);
-    const std::size_t lower = edge < 0 ? i : upper + edges;
-    const std::size_t ij = i < j ? upper : lower;
-    const std::size_t ji = i < j ? lower : upper;
-    const double by[] = {moment.by_normal * contact.point.normal_x,
-                         moment.by_normal * contact.point.normal_y, moment.by_spin};
-    for (std::size_t l = 0; l < 3; ++l) {
-      matrix_.block(i)[l].lane[2] -= by[l];
-      matrix_.block(ij)[l].lane[2] += by[l];
-      matrix_.block(ji)[l].lane[2] += by[l];
-      matrix_.block(j)[l].lane[2] -= by[l];
-    }
-  }
-}
-
-void Stiffness::hold_fixed_nodes(const Increment& increment) {
+template <int D>
+void Stiffness<D>::hold_fixed_nodes(const Increment<D>& increment) {
   const auto& fixed = increment.problem->space->fixed;
   const auto b = static_cast<std::size_t>(matrix_.components);
   const auto clear = [&](std::size_t index, unsigned char bits, bool rows) {
-    Quad* block = matrix_.block(index);
+    Column* block = matrix_.block(index);
     for (std::size_t k = 0; k < b; ++k) {
       if ((bits >> k & 1U) == 0) continue;
       for (std::size_t l = 0; l < b; ++l) (rows ? block[l].lane[k] : block[k].lane[l]) = 0;
@@ -285,15 +196,18 @@ void Stiffness::hold_fixed_nodes(const Increment& increment) {
   }
 }
 
-void Stiffness::add_masses(const Increment& increment, double factor) {
+template <int D>
+void Stiffness<D>::add_masses(const Increment<D>& increment, double factor) {
   if (factor == 0) return;
   const auto b = static_cast<std::size_t>(matrix_.components);
   for (std::size_t q = 0; q < matrix_.nodes; ++q) {
-    Quad* block = matrix_.block(q);
+    Column* block = matrix_.block(q);
     for (std::size_t k = 0; k < b; ++k) {
       block[k].lane[k] += factor * increment.mass[k * matrix_.nodes + q];
     }
   }
 }
+
+template void Stiffness<2>::assemble(const Increment<2>&, double);
 
 }  // namespace grainlaw

@@ -10,19 +10,25 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace grainlaw {
 
+// The derivatives of a contact's forces in its own frame.
+template <int D>
+using ContactStiffness = std::conditional_t<D == 2, std::array<double, 9>, std::array<double, 36>>;
+
 // A contact that touches, at the coordinates of the last assemble().
+template <int D>
 struct TouchingContact {
   TouchingContact() {}  // filled at once: zeros would take as long as a contact's forces
 
   std::size_t index;  // in the increment's list
   std::size_t node_i, node_j;
   double lever_i;
-  ContactPoint point;
-  std::array<double, 9> stiffness;  // contact_stiffness() of it
+  ContactPoint<D> point;
+  ContactStiffness<D> stiffness;  // contact_stiffness() of it
 };
 
 // Every so many nodes of an average is an anchor: enough to hold the frame, few enough to link.
@@ -43,67 +49,84 @@ inline std::array<double, 2> anchor_mean(const AverageConstraint& average) {
 }
 
 // What one increment of deformation left here serves the rest of it: the graph while all contacts
-// that touch are in it, the factors for solve_four(). Nothing is carried from one increment to the
+// that touch are in it, the factors for solve_together(). Nothing is carried from one increment to the
 // next that could change a bit there: Increment::factorisations is zero when one begins.
+template <int D>
 class Stiffness {
  public:
+  static constexpr std::size_t width = Dimension<D>::lanes;
+  using Column = BlockColumn<width>;
+
   // K of the present coordinates plus shift x mass on the diagonal; rows of what is prescribed are
   // the identity. Where fluctuations are constrained on average, kn row row^T over the anchors is
   // added for every row of the constraint: it holds what only the constraint would hold, in the
   // factors, and BorderedSystem takes it out of the solutions. The factors are no longer those of K.
-  void assemble(const Increment& increment, double shift);
+  void assemble(const Increment<D>& increment, double shift);
 
   // Add to what was assembled, against the rotation of a node, as much as its mass.
-  void hold_rotation(const Increment& increment, std::size_t node) {
-    matrix_.block(node)[2].lane[2] += increment.mass[2 * matrix_.nodes + node];
+  void hold_rotation(const Increment<D>& increment, std::size_t node) {
+    for (std::size_t k = D; k < Dimension<D>::unknowns; ++k) {
+      matrix_.block(node)[k].lane[k] += increment.mass[k * matrix_.nodes + node];
+    }
   }
 
   // Factorise what was assembled.
-  void factorise(Increment& increment);
+  void factorise(Increment<D>& increment);
 
   // x = K^-1 b, refined until the residual is below the tolerance (largest entry, relative to b) or
   // while that helps; by GMRES where that ends far from it. False when b is not in the range of K to
   // working precision, or the factors are of no use.
-  bool solve(const Increment& increment, std::span<const double> b, std::span<double> x,
+  bool solve(const Increment<D>& increment, std::span<const double> b, std::span<double> x,
              double tolerance = 1e-8);
 
-  // The same of four vectors together. Of K just assembled, without factorise() before: old factors
+  // The same of several vectors together. Of K just assembled, without factorise() before: old factors
   // do when refinement with them converges quickly, else K is factorised here.
-  bool solve_four(Increment& increment, std::span<const Quad> b, std::span<Quad> x);
+  bool solve_together(Increment<D>& increment, std::span<const Together<width>> b,
+                      std::span<Together<width>> x);
 
   // Of the last assemble(), ordered by index.
-  [[nodiscard]] std::span<const TouchingContact> touching() const { return touching_; }
+  [[nodiscard]] std::span<const TouchingContact<D>> touching() const { return touching_; }
   // The moments of these contacts; empty for laws without.
-  [[nodiscard]] std::span<const ContactMoment> moments() const { return moments_; }
+  [[nodiscard]] std::span<const ContactMoment<D>> moments() const { return moments_; }
 
  private:
-  void find_touching(const Increment& increment);
-  [[nodiscard]] bool graph_serves(const Increment& increment) const;
-  void find_graph(const Increment& increment);
+  void find_touching(const Increment<D>& increment);
+  [[nodiscard]] bool graph_serves(const Increment<D>& increment) const;
+  void find_graph(const Increment<D>& increment);
+  void add_contacts();
   void add_moments();
-  void hold_fixed_nodes(const Increment& increment);
-  void link_anchors(const Increment& increment);
-  void add_anchors(const Increment& increment);
-  void add_masses(const Increment& increment, double factor);
-  bool solve_four_by_factors(const Increment& increment, std::span<const Quad> b,
-                             std::span<Quad> x);
-  bool solve_by_gmres(const Increment& increment);
+  void hold_fixed_nodes(const Increment<D>& increment);
+  void link_anchors(const Increment<D>& increment);
+  void add_anchors(const Increment<D>& increment);
+  void add_masses(const Increment<D>& increment, double factor);
+  bool solve_together_by_factors(const Increment<D>& increment, std::span<const Together<width>> b,
+                                 std::span<Together<width>> x);
+  bool solve_by_gmres(const Increment<D>& increment);
 
   enum class Factors { none, of_earlier_matrix, of_matrix };
 
-  BlockMatrix matrix_;
-  BlockLU lu_;
-  Gmres gmres_;
+  BlockMatrix<width> matrix_;
+  BlockLU<width> lu_;
+  Gmres<width> gmres_;
   Factors factors_ = Factors::none;
-  std::vector<TouchingContact> touching_;
-  std::vector<ContactMoment> moments_;
+  std::vector<TouchingContact<D>> touching_;
+  std::vector<ContactMoment<D>> moments_;
   std::vector<Edge> graph_;
   std::vector<std::int32_t> edge_of_contact_;
   std::vector<std::int32_t> edge_of_link_;         // between anchors, as add_anchors() goes
   std::vector<std::int32_t> listed_i_, listed_j_;  // the contacts that the graph was made from
   std::vector<std::pair<Edge, std::int32_t>> pairs_;
-  std::vector<Quad> ground_;
-  std::vector<Quad> right_, solution_, check_, kept_;
+  std::vector<Column> ground_, right_, solution_, check_;
+  std::vector<Together<width>> check_together_, kept_;
 };
+
+template <>
+void Stiffness<2>::add_contacts();
+template <>
+void Stiffness<2>::add_moments();
+template <>
+void Stiffness<2>::link_anchors(const Increment<2>& increment);
+template <>
+void Stiffness<2>::add_anchors(const Increment<2>& increment);
 
 }  // namespace grainlaw

@@ -1,6 +1,6 @@
 // Linear solves with the stiffness: factors, their refinement, and GMRES where that does not do.
+#include "base/constants.hpp"
 #include "base/room.hpp"
-#include "linear/quad.hpp"
 #include "tangent/stiffness.hpp"
 
 #include <algorithm>
@@ -9,52 +9,62 @@
 
 namespace grainlaw {
 
-using namespace quad;
-
 namespace {
 
-// Holds rattlers and the translation of the cell in the factors, relative to the masses; refinement
-// takes it out of the solution again.
-constexpr double grounding = 1e-12;
-// Of a residual relative to the largest entry of the right-hand side: of GMRES, of four together.
-constexpr double good = 1e-12;
-constexpr double good_of_four = 1e-10;
-constexpr double usable = 1e-6;
-// Refinement goes on while it falls to less than this share. With old factors it has to be quick,
-// or a factorisation is cheaper; below `settled` what stays is rounding, by whatever factors.
-constexpr double slow = 0.5;
-constexpr double quick = 0.05;
-constexpr double settled = 1e-9;
-
-// Largest magnitude by lane; infinite where a number is not finite.
-GRAINLAW_CLONES void largest_by_lane(std::span<const Quad> values, Quad& result) {
-  Lanes most{};
-  Lanes poison{};
-  for (const auto& value : values) {
-    const Lanes v = load(value.lane);
+// Largest magnitude by lane of `count` registers; infinite where a number is not finite.
+template <std::size_t width>
+GRAINLAW_INLINE void find_largest(const double* values, std::size_t count, double* result) {
+  simd::Lanes<width> most{};
+  simd::Lanes<width> poison{};
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto v = simd::load<width>(values + k * width);
     most = simd::largest(most, simd::magnitude(v));
     poison += v * 0.0;
   }
   for (std::size_t k = 0; k < width; ++k) {
-    result.lane[k] = poison[k] == 0 ? most[k] : std::numeric_limits<double>::infinity();
+    result[k] = poison[k] == 0 ? most[k] : std::numeric_limits<double>::infinity();
   }
 }
+GRAINLAW_CLONES void largest_of_4(const double* values, std::size_t count, double* result) {
+  find_largest<4>(values, count, result);
+}
+[[maybe_unused]] GRAINLAW_CLONES void largest_of_8(const double* values, std::size_t count, double* result) {
+  find_largest<8>(values, count, result);
+}
 
-double largest_of(std::span<const Quad> values) {
-  Quad result;
-  largest_by_lane(values, result);
+template <class Register>
+Register largest_by_lane(std::span<const Register> values) {
+  Register result;
+  if constexpr (sizeof(Register) == 4 * sizeof(double)) {
+    largest_of_4(values.data()->lane, values.size(), result.lane);
+  } else {
+    largest_of_8(values.data()->lane, values.size(), result.lane);
+  }
+  return result;
+}
+
+template <class Register>
+double largest_of(const std::vector<Register>& values, std::size_t count) {
+  const Register result = largest_by_lane<Register>(std::span(values).first(count));
   return *std::max_element(std::begin(result.lane), std::end(result.lane));
 }
 
-GRAINLAW_CLONES void add_to(std::span<Quad> to, std::span<const Quad> values) {
-  for (std::size_t k = 0; k < to.size(); ++k) {
-    store(to[k].lane, load(to[k].lane) + load(values[k].lane));
+GRAINLAW_CLONES void add_doubles(double* to, const double* values, std::size_t count) {
+  for (std::size_t k = 0; k < count; k += 4) {
+    simd::store(to + k, simd::load<4>(to + k) + simd::load<4>(values + k));
   }
+}
+
+template <class Register>
+void add_to(std::span<Register> to, const std::vector<Register>& values) {
+  constexpr std::size_t doubles = sizeof(Register) / sizeof(double);
+  add_doubles(to.data()->lane, values.data()->lane, to.size() * doubles);
 }
 
 }  // namespace
 
-void Stiffness::factorise(Increment& increment) {
+template <int D>
+void Stiffness<D>::factorise(Increment<D>& increment) {
   const bool first = increment.factorisations++ == 0;
   lu_.analyse(matrix_, !first);
   gmres_.reserve(matrix_.nodes);
@@ -62,14 +72,15 @@ void Stiffness::factorise(Increment& increment) {
   resize_with_room(ground_, matrix_.nodes);
   for (std::size_t q = 0; q < matrix_.nodes; ++q) {
     for (std::size_t k = 0; k < b; ++k) {
-      ground_[q].lane[k] = grounding * increment.mass[k * matrix_.nodes + q];
+      ground_[q].lane[k] = tuned::grounding * increment.mass[k * matrix_.nodes + q];
     }
   }
   factors_ = lu_.factorise(matrix_, ground_) ? Factors::of_matrix : Factors::none;
 }
 
-bool Stiffness::solve(const Increment& increment, std::span<const double> b, std::span<double> x,
-                      double tolerance) {
+template <int D>
+bool Stiffness<D>::solve(const Increment<D>& increment, std::span<const double> b,
+                         std::span<double> x, double tolerance) {
   if (factors_ != Factors::of_matrix) return false;
   const auto nodes = matrix_.nodes;
   const auto components = static_cast<std::size_t>(matrix_.components);
@@ -80,19 +91,19 @@ bool Stiffness::solve(const Increment& increment, std::span<const double> b, std
     right_[q] = {};
     for (std::size_t k = 0; k < components; ++k) right_[q].lane[k] = b[k * nodes + q];
   }
-  const double scale = std::max(largest_of(right_), std::numeric_limits<double>::min());
+  const double scale = std::max(largest_of(right_, nodes), std::numeric_limits<double>::min());
   // Of a right-hand side that is rounding alone nothing can be solved for.
-  const double enough = std::max(usable, increment.rounding_force() / scale);
+  const double enough = std::max(tuned::usable_solution, increment.rounding_force() / scale);
   const auto defect = [&] {
     matrix_.residual(right_, solution_, check_);
-    return largest_of(check_) / scale;
+    return largest_of(check_, nodes) / scale;
   };
   std::copy(right_.begin(), right_.end(), solution_.begin());
   lu_.solve(solution_);
   double error = defect();
-  for (double last = 4 * error; error > tolerance && error < slow * last;) {
+  for (double last = 4 * error; error > tolerance && error < tuned::slow_refinement * last;) {
     lu_.solve(check_);
-    add_to(solution_, check_);
+    add_to(std::span(solution_), check_);
     last = error;
     error = defect();
   }
@@ -104,56 +115,67 @@ bool Stiffness::solve(const Increment& increment, std::span<const double> b, std
 }
 
 // From right_ to solution_.
-bool Stiffness::solve_by_gmres(const Increment& increment) {
-  gmres_.solve(matrix_, lu_, good, right_, solution_);
-  const auto check = std::span(check_).first(matrix_.nodes);
-  matrix_.residual(right_, solution_, check);
-  return largest_of(check) <= std::max(usable * largest_of(right_), increment.rounding_force());
+template <int D>
+bool Stiffness<D>::solve_by_gmres(const Increment<D>& increment) {
+  gmres_.solve(matrix_, lu_, tuned::good_solution, right_, solution_);
+  resize_with_room(check_, matrix_.nodes);
+  matrix_.residual(right_, solution_, check_);
+  return largest_of(check_, matrix_.nodes) <=
+         std::max(tuned::usable_solution * largest_of(right_, matrix_.nodes),
+                  increment.rounding_force());
 }
 
-// The worst of the four residuals counts.
-bool Stiffness::solve_four_by_factors(const Increment& increment, std::span<const Quad> b,
-                                      std::span<Quad> x) {
+// The worst of the residuals counts.
+template <int D>
+bool Stiffness<D>::solve_together_by_factors(const Increment<D>& increment,
+                                             std::span<const Together<width>> b,
+                                             std::span<Together<width>> x) {
   const bool earlier = factors_ == Factors::of_earlier_matrix;
-  const double floor = increment.rounding_force() / usable;
-  Quad scale;
-  largest_by_lane(b, scale);
+  const double floor = increment.rounding_force() / tuned::usable_solution;
+  const auto scale = largest_by_lane(b);
   const auto defect = [&] {
-    matrix_.residual_of_four(b, x, check_);
-    Quad most;
-    largest_by_lane(check_, most);
+    matrix_.residual_together(b, x, check_together_);
+    const auto most = largest_by_lane<Together<width>>(check_together_);
     double error = 0;
     for (std::size_t k = 0; k < width; ++k) {
       error = std::max(error, most.lane[k] / std::max(scale.lane[k], floor));
     }
     return error;
   };
-  const auto needed = [=](double error) { return earlier && error > settled ? quick : slow; };
+  const auto needed = [=](double error) {
+    return earlier && error > tuned::settled_solution ? tuned::quick_refinement
+                                                      : tuned::slow_refinement;
+  };
   std::copy(b.begin(), b.end(), x.begin());
-  lu_.solve_four(x);
+  lu_.solve_together(x);
   double error = defect();
   double last = 1;
-  while (error > good_of_four && error < needed(error) * last) {
+  while (error > tuned::good_together && error < needed(error) * last) {
     std::copy(x.begin(), x.end(), kept_.begin());
-    lu_.solve_four(check_);
-    add_to(x, check_);
+    lu_.solve_together(check_together_);
+    add_to(x, check_together_);
     last = error;
     error = defect();
   }
-  if (last <= usable && error > last) {  // of a nearly singular matrix it rises again
+  if (last <= tuned::usable_solution &&
+      error > last) {  // of a nearly singular matrix it rises again
     std::copy(kept_.begin(), kept_.end(), x.begin());
     error = last;
   }
-  return error <= (earlier ? settled : usable);
+  return error <= (earlier ? tuned::settled_solution : tuned::usable_solution);
 }
 
-bool Stiffness::solve_four(Increment& increment, std::span<const Quad> b, std::span<Quad> x) {
-  resize_with_room(check_, b.size());
+template <int D>
+bool Stiffness<D>::solve_together(Increment<D>& increment, std::span<const Together<width>> b,
+                                  std::span<Together<width>> x) {
+  resize_with_room(check_together_, b.size());
   resize_with_room(kept_, b.size());
-  if (factors_ == Factors::of_earlier_matrix && solve_four_by_factors(increment, b, x)) return true;
+  if (factors_ == Factors::of_earlier_matrix && solve_together_by_factors(increment, b, x)) {
+    return true;
+  }
   if (factors_ != Factors::of_matrix) factorise(increment);
   if (factors_ != Factors::of_matrix) return false;
-  if (solve_four_by_factors(increment, b, x)) return true;
+  if (solve_together_by_factors(increment, b, x)) return true;
   const auto nodes = matrix_.nodes;
   const auto components = static_cast<std::size_t>(matrix_.components);
   resize_with_room(right_, nodes);
@@ -161,16 +183,24 @@ bool Stiffness::solve_four(Increment& increment, std::span<const Quad> b, std::s
   for (std::size_t l = 0; l < width; ++l) {
     for (std::size_t q = 0; q < nodes; ++q) {
       right_[q] = {};
-      for (std::size_t k = 0; k < components; ++k)
+      for (std::size_t k = 0; k < components; ++k) {
         right_[q].lane[k] = b[q * components + k].lane[l];
+      }
     }
     if (!solve_by_gmres(increment)) return false;
     for (std::size_t q = 0; q < nodes; ++q) {
-      for (std::size_t k = 0; k < components; ++k)
+      for (std::size_t k = 0; k < components; ++k) {
         x[q * components + k].lane[l] = solution_[q].lane[k];
+      }
     }
   }
   return true;
 }
+
+template void Stiffness<2>::factorise(Increment<2>&);
+template bool Stiffness<2>::solve(const Increment<2>&, std::span<const double>, std::span<double>,
+                                  double);
+template bool Stiffness<2>::solve_together(Increment<2>&, std::span<const Together<4>>,
+                                           std::span<Together<4>>);
 
 }  // namespace grainlaw

@@ -98,9 +98,9 @@ void expect_loops_agree(Discs discs) {
   discs.evaluate();
   const double scale = kn * 1e-13;
   const auto& f = discs.list.forces[0];
-  EXPECT_NEAR(f.x, point.normal_force * point.normal_x - point.tangential_force * point.normal_y,
+  EXPECT_NEAR(f.x, point.normal_force * point.normal[0] - point.tangential_force * point.normal[1],
               scale);
-  EXPECT_NEAR(f.y, point.normal_force * point.normal_y + point.tangential_force * point.normal_x,
+  EXPECT_NEAR(f.y, point.normal_force * point.normal[1] + point.tangential_force * point.normal[0],
               scale);
   if (discs.law.moments()) {
     EXPECT_NEAR(f.unused, discs.moment(), scale);

@@ -3,7 +3,7 @@
 
 #include "contact/contact_list.hpp"
 #include "contact/contact_point.hpp"
-#include "contact/frictional.hpp"
+#include "contact/contact_forces.hpp"
 
 #include <cstddef>
 #include <numeric>

@@ -2,7 +2,7 @@
 
 #include "app/library.hpp"
 #include "contact/contact_point.hpp"
-#include "contact/frictional.hpp"
+#include "contact/contact_forces.hpp"
 
 #include <fmt/format.h>
 
@@ -117,9 +117,9 @@ void WaveMotion::keep_list() {
   for (std::size_t c = 0; c < list_.size(); ++c) {
     const bool bonded = list_.bonded(c);
     const double weight = list_.weight_of(c);
-    const double moment = list_.start_moment.empty() ? 0 : list_.start_moment[c];
-    if (!bonded && list_.start_force[c] == 0 && moment == 0) continue;
-    history_.push_back({list_.i[c], list_.j[c], {}, false, bonded, list_.start_force[c] / weight});
+    const double moment = list_.start_moment[0].empty() ? 0 : list_.start_moment[0][c];
+    if (!bonded && list_.start_force[0][c] == 0 && moment == 0) continue;
+    history_.push_back({list_.i[c], list_.j[c], {}, false, bonded, list_.start_force[0][c] / weight});
     if (law_.moments()) moments_.push_back(moment / weight);
     if (keeps_gaps) gaps_.push_back(list_.rest_of(c) - list_.reach[c]);
   }
@@ -138,11 +138,11 @@ void WaveMotion::break_bonds() {
   for (std::size_t c = 0; c < list_.size(); ++c) {
     if (!list_.bonded(c)) continue;
     const ForceRecord& f = list_.forces[c];
-    const double fn = f.x * list_.start_x[c] + f.y * list_.start_y[c];
+    const double fn = f.x * list_.start_normal[0][c] + f.y * list_.start_normal[1][c];
     double share =
-        -fn / bond.normal_strength + std::abs(list_.start_force[c]) / bond.tangential_strength;
+        -fn / bond.normal_strength + std::abs(list_.start_force[0][c]) / bond.tangential_strength;
     if (law_.moments() && bond.bending_strength > 0)
-      share += std::abs(list_.start_moment[c]) / bond.bending_strength;
+      share += std::abs(list_.start_moment[0][c]) / bond.bending_strength;
     if (share >= list_.weight_of(c)) broken.push_back(c);
   }
   if (broken.empty()) return;
@@ -155,7 +155,7 @@ void WaveMotion::break_bonds() {
       const auto i = static_cast<std::size_t>(list_.i[c]), j = static_cast<std::size_t>(list_.j[c]);
       list_.bending_stiffness[c] = list_.tangential_stiffness[c] *
                                    law_.rolling_ratio(specimen_->radius[i], specimen_->radius[j]);
-      if (list_.bending_stiffness[c] == 0) list_.start_moment[c] = 0;
+      if (list_.bending_stiffness[c] == 0) list_.start_moment[0][c] = 0;
     }
   }
   grainlaw::advance_contacts(particles_, law_, list_, forces_);

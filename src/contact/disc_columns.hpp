@@ -8,11 +8,12 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace grainlaw::contact_loops {
+namespace grainlaw::disc_loops {
 
 using namespace simd;
 
-static_assert(sizeof(ParticleRecord) == sizeof(Record) && sizeof(ForceRecord) == sizeof(Record));
+static_assert(sizeof(ParticleRecord<2>) == sizeof(Record) &&
+              sizeof(ForceRecord<2>) == sizeof(Record));
 
 // Records of as many contacts or pairs of particles as there are lanes.
 template <std::size_t width>
@@ -127,7 +128,7 @@ GRAINLAW_INLINE void put_records(const Columns<width>& from, double* to) {
 // A sum over contacts by their places in a group, so that it has the same bits for any width.
 template <std::size_t width>
 struct GroupSum {
-  static constexpr std::size_t parts = ContactList::group / width;
+  static constexpr std::size_t parts = ContactList<2>::group / width;
   Lanes<width> part[parts] = {};
 
   GRAINLAW_INLINE void add(std::size_t c, const Lanes<width>& value) {
@@ -142,4 +143,4 @@ struct GroupSum {
   }
 };
 
-}  // namespace grainlaw::contact_loops
+}  // namespace grainlaw::disc_loops

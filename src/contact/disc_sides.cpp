@@ -1,7 +1,7 @@
-#include "contact/contact_sides.hpp"
+#include "contact/disc_sides.hpp"
 
 #include "base/room.hpp"
-#include "contact/contact_loops.hpp"
+#include "contact/disc_loops.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -11,20 +11,20 @@ namespace grainlaw {
 namespace {
 
 using namespace simd;
-using contact_loops::Columns;
-using contact_loops::columns_at;
-using contact_loops::GroupSum;
-using contact_loops::put_records;
-using contact_loops::records_of;
-constexpr std::size_t lanes = ContactSides::lanes;
-static_assert(lanes == ContactList::group);
+using disc_loops::Columns;
+using disc_loops::columns_at;
+using disc_loops::GroupSum;
+using disc_loops::put_records;
+using disc_loops::records_of;
+constexpr std::size_t lanes = ContactSides<2>::lanes;
+static_assert(lanes == ContactList<2>::group);
 
 struct Loop {
-  std::span<const ContactSides::Rows> groups;
-  ContactSides::Nodes* nodes;
-  const ContactSides::Bounds* bounds;
-  const ContactSides::Start* starts;
-  ContactSides::Side* sides;
+  std::span<const ContactSides<2>::Rows> groups;
+  ContactSides<2>::Nodes* nodes;
+  const ContactSides<2>::Bounds* bounds;
+  const ContactSides<2>::Start* starts;
+  ContactSides<2>::Side* sides;
   const double* records;         // of the place, or the moves
   double* last_moves = nullptr;  // in: of the step before; out: of the next
   double curvature = 0, friction = 0, ratio = 0, factor = 0, keep = 0, gain = 0;
@@ -45,19 +45,19 @@ GRAINLAW_INLINE Looked look_loop(const Loop& loop) {
   GroupSum<width> force, touching;
   const double* own_records = loop.records;
   for (std::size_t g = 0; g < loop.groups.size(); ++g) {
-    const ContactSides::Rows rows = loop.groups[g];
-    ContactSides::Nodes& nodes = loop.nodes[g];
-    const ContactSides::Bounds& bounds = loop.bounds[g];
+    const ContactSides<2>::Rows rows = loop.groups[g];
+    ContactSides<2>::Nodes& nodes = loop.nodes[g];
+    const ContactSides<2>::Bounds& bounds = loop.bounds[g];
     for (std::size_t k = 0; k < lanes; k += width, own_records += 4 * width) {
       const Columns<width> own = columns_at<width>(own_records);
       V stiffness{}, stiffness_roll{};
       for (std::size_t row = rows.first; row < rows.first + rows.count; ++row) {
-        const ContactSides::Start& start = loop.starts[row];
-        ContactSides::Side& side = loop.sides[row];
+        const ContactSides<2>::Start& start = loop.starts[row];
+        ContactSides<2>::Side& side = loop.sides[row];
         const Columns<width> other = records_of<width>(loop.records, side.other + k);
         const V x = own.x - other.x + load<width>(start.offset_x + k);
         const V y = own.y - other.y + load<width>(start.offset_y + k);
-        const V distance = square_root(x * x + y * y + contact_loops::tiny);
+        const V distance = square_root(x * x + y * y + disc_loops::tiny);
         const V inverse = 1 / distance;
         const V overlap = own.last + other.last - distance;
         const auto here = overlap > zero;
@@ -107,7 +107,7 @@ GRAINLAW_INLINE Looked look_loop(const Loop& loop) {
 }
 
 template <std::size_t width, bool rotating>
-GRAINLAW_INLINE ContactSides::Measured step_loop(const Loop& loop) {
+GRAINLAW_INLINE ContactSides<2>::Measured step_loop(const Loop& loop) {
   using V = Lanes<width>;
   const V zero{};
   const double friction = loop.friction;
@@ -118,13 +118,13 @@ GRAINLAW_INLINE ContactSides::Measured step_loop(const Loop& loop) {
   double* last_moves = loop.last_moves;
   const double* own_records = loop.records;
   for (std::size_t g = 0; g < loop.groups.size(); ++g) {
-    const ContactSides::Rows rows = loop.groups[g];
-    const ContactSides::Nodes& nodes = loop.nodes[g];
+    const ContactSides<2>::Rows rows = loop.groups[g];
+    const ContactSides<2>::Nodes& nodes = loop.nodes[g];
     for (std::size_t k = 0; k < lanes;
          k += width, last_moves += 4 * width, own_records += 4 * width) {
       Columns<width> own = columns_at<width>(own_records);
       V x{}, y{}, roll{};
-      const ContactSides::Side* side = loop.sides + rows.first;
+      const ContactSides<2>::Side* side = loop.sides + rows.first;
       for (const auto* const end = side + rows.count; side != end; ++side) {
         const Columns<width> other = records_of<width>(loop.records, side->other + k);
         const V ux = own.x - other.x;
@@ -178,15 +178,15 @@ GRAINLAW_LOOP(Looked, look_locked_near, look_loop, false, false)
 GRAINLAW_LOOP(Looked, look_locked_far, look_loop, false, true)
 GRAINLAW_LOOP(Looked, look_near, look_loop, true, false)
 GRAINLAW_LOOP(Looked, look_far, look_loop, true, true)
-GRAINLAW_LOOP(ContactSides::Measured, step_locked, step_loop, false)
-GRAINLAW_LOOP(ContactSides::Measured, step_rotating, step_loop, true)
+GRAINLAW_LOOP(ContactSides<2>::Measured, step_locked, step_loop, false)
+GRAINLAW_LOOP(ContactSides<2>::Measured, step_rotating, step_loop, true)
 
 std::size_t at(std::int32_t particle) { return static_cast<std::size_t>(particle); }
 
 }  // namespace
 
-void ContactSides::arrange(const ContactList& list, const Packing& packing,
-                           std::span<const ForceRecord> least_masses, bool at_rest) {
+void ContactSides<2>::arrange(const ContactList<2>& list, const Packing& packing,
+                              std::span<const LeastMass<2>> least_masses, bool at_rest) {
   const auto& radius = packing.radius;
   particles_ = packing.size();
   const double sum = std::accumulate(radius.begin(), radius.end(), 0.0);
@@ -195,31 +195,31 @@ void ContactSides::arrange(const ContactList& list, const Packing& packing,
   sort_nodes(list, packing.order, least_masses);
   for (auto* records : {&place_, &moves_, &last_moves_}) {
     resize_with_room(*records, lanes * nodes_.size());
-    std::fill(records->begin(), records->end(), ParticleRecord{});
+    std::fill(records->begin(), records->end(), ParticleRecord<2>{});
   }
   if (!at_rest) restore_velocities();
   list_sides(list, 2 * *std::max_element(radius.begin(), radius.end()));
 }
 
-void ContactSides::save_velocities() {
+void ContactSides<2>::save_velocities() {
   resize_with_room(velocity_, particles_);
   for (std::size_t p = 0; p < particles_; ++p) {
-    const ParticleRecord& now = moves_[slot_[p]];
-    const ParticleRecord& last = last_moves_[slot_[p]];
+    const ParticleRecord<2>& now = moves_[slot_[p]];
+    const ParticleRecord<2>& last = last_moves_[slot_[p]];
     velocity_[p] = {now.x - last.x, now.y - last.y, now.roll - last.roll, 0};
   }
 }
 
-void ContactSides::restore_velocities() {
+void ContactSides<2>::restore_velocities() {
   for (std::size_t p = 0; p < particles_; ++p) {
-    const ParticleRecord& v = velocity_[p];
+    const ParticleRecord<2>& v = velocity_[p];
     last_moves_[slot_[p]] = {-v.x, -v.y, -v.roll, 0};
   }
 }
 
 // By the number of their sides, so that the rows of a group are full; by counting.
-void ContactSides::sort_nodes(const ContactList& list, std::span<const std::int32_t> order,
-                              std::span<const ForceRecord> least_masses) {
+void ContactSides<2>::sort_nodes(const ContactList<2>& list, std::span<const std::int32_t> order,
+                                 std::span<const LeastMass<2>> least_masses) {
   resize_with_room(count_, particles_);
   std::fill(count_.begin(), count_.end(), 0U);
   std::uint32_t most = 15;  // nearly always enough, so that the counts keep their size
@@ -248,7 +248,7 @@ void ContactSides::sort_nodes(const ContactList& list, std::span<const std::int3
     const std::size_t k = slot_[p] % lanes;
     bounds.least[k] = least_masses[p].x;
     bounds.least_roll[k] = least_masses[p].roll;
-    bounds.inverse_radius[k] = least_masses[p].unused;
+    bounds.inverse_radius[k] = least_masses[p].inverse_radius;
     Rows& rows = rows_[slot_[p] / lanes];
     rows.count = std::max(rows.count, count_[p]);
   }
@@ -259,7 +259,7 @@ void ContactSides::sort_nodes(const ContactList& list, std::span<const std::int3
   }
 }
 
-void ContactSides::list_sides(const ContactList& list, double longest_reach) {
+void ContactSides<2>::list_sides(const ContactList<2>& list, double longest_reach) {
   // Filled up with nodes beside themselves, further than they reach, without stiffness.
   Start nothing{};
   std::fill_n(nothing.offset_x, lanes, 2 * longest_reach);
@@ -283,13 +283,13 @@ void ContactSides::list_sides(const ContactList& list, double longest_reach) {
     const std::size_t row = rows_[slot / lanes].first + count_[at(node)]++;
     const std::size_t k = slot % lanes;
     Start& start = starts_[row];
-    start.offset_x[k] = sign * list.offset_x[c];
-    start.offset_y[k] = sign * list.offset_y[c];
+    start.offset_x[k] = sign * list.offset[0][c];
+    start.offset_y[k] = sign * list.offset[1][c];
     start.inverse_reach[k] = list.inverse_reach[c];
-    start.x[k] = sign * list.start_x[c];
-    start.y[k] = sign * list.start_y[c];
+    start.x[k] = sign * list.start_normal[0][c];
+    start.y[k] = sign * list.start_normal[1][c];
     start.roll[k] = list.start_roll[c];
-    start.force[k] = list.start_force[c];
+    start.force[k] = list.start_force[0][c];
     Side& side = sides_[row];
     side.other[k] = static_cast<std::int32_t>(slot_[at(other)]);
     side.normal_stiffness[k] = list.normal_stiffness[c];
@@ -300,15 +300,15 @@ void ContactSides::list_sides(const ContactList& list, double longest_reach) {
   }
 }
 
-ContactTotals ContactSides::look(std::span<const ParticleRecord> particles, const ContactLaw& law,
-                                 double factor, ContactList& list) {
+ContactTotals ContactSides<2>::look(std::span<const ParticleRecord<2>> particles,
+                                    const ContactLaw& law, double factor, ContactList<2>& list) {
   for (std::size_t p = 0; p < particles_; ++p) place_[slot_[p]] = particles[p];
   for (std::size_t s = 0; s < moves_.size(); ++s) {
-    const ParticleRecord& now = moves_[s];
-    ParticleRecord& last = last_moves_[s];
+    const ParticleRecord<2>& now = moves_[s];
+    ParticleRecord<2>& last = last_moves_[s];
     last = {last.x - now.x, last.y - now.y, last.roll - now.roll, 0};
   }
-  std::fill(moves_.begin(), moves_.end(), ParticleRecord{});
+  std::fill(moves_.begin(), moves_.end(), ParticleRecord<2>{});
   const Loop loop{.groups = rows_,
                   .nodes = nodes_.data(),
                   .bounds = bounds_.data(),
@@ -327,7 +327,7 @@ ContactTotals ContactSides::look(std::span<const ParticleRecord> particles, cons
   return {0.5 * seen.force, 0.5 * seen.touching, static_cast<int>(0.5 * seen.touching)};
 }
 
-ContactSides::Measured ContactSides::step(const ContactLaw& law, double keep, double gain) {
+ContactSides<2>::Measured ContactSides<2>::step(const ContactLaw& law, double keep, double gain) {
   const Loop loop{.groups = rows_,
                   .nodes = nodes_.data(),
                   .bounds = nullptr,
@@ -345,9 +345,9 @@ ContactSides::Measured ContactSides::step(const ContactLaw& law, double keep, do
   return measured;
 }
 
-void ContactSides::move(std::span<ParticleRecord> particles) const {
+void ContactSides<2>::move(std::span<ParticleRecord<2>> particles) const {
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const ParticleRecord& moved = moves_[slot_[p]];
+    const ParticleRecord<2>& moved = moves_[slot_[p]];
     particles[p].x += moved.x;
     particles[p].y += moved.y;
     particles[p].roll += moved.roll;

@@ -2,16 +2,16 @@
 #pragma once
 
 #include "base/simd.hpp"
-#include "contact/contact_columns.hpp"
+#include "contact/contact_forces.hpp"
 #include "contact/contact_list.hpp"
-#include "contact/frictional.hpp"
-#include "contact/turn.hpp"
+#include "contact/disc_columns.hpp"
+#include "contact/disc_turn.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
 
-namespace grainlaw::contact_loops {
+namespace grainlaw::disc_loops {
 
 using namespace simd;
 
@@ -19,14 +19,14 @@ constexpr double tiny = std::numeric_limits<double>::min();
 constexpr double hertz_share = 2.0 / 3;  // fn / (kn overlap)
 
 struct Loop {
-  const ParticleRecord* particles;
+  const ParticleRecord<2>* particles;
   double friction;
-  ContactList* list;
+  ContactList<2>* list;
 };
 
 // What is known of a block of contacts. The loops go over a block in steps, each with short chains of
 // operations that depend on each other, so that the processor finds others to do meanwhile.
-constexpr std::size_t block = 4 * ContactList::group;
+constexpr std::size_t block = 4 * ContactList<2>::group;
 struct alignas(64) Block {
   double x[block], y[block];  // branch [m]
   double reach[block];        // R_i + R_j [m]
@@ -37,10 +37,10 @@ struct alignas(64) Block {
 
 // Branches: the particles' records subtracted and transposed.
 template <std::size_t width>
-GRAINLAW_INLINE void find_branches(const double* particles, const ContactList& list,
+GRAINLAW_INLINE void find_branches(const double* particles, const ContactList<2>& list,
                                    std::size_t first, std::size_t size, Block& at) {
-  const double* offset_x = list.offset_x.data() + first;
-  const double* offset_y = list.offset_y.data() + first;
+  const double* offset_x = list.offset[0].data() + first;
+  const double* offset_y = list.offset[1].data() + first;
   for (std::size_t c = 0; c < size; c += width) {
     const Columns<width> pair =
         pair_columns<width>(particles, &list.i[first + c], &list.j[first + c]);
@@ -68,7 +68,7 @@ struct LoopResult {
 
 // Overlap of contacts, negative across a gap; and down to which they carry.
 template <std::size_t width, Features law>
-GRAINLAW_INLINE Lanes<width> overlap_of(const ContactList& list, std::size_t c,
+GRAINLAW_INLINE Lanes<width> overlap_of(const ContactList<2>& list, std::size_t c,
                                         const Lanes<width>& reach, const Lanes<width>& distance) {
   if constexpr (law.bonds) {
     return load<width>(&list.rest[c]) - distance;
@@ -77,7 +77,7 @@ GRAINLAW_INLINE Lanes<width> overlap_of(const ContactList& list, std::size_t c,
   }
 }
 template <std::size_t width, Features law>
-GRAINLAW_INLINE Lanes<width> least_overlap(const ContactList& list, std::size_t c) {
+GRAINLAW_INLINE Lanes<width> least_overlap(const ContactList<2>& list, std::size_t c) {
   if constexpr (law.bonds) {
     return -load<width>(&list.hold[c]);
   } else {
@@ -87,7 +87,7 @@ GRAINLAW_INLINE Lanes<width> least_overlap(const ContactList& list, std::size_t 
 
 // theta_j - theta_i
 template <std::size_t width>
-GRAINLAW_INLINE Lanes<width> spin_of(const ParticleRecord* particles, const ContactList& list,
+GRAINLAW_INLINE Lanes<width> spin_of(const ParticleRecord<2>* particles, const ContactList<2>& list,
                                      std::size_t c) {
   Lanes<width> roll_i, roll_j;
   for (std::size_t k = 0; k < width; ++k) {
@@ -101,15 +101,15 @@ GRAINLAW_INLINE Lanes<width> spin_of(const ParticleRecord* particles, const Cont
 // Normal forces, and the sine of the turning since the start of the increment. Returns by how
 // much a touching branch has turned beyond the short series.
 template <std::size_t width, Features law>
-GRAINLAW_INLINE Lanes<width> find_normals(const ContactList& list, std::size_t first,
+GRAINLAW_INLINE Lanes<width> find_normals(const ContactList<2>& list, std::size_t first,
                                           std::size_t size, Block& at) {
   using V = Lanes<width>;
   const V zero{};
   const V one = zero + 1.0;
   V beyond{};
   const double* kn = list.normal_stiffness.data() + first;
-  const double* start_x = list.start_x.data() + first;
-  const double* start_y = list.start_y.data() + first;
+  const double* start_x = list.start_normal[0].data() + first;
+  const double* start_y = list.start_normal[1].data() + first;
   for (std::size_t c = 0; c < size; c += width) {
     const V x = load<width>(at.x + c);
     const V y = load<width>(at.y + c);
@@ -154,14 +154,14 @@ GRAINLAW_INLINE void find_forces(const Loop& loop, std::size_t first, std::size_
                                  const Block& at, GroupSum<width>& dissipated) {
   using V = Lanes<width>;
   constexpr bool rotating = law.kinematics == Kinematics::rotating;
-  ContactList& list = *loop.list;
+  ContactList<2>& list = *loop.list;
   const V zero{};
   const double* inverse_reach = list.inverse_reach.data() + first;
   const double* stiffness = list.tangential_stiffness.data() + first;
-  double* start_x = list.start_x.data() + first;
-  double* start_y = list.start_y.data() + first;
+  double* start_x = list.start_normal[0].data() + first;
+  double* start_y = list.start_normal[1].data() + first;
   double* start_roll = list.start_roll.data() + first;
-  double* start_force = list.start_force.data() + first;
+  double* start_force = list.start_force[0].data() + first;
   double* forces = &list.forces[first].x;
   for (std::size_t c = 0; c < size; c += width) {
     const V x = load<width>(at.x + c);
@@ -198,28 +198,29 @@ GRAINLAW_INLINE void find_forces(const Loop& loop, std::size_t first, std::size_
     if constexpr (law.moments) {
       const V spin = spin_of<width>(loop.particles, list, first + c);
       V kr = load<width>(&list.bending_stiffness[first + c]);
-      V start_moment = load<width>(&list.start_moment[first + c]);
+      V start_moment = load<width>(&list.start_moment[0][first + c]);
       if constexpr (law.hertz) {
         kr *= root;
         start_moment *= fourth;
       }
-      const V trial_moment = start_moment - kr * (spin - load<width>(&list.start_spin[first + c]));
+      const V trial_moment =
+          start_moment - kr * (spin - load<width>(&list.start_spin[0][first + c]));
       V largest_moment = load<width>(&list.rolling_length[first + c]) * fn;
       if constexpr (law.bonds) largest_moment += load<width>(&list.hold[first + c]);
       moment = smallest(largest(trial_moment, -largest_moment), largest_moment);
       if constexpr (advance) {
         const V lost = lost_by<width>(start_moment, trial_moment, moment, largest_moment, kr);
         if constexpr (law.hertz) {
-          const V held = load<width>(&list.start_moment[first + c]);
+          const V held = load<width>(&list.start_moment[0][first + c]);
           const V all = load<width>(&list.bending_stiffness[first + c]);
           dissipated.add(c, kr > zero ? lost : (all > zero ? 0.5 * held * held / all : zero));
           moment = kr > zero ? moment : zero;
-          store(&list.start_moment[first + c], kr > zero ? moment / fourth : zero);
+          store(&list.start_moment[0][first + c], kr > zero ? moment / fourth : zero);
         } else {
           dissipated.add(c, kr > zero ? lost : zero);
-          store(&list.start_moment[first + c], moment);
+          store(&list.start_moment[0][first + c], moment);
         }
-        store(&list.start_spin[first + c], spin);
+        store(&list.start_spin[0][first + c], spin);
       }
     }
     put_records<width>({(fn * x - ft * y) * inverse, (fn * y + ft * x) * inverse,
@@ -247,7 +248,7 @@ GRAINLAW_INLINE void find_forces(const Loop& loop, std::size_t first, std::size_
 template <std::size_t width, Features law, bool far, bool advance>
 GRAINLAW_INLINE LoopResult contact_loop(const Loop& loop) {
   using V = Lanes<width>;
-  ContactList& list = *loop.list;
+  ContactList<2>& list = *loop.list;
   V beyond{};
   GroupSum<width> dissipated;
   Block at;
@@ -277,7 +278,7 @@ GRAINLAW_INLINE LoopResult contact_loop(const Loop& loop) {
 template <std::size_t width, Features law>
 GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
   using V = Lanes<width>;
-  ContactList& list = *loop.list;
+  ContactList<2>& list = *loop.list;
   const V zero{};
   const V one = zero + 1.0;
   GroupSum<width> force, weight, touching;
@@ -314,7 +315,7 @@ GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
       touching.add(c, touches);
       if (weighted) weight.add(c, here ? load<width>(&list.weight[first + c]) : zero);
       put_records<width>({kn, kn, kt * square * load<width>(&list.inverse_reach[first + c]), last},
-                         &list.forces[first + c].x);
+                         &list.stiffness[first + c].x);
     }
   }
   return {force.total(), weighted ? weight.total() : touching.total(),
@@ -324,4 +325,4 @@ GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
 #define GRAINLAW_LOOP(Result, name, loop_of, ...) \
   GRAINLAW_BY_LANES(Result, name, loop_of, (const Loop& loop), (loop)__VA_OPT__(, ) __VA_ARGS__)
 
-}  // namespace grainlaw::contact_loops
+}  // namespace grainlaw::disc_loops

@@ -22,17 +22,20 @@ namespace grainlaw {
 // nothing is gained and nothing lost without sliding. It lies midway between the rules in use, a
 // kept force (which gains energy) and a kept elongation while unloading (as LAMMPS'
 // mindlin_rescale, which loses some in every cycle and has a kink where each increment starts).
-void evaluate_contacts(std::span<const ParticleRecord> particles, const ContactLaw& law,
-                       ContactList& list, std::span<ForceRecord> nodes);
+template <int D>
+void evaluate_contacts(std::span<const ParticleRecord<D>> particles, const ContactLaw& law,
+                       ContactList<D>& list, std::span<ForceRecord<D>> nodes);
 
-// The forces of all contacts of a plain law, left in list.forces without summing them.
-void find_contact_forces(std::span<const ParticleRecord> particles, const ContactLaw& law,
-                         ContactList& list);
+// The forces of all contacts, left in list.forces without summing them.
+template <int D>
+void find_contact_forces(std::span<const ParticleRecord<D>> particles, const ContactLaw& law,
+                         ContactList<D>& list);
 
 // The same, and the history starts anew from here. Returns the energy dissipated since the old
 // start: sliding force times slip, and what springs give up as contacts unload or open [J].
-double advance_contacts(std::span<const ParticleRecord> particles, const ContactLaw& law,
-                        ContactList& list, std::span<ForceRecord> nodes);
+template <int D>
+double advance_contacts(std::span<const ParticleRecord<D>> particles, const ContactLaw& law,
+                        ContactList<D>& list, std::span<ForceRecord<D>> nodes);
 
 // Over all touching contacts.
 struct ContactTotals {
@@ -43,7 +46,8 @@ struct ContactTotals {
 
 // Sum over the touching contacts of every node (overwritten): kn in x and y [N/m], kt d^2 /
 // (R_i + R_j) plus kr / R in roll [N].
-ContactTotals sum_stiffnesses(std::span<const ParticleRecord> particles, const ContactLaw& law,
-                              ContactList& list, std::span<ForceRecord> nodes);
+template <int D>
+ContactTotals sum_stiffnesses(std::span<const ParticleRecord<D>> particles, const ContactLaw& law,
+                              ContactList<D>& list, std::span<StiffnessRecord<D>> nodes);
 
 }  // namespace grainlaw

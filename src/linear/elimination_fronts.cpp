@@ -1,6 +1,6 @@
 // The fronts of the elimination: which they are, where they lie, and where the matrix goes.
-#include "linear/block_lu.hpp"
 #include "linear/dense_panels.hpp"
+#include "linear/elimination.hpp"
 
 #include "base/room.hpp"
 
@@ -17,7 +17,7 @@ std::size_t at(std::int32_t place) { return static_cast<std::size_t>(place); }
 
 // Columns of one list make a front; so do those of a front and of the one right after it that it is
 // left to, where the zeros that this brings cost less than two fronts do.
-void BlockLU::find_fronts() {
+void Elimination::find_fronts() {
   const auto goes_on = [&](std::size_t j) {
     return parent_[j - 1] == static_cast<std::int32_t>(j) && below_[j - 1] == below_[j] + 1;
   };
@@ -54,7 +54,7 @@ void BlockLU::find_fronts() {
 }
 
 // The others of every front, sorted, and where they are in the front they are left to.
-void BlockLU::link_fronts() {
+void Elimination::link_fronts() {
   resize_with_room(front_of_, nodes_);
   rows_.clear();
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
@@ -92,7 +92,7 @@ void BlockLU::link_fronts() {
 
 // In memory. What fronts leave lies on two stacks, by their depth in the tree: while a parent takes
 // over what its child leaves, it is on top of the one, the child on top of the other.
-void BlockLU::place_fronts() {
+void Elimination::place_fronts() {
   const auto b = static_cast<std::size_t>(components_);
   resize_with_room(mark_, std::max(nodes_, fronts_.size()));
   std::array<std::size_t, 2> top{}, highest{};
@@ -129,7 +129,7 @@ void BlockLU::place_fronts() {
 }
 
 // Where the blocks of the matrix go, front by front.
-void BlockLU::find_sources() {
+void Elimination::find_sources() {
   const auto b = static_cast<std::size_t>(components_);
   const auto for_each = [&](auto&& visit) {
     for (std::size_t e = 0; e < edges_.size(); ++e) {

@@ -1,33 +1,32 @@
+// Changes of the contacts of discs.
 #include "tangent/contact_change.hpp"
-
-#include "linear/quad.hpp"
-#include "math/pull_back.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <tuple>
 
 namespace grainlaw {
 
-using namespace quad;
-
 namespace {
+
+using Quad = ByDeformation<2>;
+using simd::store;
+using Lanes = simd::Lanes<4>;
+constexpr std::size_t width = 4;
+GRAINLAW_INLINE Lanes load(const double* from) { return simd::load<4>(from); }
 
 // What all contacts share, and the arrays they write to.
 struct ContactLoop {
-  std::span<const TouchingContact> touching;
-  PullBack pull_back;
+  std::span<const TouchingContact<2>> touching;
+  Tensor<2> inverse;        // F^-1
   const Quad* deformation;  // change of F
   const Quad* start_turn;   // per listed contact, null before the first history
   const Quad* start_force;
   const double* tangential_stiffness;
-  const Increment* bound_to_axes;  // null: branches are pulled back
+  const Increment<2>* bound_to_axes;  // null: branches are pulled back
 };
 
-ContactLoop contact_loop(const Increment& increment, std::span<const TouchingContact> touching,
-                         const DeformationChange& change, const HistoryChange& history) {
+ContactLoop contact_loop(const Increment<2>& increment,
+                         std::span<const TouchingContact<2>> touching,
+                         const DeformationChange<2>& change, const HistoryChange<2>& history) {
   return {touching,
-          PullBack(increment.deformation),
+          inverse<2>(increment.deformation),
           change.data(),
           history.turn,
           history.force,
@@ -36,17 +35,16 @@ ContactLoop contact_loop(const Increment& increment, std::span<const TouchingCon
 }
 
 // The branch that F deforms [m].
-GRAINLAW_INLINE std::array<double, 2> reference_branch(const ContactLoop& loop,
-                                                       const TouchingContact& contact) {
-  return loop.bound_to_axes == nullptr
-             ? loop.pull_back(contact.point.branch_x, contact.point.branch_y)
-             : loop.bound_to_axes->fixed_branch(contact.index);
+GRAINLAW_INLINE Vec<2> reference_branch(const ContactLoop& loop,
+                                        const TouchingContact<2>& contact) {
+  return loop.bound_to_axes == nullptr ? product<2>(loop.inverse, contact.point.branch)
+                                       : loop.bound_to_axes->fixed_branch(contact.index);
 }
 
 // The change of one contact; `motion` null: under the affine motion and the history alone. Returns
 // that of the couple d ft.
 template <bool rotating>
-GRAINLAW_INLINE Lanes change_of(const ContactLoop& loop, const TouchingContact& contact,
+GRAINLAW_INLINE Lanes change_of(const ContactLoop& loop, const TouchingContact<2>& contact,
                                 const double* motion, Lanes& force_x, Lanes& force_y,
                                 Lanes& branch_x, Lanes& branch_y, Lanes& tangential_force) {
   constexpr std::size_t b = rotating ? 3 : 2;
@@ -67,8 +65,8 @@ GRAINLAW_INLINE Lanes change_of(const ContactLoop& loop, const TouchingContact& 
           contact.lever_i * load(zi + 2 * width) + (1 - contact.lever_i) * load(zj + 2 * width);
     }
   }
-  const double nx = point.normal_x;
-  const double ny = point.normal_y;
+  const double nx = point.normal[0];
+  const double ny = point.normal[1];
   const auto& s = contact.stiffness;
   const Lanes normal = nx * branch_x + ny * branch_y;
   const Lanes tangential = nx * branch_y - ny * branch_x;
@@ -109,15 +107,15 @@ GRAINLAW_INLINE void sum_right_sides(const ContactLoop& loop, double* right) {
 
 template <bool rotating>
 GRAINLAW_INLINE void find_changes(const ContactLoop& loop, const double* motion,
-                                  ContactChange* changes) {
+                                  ContactChange<2>* changes) {
   for (const auto& contact : loop.touching) {
     Lanes fx{}, fy{}, bx{}, by{}, ft{};
     change_of<rotating>(loop, contact, motion, fx, fy, bx, by, ft);
-    store(changes->force_x.lane, fx);
-    store(changes->force_y.lane, fy);
-    store(changes->branch_x.lane, bx);
-    store(changes->branch_y.lane, by);
-    store(changes->tangential_force.lane, ft);
+    store(changes->force[0].lane, fx);
+    store(changes->force[1].lane, fy);
+    store(changes->branch[0].lane, bx);
+    store(changes->branch[1].lane, by);
+    store(changes->tangential_force[0].lane, ft);
     ++changes;
   }
 }
@@ -126,13 +124,13 @@ GRAINLAW_CLONES void right_sides(const ContactLoop& loop, bool rotating, double*
   rotating ? sum_right_sides<true>(loop, right) : sum_right_sides<false>(loop, right);
 }
 GRAINLAW_CLONES void all_changes(const ContactLoop& loop, bool rotating, const double* motion,
-                                 ContactChange* changes) {
+                                 ContactChange<2>* changes) {
   rotating ? find_changes<true>(loop, motion, changes) : find_changes<false>(loop, motion, changes);
 }
 // The change of the moment on j; `motion` null: under the affine motion and the history alone.
-Lanes moment_change_of(const Increment& increment, const ContactLoop& loop,
-                       const TouchingContact& contact, const ContactMoment& moment,
-                       const HistoryChange& history, const double* motion) {
+Lanes moment_change_of(const Increment<2>& increment, const ContactLoop& loop,
+                       const TouchingContact<2>& contact, const ContactMoment<2>& moment,
+                       const HistoryChange<2>& history, const double* motion) {
   const auto& point = contact.point;
   const auto reference = reference_branch(loop, contact);
   Lanes branch_x =
@@ -147,7 +145,7 @@ Lanes moment_change_of(const Increment& increment, const ContactLoop& loop,
     branch_y += load(zj + width) - load(zi + width);
     spin = load(zj + 2 * width) - load(zi + 2 * width);
   }
-  Lanes change = moment.by_normal * (point.normal_x * branch_x + point.normal_y * branch_y) +
+  Lanes change = moment.by_normal * (point.normal[0] * branch_x + point.normal[1] * branch_y) +
                  moment.by_spin * spin;
   if (history.moment != nullptr && !moment.capped) {
     change += load(history.moment[contact.index].lane) +
@@ -157,8 +155,8 @@ Lanes moment_change_of(const Increment& increment, const ContactLoop& loop,
   return change;
 }
 
-void add_moment_changes(const Increment& increment, const ContactLoop& loop,
-                        std::span<const ContactMoment> moments, const HistoryChange& history,
+void add_moment_changes(const Increment<2>& increment, const ContactLoop& loop,
+                        std::span<const ContactMoment<2>> moments, const HistoryChange<2>& history,
                         std::span<Quad> residual) {
   for (std::size_t m = 0; m < loop.touching.size(); ++m) {
     const auto& contact = loop.touching[m];
@@ -172,25 +170,29 @@ void add_moment_changes(const Increment& increment, const ContactLoop& loop,
 
 }  // namespace
 
-void add_residual_changes(const Increment& increment, const Stiffness& stiffness,
-                          const DeformationChange& change, const HistoryChange& history,
-                          std::span<Quad> residual) {
+template <>
+void add_residual_changes<2>(const Increment<2>& increment, const Stiffness<2>& stiffness,
+                             const DeformationChange<2>& change, const HistoryChange<2>& history,
+                             std::span<Quad> residual) {
   const auto& law = *increment.problem->law;
   const auto loop = contact_loop(increment, stiffness.touching(), change, history);
   right_sides(loop, law.rotating(), residual.data()->lane);
   if (law.moments()) add_moment_changes(increment, loop, stiffness.moments(), history, residual);
 }
 
-void find_contact_changes(const Increment& increment, std::span<const TouchingContact> touching,
-                          const DeformationChange& change, const HistoryChange& history,
-                          std::span<const Quad> motion, std::span<ContactChange> changes) {
+template <>
+void find_contact_changes<2>(const Increment<2>& increment,
+                             std::span<const TouchingContact<2>> touching,
+                             const DeformationChange<2>& change, const HistoryChange<2>& history,
+                             std::span<const Quad> motion, std::span<ContactChange<2>> changes) {
   all_changes(contact_loop(increment, touching, change, history),
               increment.problem->law->rotating(), motion.data()->lane, changes.data());
 }
 
-void find_moment_changes(const Increment& increment, const Stiffness& stiffness,
-                         const DeformationChange& change, const HistoryChange& history,
-                         std::span<const Quad> motion, std::span<Quad> changes) {
+template <>
+void find_moment_changes<2>(const Increment<2>& increment, const Stiffness<2>& stiffness,
+                            const DeformationChange<2>& change, const HistoryChange<2>& history,
+                            std::span<const Quad> motion, std::span<Quad> changes) {
   const auto loop = contact_loop(increment, stiffness.touching(), change, history);
   const auto moments = stiffness.moments();
   for (std::size_t m = 0; m < loop.touching.size(); ++m) {

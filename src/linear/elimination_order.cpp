@@ -1,5 +1,5 @@
 // The symbolic analysis: elimination order, tree, and what every column of the factor reaches.
-#include "linear/block_lu.hpp"
+#include "linear/elimination.hpp"
 
 #include "base/room.hpp"
 
@@ -16,7 +16,7 @@ std::size_t at(std::int32_t place) { return static_cast<std::size_t>(place); }
 
 }  // namespace
 
-void BlockLU::list_neighbours() {
+void Elimination::list_neighbours() {
   resize_with_room(neighbours_begin_, nodes_ + 1);
   std::fill(neighbours_begin_.begin(), neighbours_begin_.end(), 0);
   for (const auto& [p, q] : edges_) {
@@ -33,7 +33,7 @@ void BlockLU::list_neighbours() {
   }
 }
 
-void BlockLU::order() {
+void Elimination::order() {
   const std::size_t entries = neighbours_.size();
   const std::size_t slack = entries + entries / 2 + nodes_ + 1;
   resize_with_room(amd_, 9 * nodes_ + slack);
@@ -65,7 +65,7 @@ void BlockLU::order() {
 }
 
 // The elimination tree (Liu 1986): parent_ of every place, -1 at a root.
-void BlockLU::find_tree() {
+void Elimination::find_tree() {
   resize_with_room(parent_, nodes_);
   resize_with_room(ancestor_, nodes_);
   for (std::size_t j = 0; j < nodes_; ++j) {
@@ -84,7 +84,7 @@ void BlockLU::find_tree() {
 }
 
 // Children right before their parents, the order of siblings kept: the same elimination otherwise.
-void BlockLU::sort_by_tree() {
+void Elimination::sort_by_tree() {
   resize_with_room(child_, nodes_);
   resize_with_room(sibling_, nodes_);
   resize_with_room(order_, nodes_);
@@ -119,7 +119,7 @@ void BlockLU::sort_by_tree() {
 
 // For every place the later ones that its column of the factor reaches, in any order; a column that has those
 // of the one before it but for itself shares its list. below_ counts them.
-void BlockLU::find_structure() {
+void Elimination::find_structure() {
   find_tree();
   sort_by_tree();
   resize_with_room(structure_begin_, nodes_);
@@ -162,20 +162,24 @@ void BlockLU::find_structure() {
   keep_room(structure_);
 }
 
-std::size_t BlockLU::factor_blocks() const { return nodes_ + 2 * static_cast<std::size_t>(fill_); }
+std::size_t Elimination::factor_blocks() const {
+  return nodes_ + 2 * static_cast<std::size_t>(fill_);
+}
 
-void BlockLU::analyse(const BlockMatrix& matrix, bool keep_order) {
+void Elimination::analyse(std::size_t nodes, int components, std::span<const Edge> edges,
+                          bool keep_order) {
   constexpr double more_fill = 1.1;  // that a kept order may leave
-  keep_order = keep_order && analysed_ && nodes_ == matrix.nodes;
-  if (analysed_ && nodes_ == matrix.nodes && components_ == matrix.components &&
-      edges_ == matrix.edges && (keep_order || ordered_)) {
+  keep_order = keep_order && analysed_ && nodes_ == nodes;
+  if (analysed_ && nodes_ == nodes && components_ == components &&
+      std::equal(edges.begin(), edges.end(), edges_.begin(), edges_.end()) &&
+      (keep_order || ordered_)) {
     return;
   }
   analysed_ = false;
-  nodes_ = matrix.nodes;
-  components_ = matrix.components;
-  resize_with_room(edges_, matrix.edges.size());
-  std::copy(matrix.edges.begin(), matrix.edges.end(), edges_.begin());
+  nodes_ = nodes;
+  components_ = components;
+  resize_with_room(edges_, edges.size());
+  std::copy(edges.begin(), edges.end(), edges_.begin());
   list_neighbours();
   if (keep_order) find_structure();
   ordered_ = !keep_order || fill_ > more_fill * own_fill_;
@@ -189,6 +193,11 @@ void BlockLU::analyse(const BlockMatrix& matrix, bool keep_order) {
   place_fronts();
   find_sources();
   analysed_ = true;
+}
+
+Elimination::View Elimination::view() {
+  return {fronts_,         rows_.data(),   within_.data(), node_.data(),
+          sources_.data(), values_.data(), pivots_.data(), runs_.data()};
 }
 
 }  // namespace grainlaw

@@ -1,20 +1,20 @@
-#include "contact/contact_point.hpp"
+#include "contact/disc_point.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace grainlaw {
 
-ContactMoment contact_moment(const ContactList& list, std::size_t c, const ContactPoint& point,
-                             std::span<const double> coordinates, std::size_t particles,
-                             const ContactLaw& law) {
+ContactMoment<2> contact_moment(const ContactList<2>& list, std::size_t c,
+                                const ContactPoint<2>& point, std::span<const double> coordinates,
+                                std::size_t particles, const ContactLaw& law) {
   const double* rotation = coordinates.data() + 2 * particles;
   const double overlap = list.rest_of(c) - point.distance;
   const double scale = stiffness_scale(overlap, law);
   const double spin = rotation[static_cast<std::size_t>(list.j[c])] -
-                      rotation[static_cast<std::size_t>(list.i[c])] - list.start_spin[c];
+                      rotation[static_cast<std::size_t>(list.i[c])] - list.start_spin[0][c];
   const double kr = list.bending_stiffness[c] * scale;
-  const double start = list.start_moment[c] * start_scale(overlap, law);
+  const double start = list.start_moment[0][c] * start_scale(overlap, law);
   const double trial = start - kr * spin;
   const double bound = list.rolling_length[c] * point.normal_force;
   if (point.status != ContactStatus::bonded && !(std::abs(trial) < bound)) {
@@ -25,7 +25,7 @@ ContactMoment contact_moment(const ContactList& list, std::size_t c, const Conta
   return {trial, law.hertzian() ? (0.5 * kr * spin - 0.25 * start) / overlap : 0, -kr, false};
 }
 
-double stored_energy(const ContactList& list, std::span<const double> coordinates,
+double stored_energy(const ContactList<2>& list, std::span<const double> coordinates,
                      std::size_t particles, const ContactLaw& law) {
   double energy = 0;
   for (std::size_t c = 0; c < list.size(); ++c) {

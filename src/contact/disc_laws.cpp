@@ -1,0 +1,75 @@
+#include "contact/disc_laws.hpp"
+
+#include "contact/contact_forces.hpp"
+
+namespace grainlaw {
+
+namespace {
+
+using namespace disc_loops;
+
+const Law& law_of(const ContactLaw& law) {
+  if (law.bonds()) return law.moments() ? bonded : bonded_locked;
+  if (!law.tangential()) return law.hertzian() ? hertz_smooth : smooth;
+  if (!law.rotating()) return law.hertzian() ? hertz_locked : locked;
+  if (law.moments()) return law.hertzian() ? hertz_rolling : rolling;
+  return law.hertzian() ? hertz : rotating;
+}
+
+// Moments of rolling and bending, gathered apart, become part of M / R. What stands behind the nodes,
+// for F, has none.
+void gather(const ContactLaw& law, const ContactList<2>& list, std::span<ForceRecord<2>> nodes) {
+  list.sums.add_up(list.forces, opposite<2>, nodes);
+  if (!law.moments()) return;
+  for (std::size_t q = 0; q < list.inverse_node_radius.size(); ++q) {
+    nodes[q].roll += nodes[q].moment * list.inverse_node_radius[q];
+    nodes[q].moment = 0;
+  }
+}
+
+}  // namespace
+
+template <>
+void find_contact_forces<2>(std::span<const ParticleRecord<2>> particles, const ContactLaw& law,
+                            ContactList<2>& list) {
+  const Loop loop{particles.data(), law.friction, &list};
+  const Law& loops = law_of(law);
+  if (!list.turns_far) list.turns_far = loops.near(loop).beyond > 0;
+  if (list.turns_far) loops.far(loop);
+}
+
+template <>
+void evaluate_contacts<2>(std::span<const ParticleRecord<2>> particles, const ContactLaw& law,
+                          ContactList<2>& list, std::span<ForceRecord<2>> nodes) {
+  find_contact_forces<2>(particles, law, list);
+  gather(law, list, nodes);
+}
+
+template <>
+double advance_contacts<2>(std::span<const ParticleRecord<2>> particles, const ContactLaw& law,
+                           ContactList<2>& list, std::span<ForceRecord<2>> nodes) {
+  if (!law.tangential()) {
+    evaluate_contacts<2>(particles, law, list, nodes);
+    return 0;
+  }
+  list.turns_far = false;
+  const auto result = law_of(law).advancing({particles.data(), law.friction, &list});
+  gather(law, list, nodes);
+  return result.dissipated;
+}
+
+template <>
+ContactTotals sum_stiffnesses<2>(std::span<const ParticleRecord<2>> particles,
+                                 const ContactLaw& law, ContactList<2>& list,
+                                 std::span<StiffnessRecord<2>> nodes) {
+  const auto totals = law_of(law).stiffnesses({particles.data(), 0, &list});
+  list.sums.add_up(list.stiffness, nodes);
+  if (!law.moments()) return totals;
+  for (std::size_t q = 0; q < list.inverse_node_radius.size(); ++q) {
+    nodes[q].roll += nodes[q].bending * list.inverse_node_radius[q];
+    nodes[q].bending = 0;
+  }
+  return totals;
+}
+
+}  // namespace grainlaw

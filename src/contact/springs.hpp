@@ -1,0 +1,38 @@
+// What the springs of one contact share, whatever the dimension.
+#pragma once
+
+#include "contact/contact_list.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace grainlaw {
+
+enum class ContactStatus : char { open, sticking, sliding, bonded };
+
+// By what Hertz-Mindlin stiffnesses are multiplied at this overlap; 1 for other laws.
+inline double stiffness_scale(double overlap, const ContactLaw& law) {
+  return law.hertzian() ? std::sqrt(std::max(overlap, 0.0)) : 1;
+}
+
+// From what a list starts with to a force (moment) at this overlap: 1 but for Hertz-Mindlin.
+inline double start_scale(double overlap, const ContactLaw& law) {
+  return law.hertzian() ? std::sqrt(stiffness_scale(overlap, law)) : 1;
+}
+
+// Normal force at this overlap, negative across a gap whether it is carried or not [N].
+template <int D>
+double normal_force(const ContactList<D>& list, std::size_t c, double overlap,
+                    const ContactLaw& law) {
+  if (!law.hertzian()) return list.normal_stiffness[c] * overlap;
+  return 2.0 / 3 * list.normal_stiffness[c] * stiffness_scale(overlap, law) * overlap;
+}
+
+// One contact seen from its own frame, and the moment it carries.
+template <int D>
+struct ContactPoint;
+template <int D>
+struct ContactMoment;
+
+}  // namespace grainlaw

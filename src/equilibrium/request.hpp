@@ -1,0 +1,55 @@
+// What an equilibrium is asked for, what came of it, and the memory it is found with.
+#pragma once
+
+#include "equilibrium/newton.hpp"
+#include "equilibrium/options.hpp"
+#include "equilibrium/relaxation.hpp"
+#include "increment/increment.hpp"
+#include "tangent/sensitivity.hpp"
+
+#include <grainlaw/grainlaw.h>
+
+#include <vector>
+
+namespace grainlaw {
+
+// All memory of one solving thread.
+template <int D>
+struct Workspace {
+  Increment<D> increment;
+  Increment<D> detour;  // what sub-increments or an advancing history led to, while less is tried
+  RelaxationMemory<D> relaxation;
+  ReferenceMemory reference;
+  NewtonMemory<D> newton;
+  Sensitivity<D> sensitivity;
+  std::vector<double> guess;
+};
+
+template <int D>
+struct Request {
+  const Problem<D>* problem = nullptr;
+  const SolverOptions* options = nullptr;
+  const Configuration<D>* from = nullptr;
+  Tensor<D> deformation{};  // F to reach, without rotation against `from`
+  double tolerance = 1e-6;
+  double loose_tolerance = 0;  // as in SolverOptions, of this request
+  bool sensitivities = false;
+  // Coordinates (rotations counted from `from`) to start the iteration from, at guess_deformation;
+  // null: the affine image.
+  const std::vector<double>* guess = nullptr;
+  Tensor<D> guess_deformation{};
+  // As Outcome::loose and history_advanced of the trial it comes from.
+  bool guess_loose = false;
+  bool guess_advanced = false;
+};
+
+struct Outcome {
+  grainlaw_status status = GRAINLAW_NOT_CONVERGED;
+  int subincrements = 1;  // that this is the end of, each from the equilibrium of the one before
+  bool history_advanced = false;  // approximate: friction history advanced during the relaxation
+  bool loose = false;             // ended at the loose tolerance: close to an equilibrium, none
+  bool sensitivities = false;     // they exist, and belong to where this ended
+  double step_ratio = 1;
+};
+
+}  // namespace grainlaw

@@ -1,0 +1,282 @@
+#include "equilibrium/stages.hpp"
+
+#include "base/constants.hpp"
+#include "reference/servo.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grainlaw {
+
+namespace {
+
+constexpr Effort full_effort{.rounds = tuned::rounds,
+                             .first_factorisations = tuned::first_factorisations,
+                             .most_factorisations = tuned::most_factorisations,
+                             .relaxation_steps = tuned::relaxation_steps,
+                             .finest = tuned::finest_refinement};
+// With a loose tolerance to end at.
+constexpr Effort bounded_effort{.rounds = tuned::bounded_rounds,
+                                .first_factorisations = tuned::bounded_first_factorisations,
+                                .most_factorisations = tuned::bounded_factorisations,
+                                .relaxation_steps = tuned::bounded_relaxation_steps,
+                                .finest = 1};
+
+// What fluttered before in this step seldom settles now.
+constexpr Effort repeated(Effort effort) {
+  effort.rounds = tuned::repeated_rounds;
+  return effort;
+}
+constexpr Effort repeated_effort = repeated(bounded_effort);
+
+double size_factor(std::size_t nodes) {
+  return std::sqrt(std::max(1.0, static_cast<double>(nodes) / tuned::usual_nodes));
+}
+
+long relaxation_limit(double steps, std::size_t nodes) {
+  return static_cast<long>(steps * size_factor(nodes));
+}
+
+// Fewer in large packings, where sub-increments cost less than to go on: in one of 6400 discs that
+// would not settle all rounds took fifty times what an increment does.
+int limit_of(int count, int least, std::size_t nodes) {
+  const long fewer = std::lround(count / size_factor(nodes));
+  return std::min(count, std::max(least, static_cast<int>(fewer)));
+}
+
+double hand_over_of(std::size_t nodes) {
+  return tuned::hand_over * std::pow(std::min(1.0, tuned::usual_nodes / static_cast<double>(nodes)),
+                                     tuned::hand_over_power);
+}
+
+template <int D>
+Tensor<D> between(const Tensor<D>& a, const Tensor<D>& b, double share) {
+  Tensor<D> f{};
+  for (std::size_t k = 0; k < squared<D>; ++k) f[k] = a[k] + share * (b[k] - a[k]);
+  return f;
+}
+
+// Mean force below which what is left of forces that do not settle counts for nothing [N]. Bonds
+// hold on without any.
+template <int D>
+double faded_force(const Request<D>& request, const Increment<D>& increment) {
+  if (!may_be_free(request) || request.problem->law->bonds()) return 0;
+  return std::max(std::min(request.tolerance, tuned::faded) * unloaded_force(*request.problem),
+                  increment.rounding_force());
+}
+
+// Without contacts there is no force to be balanced, nor where all forces fade.
+template <int D>
+bool is_free(const Request<D>& request, Increment<D>& increment) {
+  if (!may_be_free(request)) return false;
+  increment.refresh_masses();
+  increment.update_forces();
+  if (increment.touching == 0) return true;
+  if (increment.mean_force >= faded_force(request, increment)) return false;
+  increment.release_contacts();
+  return true;
+}
+
+template <int D>
+void start_iteration(const Request<D>& request, double share, Increment<D>& increment) {
+  increment.begin(*request.problem, *request.from,
+                  between<D>(request.from->deformation, request.deformation, share));
+  if (request.guess != nullptr && share == 1) {
+    increment.coordinates = *request.guess;
+    increment.deformation = request.guess_deformation;
+    increment.deform(request.deformation);
+  }
+}
+
+// The tolerance, and no less than rounding leaves: below that there is no equilibrium to speak of.
+// Forces may fade on the way to it.
+template <int D>
+double reachable(const Request<D>& request, const Increment<D>& increment) {
+  return std::max(request.tolerance,
+                  std::min(increment.rounding_residual(), tuned::largest_rounding));
+}
+
+// One sub-increment: relaxation, then Newton; when Newton does not get there, both again from where
+// they are, the relaxation longer and tighter, at last down to the target itself.
+template <int D>
+bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
+  const bool whole = outcome.subincrements == 1;
+  auto& increment = w.increment;
+  const Effort& effort = effort_of(request);
+  const long steps = relaxation_limit(effort.relaxation_steps, increment.nodes());
+  const auto limit_to = [&](int count, int least) {
+    return limit_of(count, least, increment.nodes());
+  };
+  const int rounds = limit_to(effort.rounds, tuned::least_rounds);
+  const int enough = limit_to(tuned::enough_rounds, tuned::least_rounds);
+  const int most_factorisations =
+      limit_to(effort.most_factorisations, tuned::unsettled_factorisations);
+  increment.refresh_masses();
+  double target = reachable(request, increment);
+  double hand_over = hand_over_of(increment.nodes());
+  if (target > tuned::worth_newton * hand_over) hand_over = target;
+  bool last = false;
+  for (int round = 0; !last && round < rounds; ++round) {
+    last = whole && round >= enough && hand_over <= target;
+    const double tolerance = std::max(hand_over, target);
+    const long limit = (round < tuned::long_rounds ? 1 : 2) * steps;
+    // From the last iterate of a step the next is found on the same branch.
+    const bool may_extrapolate = request.guess == nullptr;
+    const bool relaxed =
+        relax(increment, tolerance, limit, History::committed, w.relaxation, 0, may_extrapolate);
+    if (increment.touching == 0 || increment.collapsed()) return is_free(request, increment);
+    if (relaxed && tolerance == target) return true;
+    const auto is_loose = [&] { return increment.residual_norm() < request.loose_tolerance; };
+    if (request.guess_loose && !relaxed && is_loose()) return outcome.loose = true;
+    const bool unsettled = !relaxed && round < tuned::unsettled_rounds;
+    const int factorisations = unsettled    ? tuned::unsettled_factorisations
+                               : round == 0 ? effort.first_factorisations
+                                            : most_factorisations;
+    // What is fading away settles nowhere.
+    auto* const settling = may_fade(request, increment) ? nullptr : &w.relaxation;
+    if (pseudo_transient_newton(increment, target, factorisations, w.newton, settling)) return true;
+    const bool too_soon = round == 0 && !request.guess_loose;
+    if (!too_soon && is_loose()) return outcome.loose = true;
+    hand_over *= round < 2 ? tuned::tighter : tuned::much_tighter;
+    target = reachable(request, increment);
+  }
+  return is_free(request, increment);
+}
+
+// Once at equilibrium, break the bonds that are beyond their strength and find the next one at the
+// same F, until none is: `solve_again` does, after `before_break`.
+template <int D, class BeforeBreak, class SolveAgain>
+bool settle_bonds(Increment<D>& increment, BeforeBreak&& before_break, SolveAgain&& solve_again) {
+  while (increment.overloads_bonds()) {
+    before_break();
+    increment.break_bonds();
+    if (!solve_again()) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+template <int D>
+bool may_fade(const Request<D>& request, const Increment<D>& increment) {
+  return may_be_free(request) &&
+         increment.mean_force < tuned::fading * unloaded_force(*request.problem);
+}
+
+template <int D>
+const Effort& effort_of(const Request<D>& request) {
+  if (request.loose_tolerance == 0) return full_effort;
+  return request.guess_loose ? repeated_effort : bounded_effort;
+}
+
+template <int D>
+bool solve_parts(const Request<D>& request, int parts, Workspace<D>& w, Outcome& outcome) {
+  auto& increment = w.increment;
+  w.sensitivity.reset();
+  outcome.subincrements = parts;
+  outcome.history_advanced = false;
+  outcome.loose = false;
+  outcome.sensitivities = request.sensitivities;
+  for (int k = 1; k <= parts; ++k) {
+    const double share = static_cast<double>(k) / parts;
+    if (k == 1) {
+      start_iteration(request, share, increment);
+    } else {
+      increment.deform(between<D>(request.from->deformation, request.deformation, share));
+    }
+    if (!solve_part(request, w, outcome)) return false;
+    double start = static_cast<double>(k - 1) / parts;
+    const auto find_sensitivities = [&] {
+      if (!outcome.sensitivities || (may_be_free(request) && !increment.bears())) return;
+      outcome.sensitivities = w.sensitivity.solve(increment, share, start, w.newton.stiffness);
+    };
+    const auto carry = [&] {
+      if (!outcome.sensitivities) return;
+      if (may_be_free(request) && !increment.bears()) {
+        w.sensitivity.carry_free(increment, share);
+      } else {
+        w.sensitivity.carry(increment);
+      }
+    };
+    find_sensitivities();
+    const bool settled = settle_bonds(increment, carry, [&] {
+      start = share;
+      if (!solve_part(request, w, outcome)) return false;
+      find_sensitivities();
+      return true;
+    });
+    if (!settled) return false;
+    if (k < parts) {
+      carry();
+      increment.continue_history();
+    }
+  }
+  return true;
+}
+
+template <int D>
+bool solve_advancing(const Request<D>& request, Method method, Workspace<D>& w, Outcome& outcome) {
+  auto& increment = w.increment;
+  outcome.subincrements = 1;
+  outcome.history_advanced = request.problem->law->tangential();  // else there is none
+  w.sensitivity.reset();
+  start_iteration(request, 1, increment);
+  const auto equilibrium = [&] {
+    if constexpr (D == 2) {
+      if (request.problem->space->options.method == BoundaryMethod::servo) {
+        return solve_servo(increment, request.options->published, request.tolerance, w.reference);
+      }
+    }
+    if (method == Method::published) {
+      return relax_published(increment, request.tolerance, request.options->published, {},
+                             w.reference);
+    }
+    increment.refresh_masses();
+    double loosest = reachable(request, increment);
+    if (request.options->method == Method::chain) {
+      loosest = std::max(loosest, request.loose_tolerance);
+    }
+    const double most_steps = (may_be_free(request) ? 2 : 1) * tuned::advancing_steps;
+    return relax(increment, loosest, relaxation_limit(most_steps, increment.nodes()),
+                 History::advancing, w.relaxation, faded_force(request, increment));
+  };
+  const auto settled = [&] { return equilibrium() || is_free(request, increment); };
+  const bool done = settled() && settle_bonds(
+                                     increment, [] {}, settled);
+  // Counts as such too: an F at which the contacts were lost this way.
+  outcome.loose =
+      request.loose_tolerance > 0 && increment.residual_norm() > reachable(request, increment);
+  outcome.sensitivities = done && request.sensitivities && !outcome.loose && increment.bears() &&
+                          w.sensitivity.solve(increment, 1, 0, w.newton.stiffness);
+  return done;
+}
+
+template <int D>
+bool solve_whole(Request<D> request, Workspace<D>& w, Outcome& outcome) {
+  auto& increment = w.increment;
+  request.guess = &w.detour.coordinates;
+  request.guess_deformation = w.detour.deformation;
+  start_iteration(request, 1, increment);
+  increment.keep_neighbours();
+  increment.update_forces();
+  const int factorisations = limit_of(full_effort.first_factorisations,
+                                      tuned::unsettled_factorisations, increment.nodes());
+  const double target = reachable(request, increment);
+  if (!pseudo_transient_newton(increment, target, factorisations, w.newton, &w.relaxation))
+    return false;
+  if (increment.collapsed()) return false;
+  w.sensitivity.reset();
+  outcome.subincrements = 1;
+  outcome.history_advanced = false;
+  outcome.sensitivities =
+      request.sensitivities && w.sensitivity.solve(increment, 1, 0, w.newton.stiffness);
+  return true;
+}
+
+template bool solve_parts(const Request<2>&, int, Workspace<2>&, Outcome&);
+template bool solve_advancing(const Request<2>&, Method, Workspace<2>&, Outcome&);
+template bool solve_whole(Request<2>, Workspace<2>&, Outcome&);
+template bool may_fade(const Request<2>&, const Increment<2>&);
+template const Effort& effort_of(const Request<2>&);
+
+}  // namespace grainlaw

@@ -1,0 +1,29 @@
+// Average constraints on the boundary of a frame, as relaxations meet them: what they carry of a
+// residual is taken out of it, by the masses of the nodes.
+#pragma once
+
+#include "boundary/boundary_space.hpp"
+#include "contact/records.hpp"
+
+#include <array>
+#include <span>
+
+namespace grainlaw {
+
+class AverageMasses {
+ public:
+  void find(const BoundarySpace<2>& space, std::span<const MassRecord<2>> mass);
+
+  // C = [sum r (x) A / m] [sum A (x) A / m]^-1, and r - C A.
+  void take_out(const BoundarySpace<2>& space, std::span<const MassRecord<2>> mass,
+                std::span<ForceRecord<2>> residual) const;
+
+  // Take out of velocities (component-major, of these masses) what changes the averages.
+  static void hold(const BoundarySpace<2>& space, std::size_t nodes, std::span<double> velocity,
+                   std::span<const double> mass);
+
+ private:
+  std::array<std::array<double, 3>, 2> inverse_{};  // of sum row row / m: xx, xy, yy
+};
+
+}  // namespace grainlaw

@@ -1,0 +1,17 @@
+// What the number of dimensions decides.
+#pragma once
+
+#include <cstddef>
+
+namespace grainlaw {
+
+template <int D>
+struct Dimension {
+  static_assert(D == 2 || D == 3);
+  static constexpr std::size_t spins = D == 2 ? 1 : 3;     // components of a rotation
+  static constexpr std::size_t unknowns = D + spins;       // of a particle that rotates
+  static constexpr std::size_t tangents = D == 2 ? 1 : 3;  // components of a tangential spring
+  static constexpr std::size_t lanes = D == 2 ? 4 : 8;     // doubles of a record
+};
+
+}  // namespace grainlaw

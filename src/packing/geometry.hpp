@@ -1,0 +1,68 @@
+// Radii, volumes and branches of particles: each in one place.
+#pragma once
+
+#include "math/tensor.hpp"
+
+#include <cstddef>
+#include <numbers>
+#include <span>
+
+namespace grainlaw {
+
+inline double mean_radius(std::span<const double> radius) {
+  double mean = 0;
+  for (const double r : radius) mean += r / static_cast<double>(radius.size());
+  return mean;
+}
+
+// Area of a disc [m2], volume of a sphere [m3].
+template <int D>
+double particle_size(double radius) {
+  if constexpr (D == 2) {
+    return std::numbers::pi * radius * radius;
+  } else {
+    return 4 * std::numbers::pi / 3 * radius * radius * radius;
+  }
+}
+
+// Of a disc through the thickness; of a sphere, which has none, its own [m3].
+template <int D>
+double particle_volume(double radius, double thickness) {
+  if constexpr (D == 2) {
+    return std::numbers::pi * radius * radius * thickness;
+  } else {
+    return particle_size<3>(radius);
+  }
+}
+
+// [kg]
+template <int D>
+double particle_mass(double density, double radius, double thickness) {
+  if constexpr (D == 2) {
+    return density * std::numbers::pi * radius * radius * thickness;
+  } else {
+    return density * particle_size<3>(radius);
+  }
+}
+
+// x_j - x_i + H shift [m]; positions component-major, `particles` apart.
+template <int D>
+inline Vec<D> branch(const double* position, std::size_t particles, std::size_t i, std::size_t j,
+                     const Tensor<D>& cell, const Vec<D>& shift) {
+  Vec<D> result{};
+  for (std::size_t k = 0; k < D; ++k) {
+    const double* x = position + k * particles;
+    result[k] = x[j] - x[i];
+    for (std::size_t l = 0; l < D; ++l) result[k] += cell[D * k + l] * shift[l];
+  }
+  return result;
+}
+
+template <int D, class Whole>
+Vec<D> vec_of(const Whole& numbers) {
+  Vec<D> result{};
+  for (std::size_t k = 0; k < D; ++k) result[k] = static_cast<double>(numbers[k]);
+  return result;
+}
+
+}  // namespace grainlaw
