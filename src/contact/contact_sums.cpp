@@ -11,7 +11,7 @@ namespace {
 
 using namespace simd;
 
-// Which clone runs is found when the library is loaded, of a template it cannot be.
+// One for each dimension, by overloads: a template has no clones.
 GRAINLAW_CLONES void store_sums(const ContactSums<2>& of, const double* values, const double* sign,
                                 double* sums) {
   of.for_each_record(values, sign,

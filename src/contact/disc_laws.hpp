@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/disc_loops.hpp"
+#include "contact/disc_stiffness_loop.hpp"
 
 namespace grainlaw::disc_loops {
 

@@ -26,6 +26,8 @@ struct ContactPoint<2> {
   double turn;                            // du / d [rad]
   ContactStatus status;
 
+  // Directions across the normal, in which the tangential spring acts.
+  [[nodiscard]] std::array<Vec<2>, 1> tangents() const { return {Vec<2>{-normal[1], normal[0]}}; }
   [[nodiscard]] Vec<2> force_on_j() const {
     return {normal_force * normal[0] - tangential_force * normal[1],
             normal_force * normal[1] + tangential_force * normal[0]};

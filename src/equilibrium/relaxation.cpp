@@ -3,6 +3,7 @@
 #include "base/constants.hpp"
 #include "base/simd.hpp"
 #include "contact/contact_forces.hpp"
+#include "equilibrium/node_step.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,69 +14,10 @@ namespace grainlaw {
 namespace {
 
 using namespace simd;
+using namespace node_step;
 
 static_assert(tuned::long_interval % tuned::mass_interval == 0);
 static_assert(tuned::extrapolation_interval % tuned::long_interval == 0);
-
-// One record per node: translation, and rotation as turned length R theta. Its force M / R makes
-// every component a force, and its mass is I / R^2.
-struct Nodes {
-  double* velocity;
-  const double* mass;
-  const double* gain;  // 1 / mass, and 0 where nothing moves
-  double* z;           // moves along; null: moved by others
-};
-
-// v <- keep v + gain r / m, and z <- z + v, node by node; what is measured is of the state before.
-template <std::size_t width>
-class NodeStep {
-  using Record = Lanes<width>;
-
- public:
-  GRAINLAW_INLINE NodeStep(const Nodes& nodes, double keep, double gain)
-      : nodes_(nodes), keep_(keep), gain_(gain) {}
-
-  GRAINLAW_INLINE void operator()(std::size_t q, const Record& r) {
-    const std::size_t k = width * q;
-    const Record v = load<width>(nodes_.velocity + k);
-    largest_ = largest(largest_, magnitude(r));
-    power_ += v * r;
-    inertia_ += v * load<width>(nodes_.mass + k) * v;
-    const Record next = keep_ * v + gain_ * r * load<width>(nodes_.gain + k);
-    next_power_ += next * r;
-    store(nodes_.velocity + k, next);
-    if (nodes_.z != nullptr) store(nodes_.z + k, load<width>(nodes_.z + k) + next);
-  }
-
-  template <class Measured>
-  GRAINLAW_INLINE Measured measured() const {
-    return {most(largest_), sum(power_), sum(next_power_), sum(inertia_)};
-  }
-
- private:
-  Nodes nodes_;
-  double keep_, gain_;
-  Record largest_{}, power_{}, next_power_{}, inertia_{};
-};
-
-// One for each dimension: a template has no clones.
-using OfDiscs = ContactSides<2>::Measured;
-
-GRAINLAW_CLONES OfDiscs step_all(const Nodes& nodes, std::span<const ForceRecord<2>> residual,
-                                 double keep, double gain) {
-  NodeStep<4> step(nodes, keep, gain);
-  for (std::size_t q = 0; q < residual.size(); ++q) step(q, load<4>(&residual[q].x));
-  return step.measured<OfDiscs>();
-}
-
-// The same with the sums of the contacts' forces, which nothing else is asked of.
-GRAINLAW_CLONES OfDiscs gather_and_step(const Nodes& nodes, const ContactList<2>& contacts,
-                                        double keep, double gain) {
-  NodeStep<4> step(nodes, keep, gain);
-  contacts.sums.for_each(contacts.forces, opposite<2>,
-                         [&](std::size_t q, const Lanes<4>& r) { step(q, r); });
-  return step.measured<OfDiscs>();
-}
 
 GRAINLAW_CLONES void find_gains(const double* mass, double* gain, std::size_t doubles) {
   for (std::size_t k = 0; k < doubles; k += 4) store(gain + k, 1 / load<4>(mass + k));

@@ -12,12 +12,6 @@ namespace grainlaw {
 
 namespace {
 
-// The largest stretch of a change of F, which no rotation changes.
-double largest_singular_value(const Tensor<2>& change) {
-  return 0.5 * (std::hypot(change[0] + change[3], change[1] - change[2]) +
-                std::hypot(change[0] - change[3], change[1] + change[2]));
-}
-
 // Pi = |strain increment| kn / (p t), what makes an increment hard.
 template <int D>
 double hardness(const Request<D>& request) {
@@ -25,7 +19,7 @@ double hardness(const Request<D>& request) {
   const auto& packing = *request.problem->packing;
   Tensor<D> change{};
   for (std::size_t k = 0; k < squared<D>; ++k) change[k] = request.deformation[k] - f0[k];
-  const double strain = largest_singular_value(change);
+  const double strain = largest_singular_value<D>(change);
   const auto& p = request.from->stress;
   double work = p[0] * f0[0];
   for (std::size_t k = 1; k < squared<D>; ++k) work += p[k] * f0[k];

@@ -17,7 +17,7 @@ namespace {
 
 using namespace simd;
 constexpr std::size_t width = 4;
-constexpr std::size_t moves = SubspaceExtrapolation<2>::moves;
+constexpr std::size_t moves = moves_seen;
 
 // What was seen, newest first.
 struct Path {

@@ -12,10 +12,13 @@
 
 namespace grainlaw {
 
+// Spanned by so many of the last moves.
+inline constexpr std::size_t moves_seen = 3;
+
 template <int D>
 class SubspaceExtrapolation {
  public:
-  static constexpr std::size_t moves = 3;
+  static constexpr std::size_t moves = moves_seen;
 
   void reserve(std::size_t nodes);
   // Forget where the relaxation has been.

@@ -1,7 +1,7 @@
 #include "homogenise/measures.hpp"
 
-#include "frame/frame_geometry.hpp"
 #include "frame/frame_space.hpp"
+#include "homogenise/plane_measures.hpp"
 #include "packing/geometry.hpp"
 
 #include <algorithm>
@@ -75,18 +75,6 @@ Tensor<D> fabric(const std::vector<ContactView<D>>& contacts) {
   return phi;
 }
 
-// Half the difference of a plane fabric's eigenvalues, which are 1/2 +- this: its trace is 1.
-double half_difference(const Tensor<2>& phi) { return std::hypot(0.5 * (phi[0] - phi[3]), phi[1]); }
-
-// Largest / smallest eigenvalue - 1.
-double anisotropy(const Tensor<2>& phi) {
-  const double d = half_difference(phi);
-  return (0.5 + d) / std::max(0.5 - d, 0.0) - 1;
-}
-
-// sqrt(1/2 Fa : Fa) of Fa = 4 dev fabric, with dev fabric : dev fabric = 2 d^2.
-double fabric_intensity(const Tensor<2>& phi) { return 4 * half_difference(phi); }
-
 // The square of a spring's force.
 template <std::size_t components>
 double sum_of_squares(const std::array<double, components>& force) {
@@ -134,31 +122,7 @@ std::array<double, Dimension<D>::spins> mean_rotation(const Problem<D>& problem,
   return mean;
 }
 
-double escaped_particles(const Problem<2>& problem, const Configuration<2>& at) {
-  const auto& packing = *problem.packing;
-  if (!packing.frame) return 0;
-  const auto n = packing.size();
-  const auto centre = [&](std::size_t p) {
-    return Point{at.coordinates[p], at.coordinates[n + p]};
-  };
-  std::vector<Point> polygon;
-  for (const int q : packing.frame->boundary)
-    polygon.push_back(centre(static_cast<std::size_t>(q)));
-  double escaped = 0;
-  for (std::size_t p = 0; p < n; ++p) {
-    const auto node = static_cast<std::size_t>(problem.space->node[p]);
-    if (!problem.space->boundary[node] && !is_inside(polygon, centre(p))) ++escaped;
-  }
-  return escaped;
-}
-
 }  // namespace
-
-template <>
-Vec<2> ContactView<2>::tangential_force_vector() const {
-  const double per_length = tangential_force[0] / length<2>(branch);
-  return {-branch[1] * per_length, branch[0] * per_length};
-}
 
 template <int D>
 std::vector<ContactView<D>> contact_views(const Problem<D>& problem, const Configuration<D>& at) {

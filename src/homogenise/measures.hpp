@@ -30,6 +30,9 @@ struct ContactView {
   // On j.
   [[nodiscard]] Vec<D> tangential_force_vector() const;
 };
+template <>
+Vec<2> ContactView<2>::tangential_force_vector() const;
+
 template <int D>
 std::vector<ContactView<D>> contact_views(const Problem<D>& problem, const Configuration<D>& at);
 

@@ -50,11 +50,6 @@ void condense_found(const BoundarySpace<D>& space, Tensor4<D>& tangent) {
   }
 }
 
-// Directions across the normal, in which a tangential spring acts: of discs one.
-std::array<Vec<2>, 1> tangents_of(const ContactPoint<2>& point) {
-  return {Vec<2>{-point.normal[1], point.normal[0]}};
-}
-
 }  // namespace
 
 template <int D>
@@ -110,7 +105,7 @@ Tensor4<D> elastic_tangent(const Increment<D>& increment) {
     const double kn = scale * list.normal_stiffness[c];
     const double kt = scale * list.tangential_stiffness[c];
     const auto& n = point.normal;
-    const auto across = tangents_of(point);
+    const auto across = point.tangents();
     for (std::size_t i = 0; i < D; ++i) {
       for (std::size_t j = 0; j < D; ++j) {
         for (std::size_t k = 0; k < D; ++k) {

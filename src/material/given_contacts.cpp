@@ -15,6 +15,8 @@ template <int D>
 using Key =
     std::tuple<std::int32_t, std::int32_t, std::array<std::int16_t, static_cast<std::size_t>(D)>>;
 
+constexpr std::size_t shift_of_key = 2;
+
 template <int D>
 std::vector<NeighbourPair<D>> near_pairs(const Material<D>& material, double gap) {
   const auto& packing = material.packing;
@@ -31,8 +33,6 @@ struct Extra {
   std::array<double, Dimension<D>::spins> moment{};
   double gap = 0;
 };
-
-std::array<double, 1> given_moment(const InitialContact& contact) { return {contact.moment}; }
 
 }  // namespace
 
@@ -58,12 +58,12 @@ void add_bonds_and_moments(const Material<D>& material, Configuration<D>& given)
   for (const auto& c : packing.contacts) {
     Key<D> key{c.i, c.j, {}};
     for (std::size_t k = 0; k < D; ++k) {
-      std::get<2>(key)[k] = static_cast<std::int16_t>(c.shift[k]);
+      std::get<shift_of_key>(key)[k] = static_cast<std::int16_t>(c.shift[k]);
     }
     const auto found = contacts.find(key);
     if (found == contacts.end()) continue;  // named from the other side: files never are
     auto& contact = found->second;
-    contact.moment = given_moment(c);
+    contact.moment = given_moment<D>(c);
     if (!named || !law.bonds()) continue;
     contact.history.bonded = c.bonded;
     contact.gap = c.bond_gap;

@@ -23,6 +23,13 @@ double given_overlap(const Packing& packing, const Pair& pair) {
          length<D>(given_branch<D>(packing, pair));
 }
 
+// Forces and moments on j as a history has them, of contacts as files have them [N, N m].
+template <int D>
+std::array<double, Dimension<D>::tangents> given_force(const Packing& packing,
+                                                       const InitialContact& contact);
+template <int D>
+std::array<double, Dimension<D>::spins> given_moment(const InitialContact& contact);
+
 // Bond what touches, or is nearer than the gap, unless the packing names its bonds; take over
 // moments. given: contacts of the packing in the order of neighbours.
 template <int D>

@@ -29,11 +29,6 @@ bool is_seen_from_j(const InitialContact& contact) {
   return contact.i > contact.j || (contact.i == contact.j && contact.shift < none);
 }
 
-std::array<double, 1> given_force(const Vec<2>& branch, const InitialContact& contact) {
-  return {(-branch[1] * contact.tangential_force[0] + branch[0] * contact.tangential_force[1]) /
-          length<2>(branch)};
-}
-
 // The packing as it is given, in the order in which neighbours are listed.
 template <int D>
 Configuration<D> given_configuration(const Material<D>& material) {
@@ -51,7 +46,7 @@ Configuration<D> given_configuration(const Material<D>& material) {
     for (std::size_t k = 0; k < D; ++k) {
       history.shift[k] = static_cast<std::int16_t>(turn ? -contact.shift[k] : contact.shift[k]);
     }
-    history.tangential_force = given_force(given_branch<D>(packing, contact), contact);
+    history.tangential_force = given_force<D>(packing, contact);
     given.contacts.push_back(history);
   }
   std::sort(given.contacts.begin(), given.contacts.end(),

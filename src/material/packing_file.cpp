@@ -5,6 +5,8 @@
 #include "frame/frame_rows.hpp"
 #include "io/csv_table.hpp"
 #include "io/text_file.hpp"
+#include "material/packing_file_checks.hpp"
+#include "material/packing_text.hpp"
 #include "packing/geometry.hpp"
 #include "packing/lattice.hpp"
 #include "packing/neighbours.hpp"
@@ -29,6 +31,7 @@ constexpr std::int64_t largest_written_shift =
     1'000'000'000;  // before it is one in shorter vectors
 
 using Ids = ParticleIds;
+using Key = ContactKey;
 
 enum ParticleColumn : std::size_t {
   id,
@@ -172,54 +175,6 @@ Ids read_particles(const Source& source, CellFile& cell, Packing& packing) {
   return ids;
 }
 
-double branch_length(const Packing& packing, const InitialContact& contact) {
-  return length<2>(branch<2>(
-      packing.position.data(), packing.size(), static_cast<std::size_t>(contact.i),
-      static_cast<std::size_t>(contact.j), tensor_of<2>(packing.cell), vec_of<2>(contact.shift)));
-}
-
-using Key = std::array<int, 4>;
-Key key_of(const InitialContact& c) { return {c.i, c.j, c.shift[0], c.shift[1]}; }
-
-// Particles whose centres lie in one another are no packing, but lengths in different units; unless
-// they are named as contacts, whose forces tell, or those of a boundary that was deformed, of which
-// a rigid row does not feel each other.
-void check_sizes(const std::string& path, const Ids& ids, const Packing& packing) {
-  const auto id_of = [&](std::int32_t p) {
-    return std::ranges::find(ids, p, &Ids::value_type::second)->first;
-  };
-  const auto wrong = [&](const std::string& what) {
-    throw Error(GRAINLAW_BAD_PACKING, fmt::format("{}: {}; expected all lengths in m", path, what));
-  };
-  const auto& h = packing.cell;
-  const double area = determinant<2>(h.data());
-  const double height = area / longest_vector(reduced_basis({h[0], h[1], h[2], h[3]}).cell);
-  const auto largest = std::ranges::max_element(packing.radius);
-  if (!packing.frame && *largest > height)
-    wrong(fmt::format("particle {} of radius {:g} m is larger than the cell, {:g} m high",
-                      id_of(static_cast<std::int32_t>(largest - packing.radius.begin())), *largest,
-                      height));
-  std::vector<char> in_row(packing.size(), 0);
-  if (packing.frame && !packing.frame->reference.empty())
-    for (const int p : packing.frame->boundary) in_row[static_cast<std::size_t>(p)] = 1;
-  std::vector<NeighbourPair<2>> pairs;
-  const std::size_t n = packing.size();
-  NeighbourSearch<2>().find(n, packing.position.data(), packing.radius.data(),
-                            packing.frame ? nullptr : h.data(), 0, pairs);
-  for (const NeighbourPair<2>& pair : pairs) {
-    const InitialContact contact{pair.i, pair.j, {pair.shift[0], pair.shift[1]}};
-    const double length = branch_length(packing, contact);
-    const auto i = static_cast<std::size_t>(pair.i);
-    const auto j = static_cast<std::size_t>(pair.j);
-    const double r = packing.radius[i];
-    const double s = packing.radius[j];
-    if (!(length < std::max(r, s)) || (in_row[i] && in_row[j])) continue;
-    if (!std::ranges::binary_search(packing.contacts, key_of(contact), {}, key_of))
-      wrong(fmt::format("particles {} and {} of radii {:g} and {:g} m are {:g} m apart",
-                        id_of(pair.i), id_of(pair.j), r, s, length));
-  }
-}
-
 // Returns the line of each.
 std::vector<unsigned> read_contacts(const Source& source, const Ids& ids, const Basis& basis,
                                     Packing& packing) {
@@ -277,86 +232,6 @@ std::vector<unsigned> read_contacts(const Source& source, const Ids& ids, const 
     lines.push_back(value.first);
   }
   return lines;
-}
-
-// Bonds stretch as far as they hold: whether they do is seen by their forces.
-void check_branches(const std::string& path, const std::vector<unsigned>& lines,
-                    const Packing& packing) {
-  for (std::size_t c = 0; c < lines.size(); ++c) {
-    const InitialContact& contact = packing.contacts[c];
-    const double reach = packing.radius[static_cast<std::size_t>(contact.i)] +
-                         packing.radius[static_cast<std::size_t>(contact.j)];
-    const double length = branch_length(packing, contact);
-    if (!contact.bonded && !(length < 1.5 * reach))
-      throw Error(GRAINLAW_BAD_PACKING,
-                  fmt::format("{}:{}: centres are {} m apart, radii add up to {} m: these do not "
-                              "touch; expected x_j - x_i + H shift to be the branch",
-                              path, lines[c], length, reach));
-  }
-}
-
-// Per particle, the text of its columns role, partner and frame_order.
-std::vector<std::string> frame_columns(const Packing& packing) {
-  std::vector<std::string> text(packing.size(), ",inner,-1,-1");
-  const Frame& frame = *packing.frame;
-  for (std::size_t q = 0; q < frame.boundary.size(); ++q) {
-    const int p = frame.boundary[q];
-    const bool corner = std::ranges::find(frame.corner, p) != frame.corner.end();
-    text[static_cast<std::size_t>(p)] =
-        fmt::format(",{},{},{}", corner ? "corner" : "edge", frame.partner[q], q);
-  }
-  return text;
-}
-
-// fmt prints the shortest digits that read back to the same bits.
-std::string particles_text(const Packing& packing) {
-  const std::size_t n = packing.size();
-  const bool deformed = packing.frame && !packing.frame->reference.empty();
-  const auto framed = packing.frame ? frame_columns(packing) : std::vector<std::string>(n);
-  fmt::memory_buffer text;
-  auto out = fmt::appender(text);
-  fmt::format_to(out, "id,x,y,r{}{}\n", packing.frame ? ",role,partner,frame_order" : "",
-                 deformed ? ",reference_x,reference_y" : "");
-  for (std::size_t p = 0; p < n; ++p) {
-    fmt::format_to(out, "{},{},{},{}{}", p, packing.position[p], packing.position[n + p],
-                   packing.radius[p], framed[p]);
-    if (deformed)
-      fmt::format_to(out, ",{},{}", packing.frame->reference[p], packing.frame->reference[n + p]);
-    fmt::format_to(out, "\n");
-  }
-  return fmt::to_string(text);
-}
-
-std::string contacts_text(const Packing& packing) {
-  fmt::memory_buffer text;
-  auto out = fmt::appender(text);
-  const auto& contacts = packing.contacts;
-  const bool moments =
-      std::any_of(contacts.begin(), contacts.end(), [](const auto& c) { return c.moment != 0; });
-  const bool bonds = packing.names_bonds;
-  fmt::format_to(out, "i,j,shift_x,shift_y,fn,ftx_on_j,fty_on_j{}{}\n", moments ? ",moment" : "",
-                 bonds ? ",bonded,bond_gap" : "");
-  for (const InitialContact& c : contacts) {
-    fmt::format_to(out, "{},{},{},{},{},{},{}", c.i, c.j, c.shift[0], c.shift[1], c.normal_force,
-                   c.tangential_force[0], c.tangential_force[1]);
-    if (moments) fmt::format_to(out, ",{}", c.moment);
-    if (bonds) fmt::format_to(out, ",{},{}", c.bonded ? 1 : 0, c.bond_gap);
-    fmt::format_to(out, "\n");
-  }
-  return fmt::to_string(text);
-}
-
-std::string cell_text(const Packing& packing) {
-  const auto& h = packing.cell;
-  std::string header = "H00,H01,H10,H11,thickness,rho";
-  std::string line =
-      fmt::format("{},{},{},{},{},{}", h[0], h[1], h[2], h[3], packing.thickness, packing.density);
-  if (packing.frame && !packing.frame->reference.empty()) {
-    const auto& f = packing.frame->deformation;
-    header += ",F00,F01,F10,F11";
-    line += fmt::format(",{},{},{},{}", f[0], f[1], f[2], f[3]);
-  }
-  return header + "\n" + line + "\n";
 }
 
 // contacts without a path: none.

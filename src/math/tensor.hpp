@@ -127,4 +127,11 @@ template <int D>
   return dot<D>(x.data(), x.data());
 }
 
+// The largest stretch, which no rotation changes.
+template <int D>
+double largest_singular_value(const Tensor<D>& a) {
+  static_assert(D == 2);
+  return 0.5 * (std::hypot(a[0] + a[3], a[1] - a[2]) + std::hypot(a[0] - a[3], a[1] + a[2]));
+}
+
 }  // namespace grainlaw

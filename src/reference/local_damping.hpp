@@ -2,11 +2,9 @@
 // Suiker 2017 eq. 10), explicit steps, history advanced at every step.
 #pragma once
 
-#include "contact/records.hpp"
 #include "increment/increment.hpp"
+#include "reference/servo_memory.hpp"
 
-#include <array>
-#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -22,12 +20,7 @@ struct PublishedOptions {
 // Memory of these methods, reused from call to call; without them it stays empty.
 struct ReferenceMemory {
   std::vector<double> velocity, mass, correction;
-  // Of the servo: what the relaxations do not move, forces before reduction, areas and particles of
-  // nodes under uniform stress.
-  std::vector<unsigned char> frozen;
-  std::vector<ForceRecord<2>> raw;
-  std::vector<std::array<double, 2>> area;
-  std::vector<std::size_t> particle;
+  ServoMemory servo;
 };
 
 // Ends at the residual tolerance or, when energy_tolerance > 0, at Ek/Ep <= tolE (eq. 11) once Ek has

@@ -30,12 +30,12 @@ class Servo {
     dt_ = options.time_step_ratio *
           std::sqrt(mass_of(smallest_) / increment.problem->law->stiffness(smallest_, smallest_));
     // The relaxations move what is not of the boundary, and what turns freely there.
-    memory.frozen.assign(nodes_, 0);
+    memory.servo.frozen.assign(nodes_, 0);
     for (std::size_t q = 0; q < nodes_; ++q) {
       if (!space_.boundary[q]) continue;
-      memory.frozen[q] = space_.boundary[q] == turns_freely
-                             ? fixed_translation<2>
-                             : fixed_translation<2> | fixed_rotation<2>;
+      memory.servo.frozen[q] = space_.boundary[q] == turns_freely
+                                   ? fixed_translation<2>
+                                   : fixed_translation<2> | fixed_rotation<2>;
     }
   }
 
@@ -52,7 +52,7 @@ class Servo {
     int without_step = 0;
     for (int correction = 0; correction <= servo_.max_corrections; ++correction) {
       const long steps = increment_.relaxation_steps;
-      if (!relax_published(increment_, tolerance, options_, memory_.frozen, memory_)) {
+      if (!relax_published(increment_, tolerance, options_, memory_.servo.frozen, memory_)) {
         return false;
       }
       without_step = increment_.relaxation_steps > steps ? 0 : without_step + 1;
@@ -172,9 +172,9 @@ class Servo {
     std::array<double, 4> stress{};
     const bool published = !found(0) || !found(1);
     if (published) {
-      memory_.raw.resize(increment_.forces.size());
+      memory_.servo.raw.resize(increment_.forces.size());
       evaluate_contacts<2>(increment_.records, *increment_.problem->law, increment_.contacts,
-                           memory_.raw);
+                           memory_.servo.raw);
       stress = measured_stress();
     }
     double sum = 0;
@@ -187,7 +187,7 @@ class Servo {
         double missing = increment_.residual()[i * nodes_ + q];
         if (!found(i)) {
           missing = stress[2 * i] * area_[q][0] + stress[2 * i + 1] * area_[q][1] +
-                    (i == 0 ? memory_.raw[q].x : memory_.raw[q].y);
+                    (i == 0 ? memory_.servo.raw[q].x : memory_.servo.raw[q].y);
         }
         sum += std::pow(missing / force_scale(radius), 2);
         step[q] = servo_.gain_force * compliance(radius) * missing;
@@ -273,8 +273,8 @@ class Servo {
   std::size_t nodes_;
   double smallest_ = 0;  // radius on the boundary [m]
   double dt_ = 0;        // [s]
-  std::vector<std::array<double, 2>>& area_ = memory_.area;
-  std::vector<std::size_t>& particle_ = memory_.particle;
+  std::vector<std::array<double, 2>>& area_ = memory_.servo.area;
+  std::vector<std::size_t>& particle_ = memory_.servo.particle;
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "state/output.hpp"
 
-#include "frame/frame.hpp"
+#include "frame/carried_frame.hpp"
 #include "homogenise/measures.hpp"
 #include "io/vtk.hpp"
 
@@ -10,20 +10,6 @@
 namespace grainlaw {
 
 namespace {
-
-// Whether the conditions on a frame that starts from this state would be those of the material:
-// fluctuations that average to nothing, or keep to axes, are relative to where they were counted from.
-bool is_its_own_reference(const BoundarySpace<2>& space, const Tensor<2>& F) {
-  return F == identity<2>() && !space.averages() && !space.bound_to_axes();
-}
-
-void carry_frame(const Material<2>& material, const Tensor<2>& F, Packing& packing) {
-  if (!packing.frame || is_its_own_reference(material.space, F)) return;
-  Frame& frame = *packing.frame;
-  if (frame.reference.empty()) frame.reference = material.packing.position;
-  frame.deformation = product<2>(F, frame.deformation);
-  complete_frame(packing);
-}
 
 // With zeros beyond the plane.
 template <std::size_t size, class Numbers>
@@ -51,6 +37,7 @@ void write_force_chains(const std::string& path, const Material<D>& material,
 template <int D>
 Packing as_packing(const Material<D>& material, const Configuration<D>& at) {
   Packing packing = material.packing;
+  if constexpr (D == 2) keep_reference(material.space, at.deformation, packing);
   const auto split = static_cast<std::ptrdiff_t>(packing.position.size());
   packing.position.assign(at.coordinates.begin(), at.coordinates.begin() + split);
   packing.cell = filled<9>(product<D>(at.deformation, tensor_of<D>(packing.cell)));
@@ -64,7 +51,7 @@ Packing as_packing(const Material<D>& material, const Configuration<D>& at) {
     contact.bond_gap = c.bond_gap;
   }
   packing.names_bonds = material.law.bonds();
-  if constexpr (D == 2) carry_frame(material, at.deformation, packing);
+  if constexpr (D == 2) carry_frame(material.space, at.deformation, packing);
   return packing;
 }
 

@@ -3,7 +3,7 @@
 #include "base/room.hpp"
 #include "equilibrium/strategy.hpp"
 #include "homogenise/stress.hpp"
-#include "state/rotation.hpp"
+#include "state/rotated_configuration.hpp"
 #include "state/scratch.hpp"
 
 #include <algorithm>
@@ -39,36 +39,6 @@ int status_changes(const Configuration<D>& before, const Configuration<D>& after
     if (known) ++a;
   }
   return changes + static_cast<int>(before.contacts.end() - a);
-}
-
-// x -> R x
-template <int D>
-void rotate_positions(const Tensor<D>& rotation, std::size_t particles, double* x) {
-  for (std::size_t p = 0; p < particles; ++p) {
-    Vec<D> at{};
-    for (std::size_t k = 0; k < D; ++k) at[k] = x[k * particles + p];
-    const Vec<D> to = product<D>(rotation, at);
-    for (std::size_t k = 0; k < D; ++k) x[k * particles + p] = to[k];
-  }
-}
-
-// Of discs a turn is one number, and they add up.
-void add_turn(const SplitIncrement<2>& increment, std::size_t particles, std::vector<double>& z) {
-  for (std::size_t k = 2 * particles; k < z.size(); ++k) z[k] += increment.turn[0];
-}
-void take_turn(const SplitIncrement<2>& increment, const Configuration<2>& from,
-               std::size_t particles, std::vector<double>& z) {
-  for (std::size_t k = 2 * particles; k < z.size(); ++k) {
-    z[k] -= from.coordinates[k] + increment.turn[0];
-  }
-}
-
-template <int D>
-void rotate_configuration(const SplitIncrement<D>& increment, const Tensor<D>& F,
-                          std::size_t particles, Configuration<D>& configuration) {
-  rotate_positions<D>(increment.rotation, particles, configuration.coordinates.data());
-  add_turn(increment, particles, configuration.coordinates);
-  configuration.deformation = F;
 }
 
 template <int D>

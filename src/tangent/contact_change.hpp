@@ -2,40 +2,13 @@
 #pragma once
 
 #include "increment/increment.hpp"
-#include "linear/columns.hpp"
+#include "tangent/derivatives.hpp"
+#include "tangent/disc_history.hpp"
 #include "tangent/stiffness.hpp"
 
-#include <array>
 #include <span>
 
 namespace grainlaw {
-
-// The derivatives of one number by the components of F, one in every lane.
-template <int D>
-using ByDeformation = Together<Dimension<D>::lanes>;
-
-// Of F.
-template <int D>
-using DeformationChange = std::array<ByDeformation<D>, squared<D>>;
-
-// Of what the history of listed contacts starts from. Null: none.
-template <int D>
-struct HistoryChange;
-// Turn and tangential force; moment and difference of the rotations, of laws that have moments.
-template <>
-struct HistoryChange<2> {
-  const ByDeformation<2>* turn = nullptr;
-  const ByDeformation<2>* force = nullptr;
-  const ByDeformation<2>* moment = nullptr;
-  const ByDeformation<2>* spin = nullptr;
-};
-
-// Of a contact that touches: force on j, branch, and the spring's force.
-template <int D>
-struct ContactChange {
-  std::array<ByDeformation<D>, static_cast<std::size_t>(D)> force, branch;
-  std::array<ByDeformation<D>, Dimension<D>::tangents> tangential_force;
-};
 
 // Add the changes of the residual with F and history, nodes fixed in their affine place, to
 // `residual` (per node and component).

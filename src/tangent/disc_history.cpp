@@ -1,7 +1,8 @@
 // Derivatives of the history of contacts of discs.
+#include "tangent/disc_history.hpp"
 #include "base/room.hpp"
+#include "contact/contact_point.hpp"
 #include "packing/geometry.hpp"
-#include "tangent/history_change.hpp"
 
 #include <cmath>
 

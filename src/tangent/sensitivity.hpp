@@ -4,7 +4,6 @@
 #include "increment/increment.hpp"
 #include "tangent/bordered_system.hpp"
 #include "tangent/contact_change.hpp"
-#include "tangent/history_change.hpp"
 #include "tangent/stiffness.hpp"
 
 #include <vector>

@@ -31,23 +31,6 @@ struct TouchingContact {
   ContactStiffness<D> stiffness;  // contact_stiffness() of it
 };
 
-// Every so many nodes of an average is an anchor: enough to hold the frame, few enough to link.
-inline std::size_t anchor_stride(const AverageConstraint& average) {
-  constexpr std::size_t anchors = 8;
-  return std::max<std::size_t>(1, average.node.size() / anchors);
-}
-
-// Mean of the anchors' rows: without it they do not feel a translation, which nothing may hold.
-inline std::array<double, 2> anchor_mean(const AverageConstraint& average) {
-  std::array<double, 2> mean{};
-  double count = 0;
-  for (std::size_t k = 0; k < average.node.size(); k += anchor_stride(average), ++count) {
-    mean[0] += average.row[k][0];
-    mean[1] += average.row[k][1];
-  }
-  return {mean[0] / count, mean[1] / count};
-}
-
 // What one increment of deformation left here serves the rest of it: the graph while all contacts
 // that touch are in it, the factors for solve_together(). Nothing is carried from one increment to the
 // next that could change a bit there: Increment::factorisations is zero when one begins.
@@ -120,13 +103,6 @@ class Stiffness {
   std::vector<Together<width>> check_together_, kept_;
 };
 
-template <>
-void Stiffness<2>::add_contacts();
-template <>
-void Stiffness<2>::add_moments();
-template <>
-void Stiffness<2>::link_anchors(const Increment<2>& increment);
-template <>
-void Stiffness<2>::add_anchors(const Increment<2>& increment);
-
 }  // namespace grainlaw
+
+#include "tangent/disc_stiffness.hpp"

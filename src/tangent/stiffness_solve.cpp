@@ -28,7 +28,8 @@ GRAINLAW_INLINE void find_largest(const double* values, std::size_t count, doubl
 GRAINLAW_CLONES void largest_of_4(const double* values, std::size_t count, double* result) {
   find_largest<4>(values, count, result);
 }
-[[maybe_unused]] GRAINLAW_CLONES void largest_of_8(const double* values, std::size_t count, double* result) {
+[[maybe_unused]] GRAINLAW_CLONES void largest_of_8(const double* values, std::size_t count,
+                                                   double* result) {
   find_largest<8>(values, count, result);
 }
 

@@ -1,18 +1,24 @@
-// What the history of contacts starts from, differentiated by the components of F: kept from one
-// sub-increment to the next.
+// What the history of contacts of discs starts from, differentiated by the components of F.
 #pragma once
 
 #include "increment/increment.hpp"
-#include "tangent/contact_change.hpp"
+#include "tangent/derivatives.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace grainlaw {
 
-template <int D>
-class HistoryDerivatives;
+// Turn and tangential force; moment and difference of the rotations, of laws that have moments.
+template <>
+struct HistoryChange<2> {
+  const ByDeformation<2>* turn = nullptr;
+  const ByDeformation<2>* force = nullptr;
+  const ByDeformation<2>* moment = nullptr;
+  const ByDeformation<2>* spin = nullptr;
+};
 
 template <>
 class HistoryDerivatives<2> {

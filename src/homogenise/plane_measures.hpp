@@ -1,0 +1,19 @@
+// Measures whose formula is another in the plane.
+#pragma once
+
+#include "increment/configuration.hpp"
+#include "increment/problem.hpp"
+#include "math/tensor.hpp"
+
+namespace grainlaw {
+
+// Largest / smallest eigenvalue of the fabric - 1 (Liu, Bosco & Suiker 2017b, eq. 38) [-].
+double anisotropy(const Tensor<2>& fabric);
+
+// sqrt(1/2 Fa : Fa) of Fa = 4 dev fabric (Guo & Zhao 2014, eqs. 24-25) [-].
+double fabric_intensity(const Tensor<2>& fabric);
+
+// Inner particles of a frame outside the polygon of its boundary [-].
+double escaped_particles(const Problem<2>& problem, const Configuration<2>& at);
+
+}  // namespace grainlaw

@@ -1,0 +1,15 @@
+// A packing as the text of its three files; numbers have the shortest digits that read back to the
+// same bits.
+#pragma once
+
+#include "packing/packing.hpp"
+
+#include <string>
+
+namespace grainlaw {
+
+std::string particles_text(const Packing& packing);
+std::string contacts_text(const Packing& packing);
+std::string cell_text(const Packing& packing);
+
+}  // namespace grainlaw

@@ -1,0 +1,24 @@
+// Turns of discs.
+#pragma once
+
+#include "increment/configuration.hpp"
+#include "state/rotation.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace grainlaw {
+
+// Of discs a turn is one number, and they add up.
+inline void add_turn(const SplitIncrement<2>& increment, std::size_t particles,
+                     std::vector<double>& z) {
+  for (std::size_t k = 2 * particles; k < z.size(); ++k) z[k] += increment.turn[0];
+}
+inline void take_turn(const SplitIncrement<2>& increment, const Configuration<2>& from,
+                      std::size_t particles, std::vector<double>& z) {
+  for (std::size_t k = 2 * particles; k < z.size(); ++k) {
+    z[k] -= from.coordinates[k] + increment.turn[0];
+  }
+}
+
+}  // namespace grainlaw
