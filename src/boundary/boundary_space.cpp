@@ -32,6 +32,8 @@ void BoundarySpace<D>::drop(std::vector<NeighbourPair<D>>& pairs) const {
 }
 
 template struct BoundarySpace<2>;
+template struct BoundarySpace<3>;
 template BoundarySpace<2> make_cell_space<2>(const Packing&, const BoundaryOptions&);
+template BoundarySpace<3> make_cell_space<3>(const Packing&, const BoundaryOptions&);
 
 }  // namespace grainlaw

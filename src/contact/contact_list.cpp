@@ -147,10 +147,13 @@ void build_contacts(std::span<const NeighbourPair<D>> pairs, std::span<const dou
   list.sums.arrange(i.first(pairs.size()), j.first(pairs.size()), node, nodes);
 }
 
-template struct ContactList<2>;
-template void build_contacts<2>(std::span<const NeighbourPair<2>>, std::span<const double>,
-                                std::span<const double>, std::span<const int>, std::size_t,
-                                const ContactLaw&, const Tensor<2>&, const HistoryStart<2>&,
-                                ContactList<2>&);
+#define GRAINLAW_FOR(D)                                                                        \
+  template struct ContactList<D>;                                                              \
+  template void build_contacts<D>(std::span<const NeighbourPair<D>>, std::span<const double>,  \
+                                  std::span<const double>, std::span<const int>, std::size_t,  \
+                                  const ContactLaw&, const Tensor<D>&, const HistoryStart<D>&, \
+                                  ContactList<D>&);
+GRAINLAW_FOR(2)
+GRAINLAW_FOR(3)
 
 }  // namespace grainlaw

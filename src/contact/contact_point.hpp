@@ -3,3 +3,4 @@
 #pragma once
 
 #include "contact/disc_point.hpp"
+#include "contact/sphere_point.hpp"

@@ -2,3 +2,4 @@
 #pragma once
 
 #include "contact/disc_sides.hpp"
+#include "contact/sphere_sides.hpp"

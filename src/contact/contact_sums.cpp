@@ -15,7 +15,12 @@ using namespace simd;
 GRAINLAW_CLONES void store_sums(const ContactSums<2>& of, const double* values, const double* sign,
                                 double* sums) {
   of.for_each_record(values, sign,
-                     [=](std::size_t q, const Record& sum) { store(sums + 4 * q, sum); });
+                     [=](std::size_t q, const Lanes<4>& sum) { store(sums + 4 * q, sum); });
+}
+GRAINLAW_CLONES void store_sums(const ContactSums<3>& of, const double* values, const double* sign,
+                                double* sums) {
+  of.for_each_record(values, sign,
+                     [=](std::size_t q, const Lanes<8>& sum) { store(sums + 8 * q, sum); });
 }
 
 }  // namespace
@@ -78,10 +83,12 @@ void ContactSums<D>::add_up(std::span<const ForceRecord<D>> values, const ForceR
 template <int D>
 void ContactSums<D>::add_up(std::span<const StiffnessRecord<D>> values,
                             std::span<StiffnessRecord<D>> sums) const {
-  constexpr StiffnessRecord<D> as_it_is{1, 1, 1, 1};
-  store_sums(*this, values.empty() ? nullptr : &values.data()->x, &as_it_is.x, &sums.data()->x);
+  alignas(64) double as_it_is[lanes];
+  std::fill_n(as_it_is, lanes, 1.0);
+  store_sums(*this, values.empty() ? nullptr : &values.data()->x, as_it_is, &sums.data()->x);
 }
 
 template class ContactSums<2>;
+template class ContactSums<3>;
 
 }  // namespace grainlaw

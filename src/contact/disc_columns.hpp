@@ -22,11 +22,11 @@ struct Columns {
 };
 
 // The record of the particle at a lane and, with eight lanes, of that four further on.
-template <std::size_t width>
+template <std::size_t width, std::size_t stride = 4>
 GRAINLAW_INLINE Lanes<width> record(const double* records, const std::int32_t* index,
                                     std::size_t lane) {
   const auto at = [&](std::size_t k) {
-    return load<4>(records + 4 * static_cast<std::size_t>(index[k]));
+    return load<4>(records + stride * static_cast<std::size_t>(index[k]));
   };
   if constexpr (width == 4) {
     return at(lane);
@@ -36,26 +36,27 @@ GRAINLAW_INLINE Lanes<width> record(const double* records, const std::int32_t* i
 }
 
 // Half of a record: x and y, or the rest.
+template <std::size_t stride = 4>
 GRAINLAW_INLINE Lanes<2> half_record(const double* records, std::int32_t index, std::size_t from) {
-  return load<2>(records + 4 * static_cast<std::size_t>(index) + from);
+  return load<2>(records + stride * static_cast<std::size_t>(index) + from);
 }
 
-// The records at these indices.
-template <std::size_t width>
+// The records at these indices, `stride` doubles apart.
+template <std::size_t width, std::size_t stride = 4>
 GRAINLAW_INLINE Columns<width> records_of(const double* records, const std::int32_t* index) {
   if constexpr (width == 2) {
-    Lanes<2> x = half_record(records, index[0], 0);
-    Lanes<2> y = half_record(records, index[1], 0);
-    Lanes<2> roll = half_record(records, index[0], 2);
-    Lanes<2> last = half_record(records, index[1], 2);
+    Lanes<2> x = half_record<stride>(records, index[0], 0);
+    Lanes<2> y = half_record<stride>(records, index[1], 0);
+    Lanes<2> roll = half_record<stride>(records, index[0], 2);
+    Lanes<2> last = half_record<stride>(records, index[1], 2);
     transpose(x, y);
     transpose(roll, last);
     return {x, y, roll, last};
   } else {
-    auto a = record<width>(records, index, 0);
-    auto b = record<width>(records, index, 1);
-    auto c = record<width>(records, index, 2);
-    auto d = record<width>(records, index, 3);
+    auto a = record<width, stride>(records, index, 0);
+    auto b = record<width, stride>(records, index, 1);
+    auto c = record<width, stride>(records, index, 2);
+    auto d = record<width, stride>(records, index, 3);
     transpose(a, b, c, d);
     return {a, b, c, d};
   }

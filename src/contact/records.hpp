@@ -38,8 +38,8 @@ struct alignas(32) StiffnessRecord<2> {
 // Pseudo-masses of a relaxation whose steps have length 1: stiffnesses.
 template <>
 struct alignas(32) MassRecord<2> {
-  double x = 0, y = 0;  // [N/m]
-  double roll = 0;      // I / R^2 [N/m]
+  double x = 1, y = 1;  // [N/m]
+  double roll = 1;      // I / R^2 [N/m]
   double filling = 1;
 };
 // What they are at least, one contact's worth.
@@ -49,10 +49,47 @@ struct alignas(32) LeastMass<2> {
   double inverse_radius = 0;      // [1/m]
 };
 
+// Of a sphere. eta = R theta with the Gibbs vector theta = 2 tan(angle / 2) e of its rotation since the
+// history started; its unit quaternion is (2 half, half theta).
+template <>
+struct alignas(64) ParticleRecord<3> {
+  double x = 0, y = 0, z = 0;              // [m]
+  double eta_x = 0, eta_y = 0, eta_z = 0;  // [m]
+  double half = 0.5;                       // 1 / (2 sqrt(1 + theta^2 / 4)) [-]
+  double radius = 0;                       // [m]
+};
+// With M / R for the moment both ends of a contact see the same.
+template <>
+struct alignas(64) ForceRecord<3> {
+  double x = 0, y = 0, z = 0;                 // [N]
+  double spin_x = 0, spin_y = 0, spin_z = 0;  // M / R [N]
+  double filling[2] = {};
+};
+template <>
+struct alignas(64) StiffnessRecord<3> {
+  double x = 0, y = 0, z = 0;                 // kn [N/m]
+  double spin_x = 0, spin_y = 0, spin_z = 0;  // kt d^2 / (R_i + R_j) [N]
+  double filling[2] = {};
+};
+template <>
+struct alignas(64) MassRecord<3> {
+  double x = 1, y = 1, z = 1;                 // [N/m]
+  double spin_x = 1, spin_y = 1, spin_z = 1;  // I / R^2 [N/m]
+  double filling[2] = {1, 1};
+};
+template <>
+struct LeastMass<3> {
+  double x = 0;               // of every direction [N/m]
+  double spin = 0;            // [N/m]
+  double inverse_radius = 0;  // [1/m]
+};
+
 // What acts on i against what acts on j.
 template <int D>
 inline constexpr ForceRecord<D> opposite{};
 template <>
 inline constexpr ForceRecord<2> opposite<2>{-1, -1, 1, -1};
+template <>
+inline constexpr ForceRecord<3> opposite<3>{-1, -1, -1, 1, 1, 1, {}};
 
 }  // namespace grainlaw

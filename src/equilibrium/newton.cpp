@@ -284,5 +284,7 @@ bool pseudo_transient_newton(Increment<D>& increment, double tolerance, int max_
 
 template bool pseudo_transient_newton(Increment<2>&, double, int, NewtonMemory<2>&,
                                       RelaxationMemory<2>*);
+template bool pseudo_transient_newton(Increment<3>&, double, int, NewtonMemory<3>&,
+                                      RelaxationMemory<3>*);
 
 }  // namespace grainlaw

@@ -5,6 +5,7 @@
 
 #include "equilibrium/relaxation.hpp"
 #include "equilibrium/rolling_mechanisms.hpp"
+#include "equilibrium/sphere_mechanisms.hpp"
 #include "increment/increment.hpp"
 #include "tangent/bordered_system.hpp"
 #include "tangent/stiffness.hpp"

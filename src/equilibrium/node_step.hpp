@@ -60,4 +60,10 @@ ContactSides<2>::Measured step_all(const Nodes& nodes, std::span<const ForceReco
 ContactSides<2>::Measured gather_and_step(const Nodes& nodes, const ContactList<2>& contacts,
                                           double keep, double gain);
 
+// Of spheres, whose records have a number that follows from their rotation.
+ContactSides<3>::Measured step_all(const Nodes& nodes, std::span<const ForceRecord<3>> residual,
+                                   double keep, double gain);
+ContactSides<3>::Measured gather_and_step(const Nodes& nodes, const ContactList<3>& contacts,
+                                          double keep, double gain);
+
 }  // namespace grainlaw::node_step

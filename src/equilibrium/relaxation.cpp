@@ -31,8 +31,8 @@ Relaxation<D>::Relaxation(Increment<D>& increment, History history, RelaxationMe
     : increment_(increment), history_(history), memory_(memory) {
   const auto& law = *increment.problem->law;
   const bool by_places = history == History::committed && increment.problem->space->identity;
-  by_sides_ = by_places && law.plain() && law.tangential();
-  at_once_ = by_places && law.plain() && !law.tangential();
+  by_sides_ = ContactSides<D>::available && by_places && law.plain() && law.tangential();
+  at_once_ = by_places && law.plain() && !by_sides_;
   // Without friction nothing flutters, and the damping is that of the softest mode.
   rough_ = by_places && law.tangential();
   extrapolates_ = may_extrapolate && rough_;
@@ -51,14 +51,16 @@ template <int D>
 void Relaxation<D>::refresh() {
   if (history_ == History::advancing) increment_.advance_history();
   const bool relisted = increment_.keep_neighbours();
-  if (by_sides_) {
-    if (relisted || !arranged_) {
-      memory_.sides.arrange(increment_.contacts, *increment_.problem->packing,
-                            increment_.least_masses(), at_rest_);
-      arranged_ = true;
-      at_rest_ = false;
+  if constexpr (ContactSides<D>::available) {
+    if (by_sides_) {
+      if (relisted || !arranged_) {
+        memory_.sides.arrange(increment_.contacts, *increment_.problem->packing,
+                              increment_.least_masses(), at_rest_);
+        arranged_ = true;
+        at_rest_ = false;
+      }
+      return look();
     }
-    return look();
   }
   increment_.sum_masses();
   find_gains(&increment_.mass_records[0].x, memory_.gain.data(), memory_.gain.size());
@@ -87,10 +89,12 @@ bool Relaxation<D>::calm() const {
 template <int D>
 void Relaxation<D>::look() {
   calm_start_ = calm_max_ = residual_;
-  const auto totals = memory_.sides.look(increment_.records, *increment_.problem->law,
-                                         tuned::mass_factor, increment_.contacts);
-  increment_.touching = totals.touching;
-  increment_.mean_force = totals.touching > 0 ? totals.force / totals.weights : 0;
+  if constexpr (ContactSides<D>::available) {
+    const auto totals = memory_.sides.look(increment_.records, *increment_.problem->law,
+                                           tuned::mass_factor, increment_.contacts);
+    increment_.touching = totals.touching;
+    increment_.mean_force = totals.touching > 0 ? totals.force / totals.weights : 0;
+  }
 }
 
 template <int D>
@@ -102,6 +106,7 @@ void Relaxation<D>::update() {
   if (history_ == History::advancing) {
     increment_.dissipated +=
         advance_contacts<D>(increment_.records, law, increment_.contacts, forces);
+    increment_.restart_turns();
   } else {
     evaluate_contacts<D>(increment_.records, law, increment_.contacts, forces);
   }
@@ -173,8 +178,7 @@ void Relaxation<D>::step() {
   const double damping = std::clamp(2 * frequency_, floor_, tuned::largest_damping);
   const double keep = (2 - damping) / (2 + damping);
   const double gain = 2 / (2 + damping);
-  const auto before =
-      by_sides_ ? memory_.sides.step(*increment_.problem->law, keep, gain) : step_nodes(keep, gain);
+  const auto before = one_step(keep, gain);
   const double stiffness = power_ - before.power;  // sum v (r_previous - r)
   power_ = before.next_power;
   residual_ = std::numeric_limits<double>::infinity();
@@ -185,6 +189,14 @@ void Relaxation<D>::step() {
   frequency_ = std::sqrt(std::max(stiffness / inertia, 0.0));
   ++steps_;
   ++increment_.relaxation_steps;
+}
+
+template <int D>
+auto Relaxation<D>::one_step(double keep, double gain) -> Measured {
+  if constexpr (ContactSides<D>::available) {
+    if (by_sides_) return memory_.sides.step(*increment_.problem->law, keep, gain);
+  }
+  return step_nodes(keep, gain);
 }
 
 template <int D>
@@ -227,7 +239,9 @@ bool Relaxation<D>::run(double tolerance, long steps, double least_force) {
         (steps_ % tuned::floor_window == 0 && (increment_.mean_force < least_force || flutters()));
     const bool over = residual_ < tolerance || stop;
     if (over || (steps_ % tuned::mass_interval == 0 && !calm())) {
-      if (by_sides_) memory_.sides.move(increment_.records);
+      if constexpr (ContactSides<D>::available) {
+        if (by_sides_) memory_.sides.move(increment_.records);
+      }
       increment_.store_records();
       refresh();
       if (extrapolates_ && !over && extrapolate()) refresh();
@@ -255,6 +269,8 @@ bool relax(Increment<D>& increment, double tolerance, long max_steps, History hi
 }
 
 template class Relaxation<2>;
+template class Relaxation<3>;
 template bool relax(Increment<2>&, double, long, History, RelaxationMemory<2>&, double, bool);
+template bool relax(Increment<3>&, double, long, History, RelaxationMemory<3>&, double, bool);
 
 }  // namespace grainlaw

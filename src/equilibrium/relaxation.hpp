@@ -43,6 +43,7 @@ class Relaxation {
   void refresh();
   void look();
   [[nodiscard]] bool calm() const;
+  Measured one_step(double keep, double gain);
   Measured step_nodes(double keep, double gain);
   void update();
   [[nodiscard]] double size() const;  // of the packing, over 400 nodes; 1 where there are fewer

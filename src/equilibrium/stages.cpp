@@ -273,10 +273,13 @@ bool solve_whole(Request<D> request, Workspace<D>& w, Outcome& outcome) {
   return true;
 }
 
-template bool solve_parts(const Request<2>&, int, Workspace<2>&, Outcome&);
-template bool solve_advancing(const Request<2>&, Method, Workspace<2>&, Outcome&);
-template bool solve_whole(Request<2>, Workspace<2>&, Outcome&);
-template bool may_fade(const Request<2>&, const Increment<2>&);
-template const Effort& effort_of(const Request<2>&);
+#define GRAINLAW_FOR(D)                                                              \
+  template bool solve_parts(const Request<D>&, int, Workspace<D>&, Outcome&);        \
+  template bool solve_advancing(const Request<D>&, Method, Workspace<D>&, Outcome&); \
+  template bool solve_whole(Request<D>, Workspace<D>&, Outcome&);                    \
+  template bool may_fade(const Request<D>&, const Increment<D>&);                    \
+  template const Effort& effort_of(const Request<D>&);
+GRAINLAW_FOR(2)
+GRAINLAW_FOR(3)
 
 }  // namespace grainlaw

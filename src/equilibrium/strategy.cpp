@@ -180,5 +180,6 @@ Outcome solve(const Request<D>& request, Workspace<D>& workspace) {
 }
 
 template Outcome solve(const Request<2>&, Workspace<2>&);
+template Outcome solve(const Request<3>&, Workspace<3>&);
 
 }  // namespace grainlaw

@@ -152,5 +152,6 @@ bool SubspaceExtrapolation<D>::extrapolate(std::span<ParticleRecord<D>> records,
 }
 
 template class SubspaceExtrapolation<2>;
+template class SubspaceExtrapolation<3>;
 
 }  // namespace grainlaw

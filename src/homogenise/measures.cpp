@@ -2,6 +2,7 @@
 
 #include "frame/frame_space.hpp"
 #include "homogenise/plane_measures.hpp"
+#include "homogenise/space_measures.hpp"
 #include "packing/geometry.hpp"
 
 #include <algorithm>
@@ -102,21 +103,22 @@ double elastic_energy(const Problem<D>& problem, const std::vector<ContactView<D
   return energy;
 }
 
-// By component, of rotations since F = I.
+// By component, of rotations since F = I; of spheres of rotation vectors.
 template <int D>
 std::array<double, Dimension<D>::spins> mean_rotation(const Problem<D>& problem,
                                                       const Configuration<D>& at) {
   const auto n = problem.packing->size();
   std::array<double, Dimension<D>::spins> mean{};
-  if (at.coordinates.size() < Dimension<D>::unknowns * n) return mean;
+  if (at.coordinates.size() < (D + Dimension<D>::turn_numbers) * n) return mean;
   // Copies of a frame turn alike and count once.
-  std::vector<double> rotation(problem.space->nodes, 0.0);
+  std::vector<std::array<double, Dimension<D>::spins>> rotation(problem.space->nodes);
+  for (std::size_t p = 0; p < n; ++p) {
+    rotation[static_cast<std::size_t>(problem.space->node[p])] =
+        rotation_of<D>(at.coordinates.data() + D * n + p, n);
+  }
   for (std::size_t k = 0; k < mean.size(); ++k) {
-    for (std::size_t p = 0; p < n; ++p) {
-      rotation[static_cast<std::size_t>(problem.space->node[p])] = at.coordinates[(D + k) * n + p];
-    }
     double sum = 0;
-    for (const double value : rotation) sum += value;
+    for (const auto& value : rotation) sum += value[k];
     mean[k] = sum / static_cast<double>(rotation.size());
   }
   return mean;
@@ -241,5 +243,7 @@ void measure(const Problem<D>& problem, const Configuration<D>& at, grainlaw_mea
 
 template std::vector<ContactView<2>> contact_views(const Problem<2>&, const Configuration<2>&);
 template void measure(const Problem<2>&, const Configuration<2>&, grainlaw_measure, double*);
+template std::vector<ContactView<3>> contact_views(const Problem<3>&, const Configuration<3>&);
+template void measure(const Problem<3>&, const Configuration<3>&, grainlaw_measure, double*);
 
 }  // namespace grainlaw

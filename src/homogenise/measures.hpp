@@ -32,6 +32,10 @@ struct ContactView {
 };
 template <>
 Vec<2> ContactView<2>::tangential_force_vector() const;
+template <>
+inline Vec<3> ContactView<3>::tangential_force_vector() const {
+  return tangential_force;
+}
 
 template <int D>
 std::vector<ContactView<D>> contact_views(const Problem<D>& problem, const Configuration<D>& at);

@@ -65,21 +65,30 @@ Tensor<D> piola_stress(const Increment<D>& increment) {
   return p;
 }
 
+// Lane by lane: columns are dP by the changes of F that the lanes stand for.
 template <int D>
-Tensor4<D> condensed_tangent(const Increment<D>& increment, const Sensitivity<D>& sensitivity) {
+Tensor4<D> changes_of_stress(const Increment<D>& increment, const Sensitivity<D>& sensitivity,
+                             std::size_t lanes) {
   Tensor4<D> tangent{};
   const double volume = increment.problem->space->reference_volume;
   const Tensor<D> pull_back = inverse<D>(increment.deformation);
   const bool bound = increment.problem->space->bound_to_axes();
+  const DeformationChange<D>& of_F = sensitivity.deformation_change();
   for_each_contact(increment, [&](std::size_t c, const auto& point, const auto& branch) {
     const Vec<D> force = point.force_on_j();
     const ContactChange<D>& change = sensitivity.changes(c);
-    for (std::size_t k = 0; k < squared<D>; ++k) {
+    for (std::size_t k = 0; k < lanes; ++k) {
       // d(F^-1 l) = F^-1 (dl - dF L); the change of the branch holds both parts.
       // A space bound to axes has fixed branches.
       Vec<D> fluctuation{};
       for (std::size_t i = 0; i < D; ++i) fluctuation[i] = change.branch[i].lane[k];
-      fluctuation[k / D] -= branch[k % D];
+      if constexpr (D == 2) {
+        fluctuation[k / D] -= branch[k % D];
+      } else {
+        for (std::size_t m = 0; m < squared<D>; ++m) {
+          fluctuation[m / D] -= of_F[m].lane[k] * branch[m % D];
+        }
+      }
       const Vec<D> branch_change = bound ? Vec<D>{} : product<D>(pull_back, fluctuation);
       for (std::size_t i = 0; i < D; ++i) {
         for (std::size_t j = 0; j < D; ++j) {
@@ -89,7 +98,42 @@ Tensor4<D> condensed_tangent(const Increment<D>& increment, const Sensitivity<D>
       }
     }
   });
-  clear_found<D>(*increment.problem->space, tangent);
+  return tangent;
+}
+
+template <>
+Tensor4<2> condensed_tangent(const Increment<2>& increment, const Sensitivity<2>& sensitivity) {
+  auto tangent = changes_of_stress<2>(increment, sensitivity, squared<2>);
+  clear_found<2>(*increment.problem->space, tangent);
+  return tangent;
+}
+
+// By every component of F: dF F_n^-1 is a stretch, of which the lanes tell, and a rotation, which turns P.
+template <>
+Tensor4<3> condensed_tangent(const Increment<3>& increment, const Sensitivity<3>& sensitivity) {
+  constexpr std::size_t n = squared<3>;
+  const auto by_stretch = changes_of_stress<3>(increment, sensitivity, stretch_of_lane.size());
+  const Tensor<3> stress = piola_stress(increment);
+  const Tensor<3> inverse_committed = inverse<3>(increment.committed_deformation);
+  Tensor4<3> tangent{};
+  for (std::size_t component = 0; component < n; ++component) {
+    Tensor<3> direction{};
+    direction[component] = 1;
+    const Tensor<3> x = product<3>(direction, inverse_committed);
+    Tensor<3> spin{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) spin[3 * i + j] = 0.5 * (x[3 * i + j] - x[3 * j + i]);
+    }
+    const Tensor<3> turned = product<3>(spin, stress);
+    for (std::size_t row = 0; row < n; ++row) {
+      double sum = turned[row];
+      for (std::size_t lane = 0; lane < stretch_of_lane.size(); ++lane) {
+        const auto [a, b] = stretch_of_lane[lane];
+        sum += 0.5 * (x[3 * a + b] + x[3 * b + a]) * by_stretch[row * n + lane];
+      }
+      tangent[row * n + component] = sum;
+    }
+  }
   return tangent;
 }
 
@@ -123,7 +167,8 @@ Tensor4<D> elastic_tangent(const Increment<D>& increment) {
 }
 
 template Tensor<2> piola_stress(const Increment<2>&);
-template Tensor4<2> condensed_tangent(const Increment<2>&, const Sensitivity<2>&);
+template Tensor<3> piola_stress(const Increment<3>&);
 template Tensor4<2> elastic_tangent(const Increment<2>&);
+template Tensor4<3> elastic_tangent(const Increment<3>&);
 
 }  // namespace grainlaw

@@ -17,6 +17,11 @@ Tensor<D> piola_stress(const Increment<D>& increment);
 template <int D>
 Tensor4<D> condensed_tangent(const Increment<D>& increment, const Sensitivity<D>& sensitivity);
 
+template <>
+Tensor4<2> condensed_tangent(const Increment<2>& increment, const Sensitivity<2>& sensitivity);
+template <>
+Tensor4<3> condensed_tangent(const Increment<3>& increment, const Sensitivity<3>& sensitivity);
+
 // Affine estimate (1/V) sum_c (kn n L n L + kt t L t L), Guo & Zhao (2014) eq. 9 as dP/dF [Pa].
 template <int D>
 Tensor4<D> elastic_tangent(const Increment<D>& increment);

@@ -2,16 +2,21 @@
 #pragma once
 
 #include "contact/history.hpp"
+#include "math/dimension.hpp"
 #include "math/tensor.hpp"
 
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace grainlaw {
 
 template <int D>
 struct Configuration {
-  Tensor<D> deformation{};                  // F
-  std::vector<double> coordinates;          // component-major positions, then rotations when free
+  Tensor<D> deformation{};  // F
+  // Component-major: places [m], and rotations since F = I in turn_numbers where particles turn.
+  std::vector<double> coordinates;
   std::vector<ContactHistory<D>> contacts;  // touching contacts, ordered by (i, j, shift)
   Tensor<D> stress{};                       // first Piola-Kirchhoff stress P [Pa]
   double dissipated = 0;                    // by friction and broken bonds since F = I [J]
@@ -20,5 +25,26 @@ struct Configuration {
                                   // bonds span gaps [m]
   double broken_bonds = 0;        // since F = I, each with its contact's weight [-]
 };
+
+// A rotation, kept in numbers `apart` doubles from each other, as an angle or a rotation vector [rad].
+template <int D>
+std::array<double, Dimension<D>::spins> rotation_of(const double* numbers, std::size_t apart) {
+  if constexpr (D == 2) {
+    return {numbers[0]};
+  } else {
+    const Vec<3> v{numbers[apart], numbers[2 * apart], numbers[3 * apart]};
+    const double sine = length<3>(v);
+    const double angle = 2 * std::atan2(sine, numbers[0]);
+    const double scale = sine > 0 ? angle / sine : 2;
+    return {scale * v[0], scale * v[1], scale * v[2]};
+  }
+}
+
+// Rotations of particles that have not turned yet, behind their places.
+template <int D>
+void append_unturned(std::size_t particles, std::vector<double>& coordinates) {
+  if constexpr (D == 3) coordinates.resize(coordinates.size() + particles, 1.0);
+  coordinates.resize((D + Dimension<D>::turn_numbers) * particles, 0.0);
+}
 
 }  // namespace grainlaw

@@ -51,7 +51,11 @@ inline void put_residual(const ForceRecord<2>* forces, std::span<const double> r
   for (std::size_t q = 0; q < m; ++q) residual[2 * m + q] = forces[q].roll * radius[q];
 }
 
-inline LeastMass<2> least_mass(const ContactLaw& law, double r) {
+template <int D>
+LeastMass<D> least_mass(const ContactLaw& law, double r);
+
+template <>
+inline LeastMass<2> least_mass<2>(const ContactLaw& law, double r) {
   const double kn = law.stiffness(r, r);
   double kt = law.rotating() ? 2 * law.ratio * kn : 1;
   if (law.moments()) kt += law.ratio * kn * law.rolling_ratio(r, r) / (r * r);

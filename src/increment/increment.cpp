@@ -52,7 +52,8 @@ void Increment<D>::begin(const Problem<D>& p, const Configuration<D>& from,
   start.resize(n * components);
   std::copy_n(from.coordinates.begin(), dim * n, start.begin());
   std::fill(start.begin() + static_cast<std::ptrdiff_t>(dim * n), start.end(), 0.0);
-  start_deformation = from.deformation;
+  start_deformation = committed_deformation = from.deformation;
+  turned_.reset(n, p.law->rotating());
   copy_with_room(from.contacts, history);
   copy_with_room(from.moments, history_moments);
   copy_with_room(from.bond_gaps, history_gaps);
@@ -189,6 +190,7 @@ template <int D>
 void Increment<D>::update_forces_advancing() {
   load_records();
   dissipated += advance_contacts<D>(records, *problem->law, contacts, forces);
+  restart_turns();
   project();
 }
 
@@ -251,18 +253,15 @@ double Increment<D>::residual_norm() const {
 template <int D>
 void Increment<D>::move(std::span<const double> step, double factor) {
   const auto& space = *problem->space;
-  if (space.identity) {
-    double* z = coordinates.data();
-    const double* dz = step.data();
-    for (std::size_t k = 0; k < step.size(); ++k) z[k] += factor * dz[k];
-    return;
-  }
   const auto n = particles();
   const auto m = nodes();
-  for (std::size_t k = 0; k < node_unknowns() / m; ++k) {
+  for (std::size_t k = 0; k < dim; ++k) {
     const double* dz = step.data() + k * m;
     double* z = coordinates.data() + k * n;
     for (std::size_t p = 0; p < n; ++p) z[p] += factor * dz[space.node[p]];
+  }
+  if (problem->law->rotating()) {
+    add_spins<D>(step.data() + dim * m, m, space.node, factor, coordinates.data() + dim * n);
   }
   if (!space.finds_deformation) return;
   Tensor<D> change{};
@@ -273,6 +272,13 @@ void Increment<D>::move(std::span<const double> step, double factor) {
   move_with<D>(space.reference.data(), change, n, coordinates.data());
 }
 
+template <int D>
+void Increment<D>::restart_turns() {
+  if (!problem->law->rotating()) return;
+  turned_.restart(records, coordinates.data() + dim * particles());
+}
+
 template class Increment<2>;
+template class Increment<3>;
 
 }  // namespace grainlaw

@@ -7,6 +7,7 @@
 #include "frame/average_masses.hpp"
 #include "increment/configuration.hpp"
 #include "increment/problem.hpp"
+#include "increment/turns.hpp"
 #include "packing/neighbours.hpp"
 
 #include <algorithm>
@@ -137,6 +138,9 @@ class Increment {
   // Of those under uniform stress, the first without a contact; -1: none.
   [[nodiscard]] int released_particle();
 
+  // Where the history starts anew, spheres count their rotations from here.
+  void restart_turns();
+
   // Coordinates to the records that contacts read, and back.
   void load_records();
   void store_records();
@@ -158,6 +162,7 @@ class Increment {
   const Problem<D>* problem = nullptr;
   Tensor<D> deformation{};                 // F being solved, free of the increment's rotation
   Tensor<D> start_deformation{};           // where the history starts
+  Tensor<D> committed_deformation{};       // where the increment began
   Tensor<D> cell{};                        // F H0, zero on a frame [m]
   std::vector<double> coordinates;         // component-major: positions, rotation increments
   std::vector<double> start;               // coordinates where the history starts
@@ -216,6 +221,7 @@ class Increment {
   AverageMasses average_masses_;
   std::vector<unsigned char> held_;  // of nodes, as found last
   std::vector<double> carried_start_;
+  Turned<D> turned_;
   NeighbourSearch<D> search_;
 };
 

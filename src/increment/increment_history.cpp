@@ -13,7 +13,9 @@ namespace grainlaw {
 
 namespace {
 
+double magnitude_of(double force) { return std::abs(force); }
 double magnitude_of(const std::array<double, 1>& force) { return std::abs(force[0]); }
+double magnitude_of(const Vec<3>& force) { return std::sqrt(square<3>(force)); }
 
 }  // namespace
 
@@ -56,6 +58,7 @@ void Increment<D>::advance_contacts_and_history() {
   load_records();
   const auto& law = *problem->law;
   dissipated += advance_contacts<D>(records, law, contacts, forces);
+  restart_turns();
   if (after_break_) dissipated = break_dissipated_ + break_energy_ - potential_energy();
   const bool gaps = !history_gaps.empty();
   history.clear();
@@ -158,7 +161,7 @@ double Increment<D>::bond_load(std::size_t c) const {
   const auto& law = *problem->law;
   const auto point = contact_point(contacts, c, coordinates, particles(), law);
   double load = -point.normal_force / law.bond.normal_strength +
-                std::abs(point.tangential_force) / law.bond.tangential_strength;
+                magnitude_of(point.tangential_force) / law.bond.tangential_strength;
   if (law.bond.bending_strength > 0 && law.moments()) {
     load += std::abs(contact_moment(contacts, c, point, coordinates, particles(), law).moment) /
             law.bond.bending_strength;
@@ -206,9 +209,7 @@ void Increment<D>::export_to(const Configuration<D>& from, Configuration<D>& to)
     if (problem->space->anchor[k] < 0) continue;
     for (std::size_t p = 0; p < n; ++p) to.coordinates[k * n + p] -= moved[k];
   }
-  for (std::size_t k = dim * n; k < coordinates.size(); ++k) {
-    to.coordinates[k] += from.coordinates[k];
-  }
+  turned_.export_to(n, from.coordinates, to.coordinates);
   copy_with_room(history, to.contacts, little);
   copy_with_room(history_moments, to.moments, little);
   copy_with_room(history_gaps, to.bond_gaps, little);
@@ -217,5 +218,6 @@ void Increment<D>::export_to(const Configuration<D>& from, Configuration<D>& to)
 }
 
 template class Increment<2>;
+template class Increment<3>;
 
 }  // namespace grainlaw

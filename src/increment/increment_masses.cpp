@@ -10,7 +10,7 @@ template <int D>
 void Increment<D>::find_least_masses() {
   least_masses_.resize(nodes());
   for (std::size_t q = 0; q < nodes(); ++q) {
-    least_masses_[q] = least_mass(*problem->law, node_radius[q]);
+    least_masses_[q] = least_mass<D>(*problem->law, node_radius[q]);
   }
 }
 
@@ -63,7 +63,7 @@ void Increment<D>::find_deformation_masses() {
   for (std::size_t i = 0; i < dim; ++i) {
     double number = 0;
     for (std::size_t j = 0; j < dim; ++j) number += space.found[dim * i + j] ? 1 : 0;
-    MassRecord<D> row{1, 1, 1, 1};
+    MassRecord<D> row{};
     for (std::size_t j = 0; j < dim; ++j) {
       (&row.x)[j] = tuned::deformation_mass_factor * std::max(number * sum[j] / scale, least);
     }
@@ -79,5 +79,6 @@ double Increment<D>::mean_stiffness() const {
 }
 
 template class Increment<2>;
+template class Increment<3>;
 
 }  // namespace grainlaw

@@ -66,5 +66,6 @@ bool Increment<D>::keep_neighbours() {
 }
 
 template class Increment<2>;
+template class Increment<3>;
 
 }  // namespace grainlaw

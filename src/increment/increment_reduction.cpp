@@ -97,5 +97,6 @@ bool Increment<D>::collapsed() {
 }
 
 template class Increment<2>;
+template class Increment<3>;
 
 }  // namespace grainlaw

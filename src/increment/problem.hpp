@@ -19,8 +19,9 @@ struct Problem {
   double force_floor = 0;  // residuals are relative to max(mean normal force, this) [N]
   double tolerance = 0;    // of equilibria; contacts that carry about as little are none [-]
 
+  // Unknowns of a node. Spheres that do not turn keep theirs, which nothing moves: blocks are of six.
   [[nodiscard]] int components() const {
-    return law->rotating() ? static_cast<int>(Dimension<D>::unknowns) : D;
+    return D == 3 || law->rotating() ? static_cast<int>(Dimension<D>::unknowns) : D;
   }
 };
 

@@ -3,3 +3,4 @@
 #pragma once
 
 #include "increment/disc_records.hpp"
+#include "increment/sphere_records.hpp"

@@ -58,8 +58,12 @@ void write_vtk(const std::string& path, std::span<const double> position,
   print(text, "<PointData Scalars=\"radius\">\n");
   print_array(text, "Float64", "radius", 1, n + lines,
               [&](std::size_t k) { return of_particle(radius, k); });
-  print_array(text, "Float64", "rotation", 1, n + lines,
-              [&](std::size_t k) { return of_particle(rotation, k); });
+  const bool vectors = rotation.size() == 3 * n;
+  print_array(text, "Float64", "rotation", vectors ? 3 : 1, n + lines, [&](std::size_t k) {
+    if (!vectors) return fmt::format("{}", of_particle(rotation, k));
+    if (k >= n) return std::string("0 0 0");
+    return fmt::format("{} {} {}", rotation[k], rotation[n + k], rotation[2 * n + k]);
+  });
   print_array(text, "Int32", "coordination", 1, n + lines,
               [&](std::size_t k) { return coordination[k]; });
   print(text, "</PointData>\n<CellData Scalars=\"normal_force\">\n");

@@ -24,7 +24,7 @@ struct VtkContact {
 // tangential_force [N], moment [N m] and bonded (0 or 1). The far end of a line is a point of its
 // own with radius 0, the vertices carry no force.
 //   position  component-major, 2 or 3 components x radius.size() [m]
-//   rotation  [radius.size()], or empty for none [rad]
+//   rotation  [radius.size()], in space three times as many, component-major; empty: none [rad]
 // Throws Error (FILE_ERROR).
 void write_vtk(const std::string& path, std::span<const double> position,
                std::span<const double> radius, std::span<const double> rotation,

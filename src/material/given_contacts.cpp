@@ -102,8 +102,11 @@ double unloaded_force_scale(const Material<D>& material) {
   return 1e-3 * r * material.law.stiffness(r, r);
 }
 
-template void add_bonds_and_moments(const Material<2>&, Configuration<2>&);
-template double mean_overlap(const Material<2>&);
-template double unloaded_force_scale(const Material<2>&);
+#define GRAINLAW_FOR(D)                                                       \
+  template void add_bonds_and_moments(const Material<D>&, Configuration<D>&); \
+  template double mean_overlap(const Material<D>&);                           \
+  template double unloaded_force_scale(const Material<D>&);
+GRAINLAW_FOR(2)
+GRAINLAW_FOR(3)
 
 }  // namespace grainlaw

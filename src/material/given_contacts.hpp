@@ -23,6 +23,13 @@ double given_overlap(const Packing& packing, const Pair& pair) {
          length<D>(given_branch<D>(packing, pair));
 }
 
+// Whether a file names a contact from the side of j: branch, normal, tangent and force all turn round;
+// of discs the component along the tangent stays.
+inline bool is_seen_from_j(const InitialContact& contact) {
+  constexpr std::array<int, 3> none{};
+  return contact.i > contact.j || (contact.i == contact.j && contact.shift < none);
+}
+
 // Forces and moments on j as a history has them, of contacts as files have them [N, N m].
 template <int D>
 std::array<double, Dimension<D>::tangents> given_force(const Packing& packing,

@@ -75,5 +75,7 @@ void load_to_stress(const BoundarySpace<D>& space, const Request<D>& request,
 
 template void load_to_stress(const BoundarySpace<2>&, const Request<2>&, Workspace<2>&,
                              Configuration<2>&);
+template void load_to_stress(const BoundarySpace<3>&, const Request<3>&, Workspace<3>&,
+                             Configuration<3>&);
 
 }  // namespace grainlaw

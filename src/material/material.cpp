@@ -22,13 +22,6 @@ namespace grainlaw {
 
 namespace {
 
-// Seen from the other side branch, normal, tangent and force all turn round; of discs the component
-// along the tangent stays.
-bool is_seen_from_j(const InitialContact& contact) {
-  constexpr std::array<int, 3> none{};
-  return contact.i > contact.j || (contact.i == contact.j && contact.shift < none);
-}
-
 // The packing as it is given, in the order in which neighbours are listed.
 template <int D>
 Configuration<D> given_configuration(const Material<D>& material) {
@@ -37,7 +30,7 @@ Configuration<D> given_configuration(const Material<D>& material) {
   Configuration<D> given;
   given.deformation = identity<D>();
   given.coordinates = packing.position;
-  if (material.law.rotating()) given.coordinates.resize(Dimension<D>::unknowns * n, 0.0);
+  if (material.law.rotating()) append_unturned<D>(n, given.coordinates);
   for (const auto& contact : packing.contacts) {
     ContactHistory<D> history;
     const bool turn = is_seen_from_j(contact);
@@ -263,5 +256,6 @@ std::shared_ptr<const Material<D>> make_material(MaterialDescription description
 }
 
 template std::shared_ptr<const Material<2>> make_material(MaterialDescription);
+template std::shared_ptr<const Material<3>> make_material(MaterialDescription);
 
 }  // namespace grainlaw

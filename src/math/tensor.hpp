@@ -1,9 +1,11 @@
 // Vectors and second-order tensors in two and three dimensions; tensors row-major.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <utility>
 
 namespace grainlaw {
@@ -127,11 +129,32 @@ template <int D>
   return dot<D>(x.data(), x.data());
 }
 
+// Eigenvalues of a symmetric tensor, ascending (Smith 1961).
+inline Vec<3> principal_values(const Tensor<3>& a) {
+  const double mean = trace<3>(a) / 3;
+  Tensor<3> deviator = a;
+  for (std::size_t k = 0; k < 3; ++k) deviator[4 * k] -= mean;
+  double squares = 0;
+  for (const double value : deviator) squares += value * value;
+  const double p = std::sqrt(squares / 6);
+  if (!(p > 0)) return {mean, mean, mean};
+  for (double& value : deviator) value /= p;
+  const double r = std::clamp(0.5 * determinant<3>(deviator), -1.0, 1.0);
+  const double angle = std::acos(r) / 3;
+  const double third = 2 * std::numbers::pi / 3;
+  const double largest = mean + 2 * p * std::cos(angle);
+  const double least = mean + 2 * p * std::cos(angle + third);
+  return {least, 3 * mean - largest - least, largest};
+}
+
 // The largest stretch, which no rotation changes.
 template <int D>
 double largest_singular_value(const Tensor<D>& a) {
-  static_assert(D == 2);
-  return 0.5 * (std::hypot(a[0] + a[3], a[1] - a[2]) + std::hypot(a[0] - a[3], a[1] + a[2]));
+  if constexpr (D == 2) {
+    return 0.5 * (std::hypot(a[0] + a[3], a[1] - a[2]) + std::hypot(a[0] - a[3], a[1] + a[2]));
+  } else {
+    return std::sqrt(std::max(0.0, principal_values(product<3>(transpose<3>(a), a))[2]));
+  }
 }
 
 }  // namespace grainlaw

@@ -125,5 +125,7 @@ bool relax_published(Increment<D>& increment, double tolerance, const PublishedO
 
 template bool relax_published(Increment<2>&, double, const PublishedOptions&,
                               std::span<const unsigned char>, ReferenceMemory&);
+template bool relax_published(Increment<3>&, double, const PublishedOptions&,
+                              std::span<const unsigned char>, ReferenceMemory&);
 
 }  // namespace grainlaw

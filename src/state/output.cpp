@@ -19,6 +19,10 @@ auto filled(const Numbers& numbers) {
   return result;
 }
 
+// Along the tangent of discs with its sign; of spheres the size.
+double as_number(const std::array<double, 1>& component) { return component[0]; }
+double as_number(const Vec<3>& vector) { return length<3>(vector); }
+
 }  // namespace
 
 template <int D>
@@ -27,11 +31,16 @@ void write_force_chains(const std::string& path, const Material<D>& material,
   const std::size_t n = material.packing.size();
   std::vector<VtkContact> chains;
   for (const auto& c : contact_views(material.problem(), at))
-    chains.push_back({c.i, c.j, filled<3>(c.branch), c.normal_force, c.tangential_force[0],
-                      c.moment[0], c.bonded});
+    chains.push_back({c.i, c.j, filled<3>(c.branch), c.normal_force, as_number(c.tangential_force),
+                      as_number(c.moment), c.bonded});
   const std::span<const double> coordinates(at.coordinates);
-  write_vtk(path, coordinates.first(D * n), material.packing.radius, coordinates.subspan(D * n),
-            chains);
+  constexpr std::size_t spins = Dimension<D>::spins;
+  std::vector<double> rotation(coordinates.size() > D * n ? spins * n : 0);
+  for (std::size_t p = 0; p < n && !rotation.empty(); ++p) {
+    const auto turned = rotation_of<D>(at.coordinates.data() + D * n + p, n);
+    for (std::size_t k = 0; k < spins; ++k) rotation[k * n + p] = turned[k];
+  }
+  write_vtk(path, coordinates.first(D * n), material.packing.radius, rotation, chains);
 }
 
 template <int D>
@@ -56,6 +65,8 @@ Packing as_packing(const Material<D>& material, const Configuration<D>& at) {
 }
 
 template void write_force_chains(const std::string&, const Material<2>&, const Configuration<2>&);
+template void write_force_chains(const std::string&, const Material<3>&, const Configuration<3>&);
 template Packing as_packing(const Material<2>&, const Configuration<2>&);
+template Packing as_packing(const Material<3>&, const Configuration<3>&);
 
 }  // namespace grainlaw

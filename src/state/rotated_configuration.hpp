@@ -4,6 +4,7 @@
 #include "increment/configuration.hpp"
 #include "state/plane_turn.hpp"
 #include "state/rotation.hpp"
+#include "state/space_turn.hpp"
 
 #include <cstddef>
 #include <vector>

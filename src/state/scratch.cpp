@@ -38,11 +38,16 @@ class Key {
 };
 
 // Made before, and gone after, whatever uses it.
-[[gnu::init_priority(101)]] Key<2> plane_key;
+[[gnu::init_priority(101)]] Key<2> of_discs;
+[[gnu::init_priority(101)]] Key<3> of_spheres;
 
 template <int D>
-const Key<D>& key() {
-  return plane_key;
+auto& key() {
+  if constexpr (D == 2) {
+    return of_discs;
+  } else {
+    return of_spheres;
+  }
 }
 
 }  // namespace
@@ -62,6 +67,8 @@ void drop_workspace() noexcept {
 }
 
 template Workspace<2>& workspace();
+template Workspace<3>& workspace();
 template void drop_workspace<2>() noexcept;
+template void drop_workspace<3>() noexcept;
 
 }  // namespace grainlaw

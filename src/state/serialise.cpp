@@ -202,8 +202,12 @@ Configuration<D> load_configuration(const Material<D>& material, std::span<const
   return found;
 }
 
-template std::size_t saved_size(const Material<2>&, const Configuration<2>&);
-template void save_configuration(const Material<2>&, const Configuration<2>&, std::span<std::byte>);
-template Configuration<2> load_configuration(const Material<2>&, std::span<const std::byte>);
+#define GRAINLAW_FOR(D)                                                         \
+  template std::size_t saved_size(const Material<D>&, const Configuration<D>&); \
+  template void save_configuration(const Material<D>&, const Configuration<D>&, \
+                                   std::span<std::byte>);                       \
+  template Configuration<D> load_configuration(const Material<D>&, std::span<const std::byte>);
+GRAINLAW_FOR(2)
+GRAINLAW_FOR(3)
 
 }  // namespace grainlaw

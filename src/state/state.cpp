@@ -274,5 +274,6 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
 }
 
 template class State<2>;
+template class State<3>;
 
 }  // namespace grainlaw

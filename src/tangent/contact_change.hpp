@@ -4,6 +4,7 @@
 #include "increment/increment.hpp"
 #include "tangent/derivatives.hpp"
 #include "tangent/disc_history.hpp"
+#include "tangent/sphere_history.hpp"
 #include "tangent/stiffness.hpp"
 
 #include <span>

@@ -10,14 +10,15 @@ namespace {
 
 // Change of F at a share of the way; found components are those of `found`.
 template <int D>
-DeformationChange<D> change_at(double share, const BoundarySpace<D>& space,
+DeformationChange<D> change_at(double share, const Increment<D>& increment,
                                const DeformationChange<D>& found) {
-  DeformationChange<D> change{};
+  const auto& space = *increment.problem->space;
+  DeformationChange<D> change = directions<D>(increment.committed_deformation);
   for (std::size_t k = 0; k < squared<D>; ++k) {
     if (space.found[k]) {
       change[k] = found[k];
     } else {
-      change[k].lane[k] = share;
+      for (double& value : change[k].lane) value *= share;
     }
   }
   return change;
@@ -49,12 +50,13 @@ bool Sensitivity<D>::solve(Increment<D>& increment, double share, double start_s
   const auto& law = *increment.problem->law;
   HistoryChange<D> history;
   if (carried_) {
-    history_.start(increment, carried_motion_, change_at<D>(start_share, space, carried_change_));
+    history_.start(increment, carried_motion_,
+                   change_at<D>(start_share, increment, carried_change_));
     history = history_.of_list(law.moments());
   }
   stiffness.assemble(increment, 0);
   const auto touching = stiffness.touching();
-  change_ = change_at<D>(share, space, {});
+  change_ = change_at<D>(share, increment, {});
 
   const auto b = static_cast<std::size_t>(increment.problem->components());
   resize_with_room(motion_, increment.node_unknowns());
@@ -108,7 +110,7 @@ void Sensitivity<D>::carry(const Increment<D>& increment) {
 
 template <int D>
 void Sensitivity<D>::carry_free(const Increment<D>& increment, double share) {
-  change_ = change_at<D>(share, *increment.problem->space, {});
+  change_ = change_at<D>(share, increment, {});
   motion_.assign(increment.node_unknowns(), ByDeformation<D>{});
   carry(increment);
 }
@@ -151,5 +153,6 @@ void Sensitivity<D>::carry_motion(const Increment<D>& increment) {
 }
 
 template class Sensitivity<2>;
+template class Sensitivity<3>;
 
 }  // namespace grainlaw

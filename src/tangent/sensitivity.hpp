@@ -27,6 +27,8 @@ class Sensitivity {
   // The same where no contact carries, at a share of the way.
   void carry_free(const Increment<D>& increment, double share);
 
+  // Of F, at the end.
+  [[nodiscard]] const DeformationChange<D>& deformation_change() const { return change_; }
   // Of a contact that touches.
   [[nodiscard]] const ContactChange<D>& changes(std::size_t c) const {
     return changes_[static_cast<std::size_t>(place_[c])];

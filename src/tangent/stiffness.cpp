@@ -30,6 +30,7 @@ void Stiffness<D>::find_touching(const Increment<D>& increment) {
     contact.node_i = static_cast<std::size_t>(node[static_cast<std::size_t>(list.i[c])]);
     contact.node_j = static_cast<std::size_t>(node[static_cast<std::size_t>(list.j[c])]);
     contact.lever_i = list.lever_i[c];
+    contact.reach = list.reach[c];
     contact.point = point;
     contact.stiffness = contact_stiffness(list, c, point, law);
   }
@@ -107,6 +108,9 @@ void Stiffness<D>::assemble(const Increment<D>& increment, double shift) {
   add_contacts();
   if (!moments_.empty()) add_moments();
   add_masses(increment, shift);
+  if constexpr (D == 3) {
+    increment.problem->law->rotating() ? hold_free_spins(increment) : hold_rotations(increment);
+  }
   if (increment.problem->space->identity) return;
   if constexpr (D == 2) {
     if (increment.problem->space->averages()) add_anchors(increment);
@@ -155,6 +159,13 @@ void Stiffness<D>::add_masses(const Increment<D>& increment, double factor) {
   }
 }
 
+// Of particles that do not turn.
+template <int D>
+void Stiffness<D>::hold_rotations(const Increment<D>& increment) {
+  for (std::size_t q = 0; q < matrix_.nodes; ++q) hold_rotation(increment, q);
+}
+
 template void Stiffness<2>::assemble(const Increment<2>&, double);
+template void Stiffness<3>::assemble(const Increment<3>&, double);
 
 }  // namespace grainlaw

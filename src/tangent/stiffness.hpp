@@ -15,9 +15,9 @@
 
 namespace grainlaw {
 
-// The derivatives of a contact's forces in its own frame.
+// The derivatives of a contact's forces: of discs in the contact's own frame.
 template <int D>
-using ContactStiffness = std::conditional_t<D == 2, std::array<double, 9>, std::array<double, 36>>;
+using ContactStiffness = std::conditional_t<D == 2, std::array<double, 9>, SphereStiffness>;
 
 // A contact that touches, at the coordinates of the last assemble().
 template <int D>
@@ -26,7 +26,7 @@ struct TouchingContact {
 
   std::size_t index;  // in the increment's list
   std::size_t node_i, node_j;
-  double lever_i;
+  double lever_i, reach;  // R_i / (R_i + R_j) [-], R_i + R_j [m]
   ContactPoint<D> point;
   ContactStiffness<D> stiffness;  // contact_stiffness() of it
 };
@@ -77,7 +77,9 @@ class Stiffness {
   [[nodiscard]] bool graph_serves(const Increment<D>& increment) const;
   void find_graph(const Increment<D>& increment);
   void add_contacts();
+  void hold_rotations(const Increment<D>& increment);
   void add_moments();
+  void hold_free_spins(const Increment<D>& increment);
   void hold_fixed_nodes(const Increment<D>& increment);
   void link_anchors(const Increment<D>& increment);
   void add_anchors(const Increment<D>& increment);
@@ -99,6 +101,8 @@ class Stiffness {
   std::vector<std::int32_t> edge_of_link_;         // between anchors, as add_anchors() goes
   std::vector<std::int32_t> listed_i_, listed_j_;  // the contacts that the graph was made from
   std::vector<std::pair<Edge, std::int32_t>> pairs_;
+  std::vector<std::array<std::int32_t, 2>> contacts_of_node_;  // of spheres, the first two
+  std::vector<unsigned char> count_of_node_;
   std::vector<Column> ground_, right_, solution_, check_;
   std::vector<Together<width>> check_together_, kept_;
 };
@@ -106,3 +110,4 @@ class Stiffness {
 }  // namespace grainlaw
 
 #include "tangent/disc_stiffness.hpp"
+#include "tangent/sphere_stiffness.hpp"

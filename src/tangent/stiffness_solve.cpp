@@ -28,8 +28,7 @@ GRAINLAW_INLINE void find_largest(const double* values, std::size_t count, doubl
 GRAINLAW_CLONES void largest_of_4(const double* values, std::size_t count, double* result) {
   find_largest<4>(values, count, result);
 }
-[[maybe_unused]] GRAINLAW_CLONES void largest_of_8(const double* values, std::size_t count,
-                                                   double* result) {
+GRAINLAW_CLONES void largest_of_8(const double* values, std::size_t count, double* result) {
   find_largest<8>(values, count, result);
 }
 
@@ -198,10 +197,14 @@ bool Stiffness<D>::solve_together(Increment<D>& increment, std::span<const Toget
   return true;
 }
 
-template void Stiffness<2>::factorise(Increment<2>&);
-template bool Stiffness<2>::solve(const Increment<2>&, std::span<const double>, std::span<double>,
-                                  double);
-template bool Stiffness<2>::solve_together(Increment<2>&, std::span<const Together<4>>,
-                                           std::span<Together<4>>);
+#define GRAINLAW_FOR(D)                                                                      \
+  template void Stiffness<D>::factorise(Increment<D>&);                                      \
+  template bool Stiffness<D>::solve(const Increment<D>&, std::span<const double>,            \
+                                    std::span<double>, double);                              \
+  template bool Stiffness<D>::solve_together(Increment<D>&,                                  \
+                                             std::span<const Together<Dimension<D>::lanes>>, \
+                                             std::span<Together<Dimension<D>::lanes>>);
+GRAINLAW_FOR(2)
+GRAINLAW_FOR(3)
 
 }  // namespace grainlaw

@@ -1,0 +1,69 @@
+#include "contact/contact_forces.hpp"
+#include "contact/sphere_loops.hpp"
+
+namespace grainlaw {
+
+namespace {
+
+using namespace sphere_loops;
+
+// The loops of one law.
+struct Law {
+  double (*forces)(const Loop&);
+  double (*advancing)(const Loop&);
+  ContactTotals (*stiffnesses)(const Loop&);
+};
+
+#define GRAINLAW_SPHERE_LAW(name, ...)                                                \
+  constexpr Features name##_law{__VA_ARGS__};                                         \
+  GRAINLAW_SPHERE_LOOP(double, name##_forces, contact_loop, name##_law, false)        \
+  GRAINLAW_SPHERE_LOOP(double, name##_advancing, contact_loop, name##_law, true)      \
+  GRAINLAW_SPHERE_LOOP(ContactTotals, name##_stiffnesses, stiffness_loop, name##_law) \
+  constexpr Law name{name##_forces, name##_advancing, name##_stiffnesses};
+//                                tangential  rotating  hertz
+GRAINLAW_SPHERE_LAW(smooth, false, false, false)
+GRAINLAW_SPHERE_LAW(locked, true, false, false)
+GRAINLAW_SPHERE_LAW(rotating, true, true, false)
+GRAINLAW_SPHERE_LAW(hertz_smooth, false, false, true)
+GRAINLAW_SPHERE_LAW(hertz_locked, true, false, true)
+GRAINLAW_SPHERE_LAW(hertz, true, true, true)
+
+const Law& law_of(const ContactLaw& law) {
+  if (!law.tangential()) return law.hertzian() ? hertz_smooth : smooth;
+  if (!law.rotating()) return law.hertzian() ? hertz_locked : locked;
+  return law.hertzian() ? hertz : rotating;
+}
+
+}  // namespace
+
+template <>
+void find_contact_forces<3>(std::span<const ParticleRecord<3>> particles, const ContactLaw& law,
+                            ContactList<3>& list) {
+  law_of(law).forces({particles.data(), law.friction, &list});
+}
+
+template <>
+void evaluate_contacts<3>(std::span<const ParticleRecord<3>> particles, const ContactLaw& law,
+                          ContactList<3>& list, std::span<ForceRecord<3>> nodes) {
+  find_contact_forces<3>(particles, law, list);
+  list.sums.add_up(list.forces, opposite<3>, nodes);
+}
+
+template <>
+double advance_contacts<3>(std::span<const ParticleRecord<3>> particles, const ContactLaw& law,
+                           ContactList<3>& list, std::span<ForceRecord<3>> nodes) {
+  const double dissipated = law_of(law).advancing({particles.data(), law.friction, &list});
+  list.sums.add_up(list.forces, opposite<3>, nodes);
+  return dissipated;
+}
+
+template <>
+ContactTotals sum_stiffnesses<3>(std::span<const ParticleRecord<3>> particles,
+                                 const ContactLaw& law, ContactList<3>& list,
+                                 std::span<StiffnessRecord<3>> nodes) {
+  const auto totals = law_of(law).stiffnesses({particles.data(), 0, &list});
+  list.sums.add_up(list.stiffness, nodes);
+  return totals;
+}
+
+}  // namespace grainlaw

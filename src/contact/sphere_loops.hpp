@@ -1,0 +1,153 @@
+// The loops over all contacts of spheres: one template over what a law has.
+//   Rbar = mean rotation of the pair, each weighted by its radius; h = Rbar (ft_c + kt d n_c);
+//   t* = h - n (n.h); ft = t* within friction fn, else shortened to it
+// One formula for the spring, its transport with tilt and twist, and the increment of slip: exact for
+// rotations of the pair as a body, to second order that of discs in the plane.
+#pragma once
+
+#include "contact/contact_forces.hpp"
+#include "contact/sphere_columns.hpp"
+
+#include <cstddef>
+#include <limits>
+
+namespace grainlaw::sphere_loops {
+
+struct Loop {
+  const ParticleRecord<3>* particles;
+  double friction;
+  ContactList<3>* list;
+};
+
+// What a law has. What it has not is not in its loop.
+struct Features {
+  bool tangential = true;
+  bool rotating = true;
+  bool hertz = false;
+};
+
+constexpr double tiny = std::numeric_limits<double>::min();
+constexpr double hertz_share = 2.0 / 3;  // fn / (kn overlap)
+
+template <std::size_t width>
+struct Geometry {
+  Triple<width> branch, normal;
+  Lanes<width> square, distance, overlap;
+  Spheres<width> i, j;
+};
+
+template <std::size_t width>
+GRAINLAW_INLINE Geometry<width> geometry_of(const Loop& loop, std::size_t c) {
+  const ContactList<3>& list = *loop.list;
+  const double* records = &loop.particles->x;
+  Geometry<width> at;
+  at.i = spheres_at<width>(records, &list.i[c]);
+  at.j = spheres_at<width>(records, &list.j[c]);
+  const Lanes<width> one = Lanes<width>{} + 1.0;
+  at.branch = sum(sum(at.j.place, -one, at.i.place), triple_at<width>(list.offset, c));
+  at.square = dot(at.branch, at.branch) + tiny;
+  at.distance = square_root(at.square);
+  at.normal = product(1 / at.distance, at.branch);
+  at.overlap = at.i.radius + at.j.radius - at.distance;
+  return at;
+}
+
+// Rbar g, with the mean quaternion (w, v) of the pair, not normalised.
+template <std::size_t width>
+GRAINLAW_INLINE Triple<width> turn(const Geometry<width>& at, const Triple<width>& g) {
+  const Lanes<width> w = 2 * (at.i.half * at.i.radius + at.j.half * at.j.radius);
+  const Triple<width> v = sum(product(at.i.half, at.i.eta), at.j.half, at.j.eta);
+  const Triple<width> u = sum(product(w, g), cross(v, g));
+  return sum(g, 2 / (w * w + dot(v, v)), cross(v, u));
+}
+
+template <std::size_t width, Features law, bool advance>
+GRAINLAW_INLINE double contact_loop(const Loop& loop) {
+  using V = Lanes<width>;
+  ContactList<3>& list = *loop.list;
+  const V zero{};
+  GroupSum<width> dissipated;
+  for (std::size_t c = 0; c < list.i.size(); c += width) {
+    const Geometry<width> at = geometry_of<width>(loop, c);
+    const V depth = largest(at.overlap, zero);
+    V fn = load<width>(&list.normal_stiffness[c]) * depth;
+    V root{}, fourth{};
+    if constexpr (law.hertz) {
+      root = square_root(depth);
+      fourth = square_root(root);
+      fn *= hertz_share * root;
+    }
+    Triple<width> force = product(fn, at.normal);
+    Triple<width> spin{zero, zero, zero};
+    if constexpr (law.tangential) {
+      V kt = load<width>(&list.tangential_stiffness[c]);
+      Triple<width> start = triple_at<width>(list.start_force, c);
+      if constexpr (law.hertz) {
+        kt *= root;
+        start = product(fourth, start);
+      }
+      Triple<width> h = sum(start, kt * at.distance, triple_at<width>(list.start_normal, c));
+      if constexpr (law.rotating) h = turn(at, h);
+      const Triple<width> trial = sum(h, -dot(at.normal, h), at.normal);
+      const V size = square_root(dot(trial, trial) + tiny);
+      const V bound = loop.friction * fn;
+      const V carried = smallest(size, bound);
+      const Triple<width> ft = product(carried / size, trial);
+      force = sum(force, ft);
+      if constexpr (law.rotating) {
+        spin = product(-load<width>(&list.inverse_reach[c]), cross(at.branch, ft));
+      }
+      if constexpr (advance) {
+        const V held = square_root(dot(start, start));
+        const V excess = largest(held - bound, zero);
+        const V lost = (carried * (size - carried) + 0.5 * excess * excess) / kt;
+        put(at.normal, list.start_normal, c);
+        if constexpr (law.hertz) {
+          // Nothing is left of an open contact's overlap, nor of its spring.
+          const Triple<width> kept = triple_at<width>(list.start_force, c);
+          const V all = load<width>(&list.tangential_stiffness[c]);
+          dissipated.add(c, kt > zero ? lost : (all > zero ? 0.5 * dot(kept, kept) / all : zero));
+          put(product(kt > zero ? 1 / fourth : zero, ft), list.start_force, c);
+        } else {
+          dissipated.add(c, kt > zero ? lost : zero);
+          put(ft, list.start_force, c);
+        }
+      }
+    }
+    put_records(force, spin, &list.forces[c].x);
+  }
+  return dissipated.total();
+}
+
+// Records (kn three times, kt d^2 / (R_i + R_j) three times) of the touching contacts.
+template <std::size_t width, Features law>
+GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
+  using V = Lanes<width>;
+  ContactList<3>& list = *loop.list;
+  const V zero{};
+  const V one = zero + 1.0;
+  GroupSum<width> force, touching;
+  for (std::size_t c = 0; c < list.i.size(); c += width) {
+    const Geometry<width> at = geometry_of<width>(loop, c);
+    const auto here = at.overlap > zero;
+    V kn = here ? load<width>(&list.normal_stiffness[c]) : zero;
+    V kt = here ? load<width>(&list.tangential_stiffness[c]) : zero;
+    V share = one;
+    if constexpr (law.hertz) {
+      const V root = square_root(largest(at.overlap, zero));
+      kn *= root;
+      kt *= root;
+      share *= hertz_share;
+    }
+    force.add(c, share * kn * at.overlap);
+    touching.add(c, here ? one : zero);
+    const V spin = kt * at.square * load<width>(&list.inverse_reach[c]);
+    put_records<width>({kn, kn, kn}, {spin, spin, spin}, &list.stiffness[c].x);
+  }
+  return {force.total(), touching.total(), static_cast<int>(touching.total())};
+}
+
+#define GRAINLAW_SPHERE_LOOP(Result, name, loop_of, ...) \
+  GRAINLAW_BY_LANES(Result, name, loop_of, (const Loop& loop), (loop)__VA_OPT__(, ) __VA_ARGS__)
+
+}  // namespace grainlaw::sphere_loops

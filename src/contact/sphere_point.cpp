@@ -1,0 +1,20 @@
+#include "contact/sphere_point.hpp"
+
+namespace grainlaw {
+
+double stored_energy(const ContactList<3>& list, std::span<const double> coordinates,
+                     std::size_t particles, const ContactLaw& law) {
+  double energy = 0;
+  for (std::size_t c = 0; c < list.size(); ++c) {
+    const auto point = contact_point(list, c, coordinates, particles, law);
+    if (point.status == ContactStatus::open) continue;
+    const double overlap = list.rest_of(c) - point.distance;
+    const double scale = stiffness_scale(overlap, law);
+    energy += (law.hertzian() ? 0.4 : 0.5) * point.normal_force * overlap;
+    const double squares = square<3>(point.tangential_force);
+    if (squares != 0) energy += 0.5 * squares / (list.tangential_stiffness[c] * scale);
+  }
+  return energy;
+}
+
+}  // namespace grainlaw

@@ -1,0 +1,20 @@
+// Rolling mechanisms of spheres: larger ones than the free spins that the stiffness holds by itself were
+// not seen, so there is nothing to find and nothing to turn.
+#pragma once
+
+#include "equilibrium/rolling_mechanisms.hpp"
+
+namespace grainlaw {
+
+template <>
+class RollingMechanisms<3> {
+ public:
+  static bool possible(const Problem<3>& /*problem*/) { return false; }
+  void find(const Increment<3>& /*increment*/, std::span<const TouchingContact<3>> /*touching*/) {}
+  void hold(const Increment<3>& /*increment*/, Stiffness<3>& /*stiffness*/) const {}
+  void see(const Increment<3>& /*increment*/, std::span<const double> /*step*/, double /*least*/) {}
+  void forget(const Increment<3>& /*increment*/) {}
+  bool turn(Increment<3>& /*increment*/, double /*least*/) { return false; }
+};
+
+}  // namespace grainlaw

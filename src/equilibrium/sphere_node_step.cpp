@@ -1,0 +1,37 @@
+#include "equilibrium/node_step.hpp"
+
+namespace grainlaw::node_step {
+
+namespace {
+
+using OfSpheres = ContactSides<3>::Measured;
+
+// The eta of a record at z, moved, and 1 / (2 sqrt(1 + theta^2 / 4)) of it.
+GRAINLAW_INLINE void renew_half(double* z) {
+  const double eta_square = z[3] * z[3] + z[4] * z[4] + z[5] * z[5];
+  z[6] = 0.5 / __builtin_sqrt(1 + 0.25 * eta_square / (z[7] * z[7]));
+}
+
+}  // namespace
+
+GRAINLAW_CLONES OfSpheres step_all(const Nodes& nodes, std::span<const ForceRecord<3>> residual,
+                                   double keep, double gain) {
+  NodeStep<8> step(nodes, keep, gain);
+  for (std::size_t q = 0; q < residual.size(); ++q) {
+    step(q, load<8>(&residual[q].x));
+    if (nodes.z != nullptr) renew_half(nodes.z + 8 * q);
+  }
+  return step.measured<OfSpheres>();
+}
+
+GRAINLAW_CLONES OfSpheres gather_and_step(const Nodes& nodes, const ContactList<3>& contacts,
+                                          double keep, double gain) {
+  NodeStep<8> step(nodes, keep, gain);
+  contacts.sums.for_each(contacts.forces, opposite<3>, [&](std::size_t q, const Lanes<8>& r) {
+    step(q, r);
+    if (nodes.z != nullptr) renew_half(nodes.z + 8 * q);
+  });
+  return step.measured<OfSpheres>();
+}
+
+}  // namespace grainlaw::node_step

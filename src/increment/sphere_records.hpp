@@ -1,0 +1,86 @@
+// Spheres between their coordinates and the records that the loops over contacts read.
+#pragma once
+
+#include "contact/law.hpp"
+#include "contact/records.hpp"
+#include "math/tensor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace grainlaw {
+
+// Coordinates are component-major: places, and Gibbs vectors of rotations where there are any.
+inline void load_records(const double* coordinates, bool rotating,
+                         std::span<ParticleRecord<3>> records) {
+  const std::size_t n = records.size();
+  for (std::size_t p = 0; p < n; ++p) {
+    auto& record = records[p];
+    for (std::size_t k = 0; k < 3; ++k) (&record.x)[k] = coordinates[k * n + p];
+    if (!rotating) continue;
+    double squares = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double theta = coordinates[(3 + k) * n + p];
+      (&record.eta_x)[k] = record.radius * theta;
+      squares += theta * theta;
+    }
+    record.half = 0.5 / std::sqrt(1 + 0.25 * squares);
+  }
+}
+
+inline void store_records(std::span<const ParticleRecord<3>> records, bool rotating,
+                          double* coordinates) {
+  const std::size_t n = records.size();
+  for (std::size_t p = 0; p < n; ++p) {
+    const auto& record = records[p];
+    for (std::size_t k = 0; k < 3; ++k) coordinates[k * n + p] = (&record.x)[k];
+    if (!rotating) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      coordinates[(3 + k) * n + p] = (&record.eta_x)[k] / record.radius;
+    }
+  }
+}
+
+// Forces and moments of nodes, component-major [N, N m].
+inline void put_residual(const ForceRecord<3>* forces, std::span<const double> radius,
+                         bool rotating, double* residual) {
+  const std::size_t m = radius.size();
+  for (std::size_t q = 0; q < m; ++q) {
+    for (std::size_t k = 0; k < 3; ++k) residual[k * m + q] = (&forces[q].x)[k];
+    for (std::size_t k = 0; k < 3; ++k) {
+      residual[(3 + k) * m + q] = rotating ? (&forces[q].spin_x)[k] * radius[q] : 0;
+    }
+  }
+}
+
+template <int D>
+LeastMass<D> least_mass(const ContactLaw& law, double r);
+
+template <>
+inline LeastMass<3> least_mass<3>(const ContactLaw& law, double r) {
+  const double kn = law.stiffness(r, r);
+  return {kn, law.rotating() ? 2 * law.ratio * kn : 1, 1 / r};
+}
+
+inline MassRecord<3> mass_of(const StiffnessRecord<3>& sum, const LeastMass<3>& least,
+                             double factor) {
+  const double mass = factor * std::max(sum.x, least.x);
+  const double spin = factor * std::max(sum.spin_x * least.inverse_radius, least.spin);
+  return {mass, mass, mass, spin, spin, spin, {1, 1}};
+}
+
+// Component-major; that of a rotation is I [N m].
+inline void put_masses(const MassRecord<3>* records, std::span<const double> radius,
+                       bool /*rotating*/, double* mass) {
+  const std::size_t m = radius.size();
+  for (std::size_t q = 0; q < m; ++q) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      mass[k * m + q] = records[q].x;
+      mass[(3 + k) * m + q] = records[q].spin_x * radius[q] * radius[q];
+    }
+  }
+}
+
+}  // namespace grainlaw

@@ -1,0 +1,24 @@
+// Contacts of spheres as files have them.
+#include "material/given_contacts.hpp"
+
+namespace grainlaw {
+
+template <>
+std::array<double, 3> given_force<3>(const Packing& packing, const InitialContact& contact) {
+  // Across the branch: digits that a file lost leave a part along it. Seen from the other side it turns
+  // round.
+  const Vec<3> l = given_branch<3>(packing, contact);
+  const Vec<3>& f = contact.tangential_force;
+  const double along = dot<3>(f.data(), l.data()) / square<3>(l);
+  const double sign = is_seen_from_j(contact) ? -1 : 1;
+  Vec<3> result{};
+  for (std::size_t k = 0; k < 3; ++k) result[k] = sign * (f[k] - along * l[k]);
+  return result;
+}
+
+template <>
+std::array<double, 3> given_moment<3>(const InitialContact& /*contact*/) {
+  return {};
+}
+
+}  // namespace grainlaw

@@ -1,0 +1,66 @@
+// Turns of spheres: unit quaternions behind their places.
+#pragma once
+
+#include "contact/sphere_point.hpp"
+#include "increment/configuration.hpp"
+#include "state/rotation.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace grainlaw {
+
+// Of a rotation matrix; the largest of its numbers first, so that none is lost.
+inline Quaternion quaternion_of(const Matrix3& r) {
+  const double squares[4] = {1 + r[0] + r[4] + r[8], 1 + r[0] - r[4] - r[8], 1 - r[0] + r[4] - r[8],
+                             1 - r[0] - r[4] + r[8]};
+  std::size_t largest = 0;
+  for (std::size_t k = 1; k < 4; ++k) {
+    if (squares[k] > squares[largest]) largest = k;
+  }
+  const double twice = std::sqrt(squares[largest]);
+  const double f = 0.5 / twice;
+  const Vec<3> odd{r[7] - r[5], r[2] - r[6], r[3] - r[1]};
+  if (largest == 0) return {0.5 * twice, {f * odd[0], f * odd[1], f * odd[2]}};
+  Quaternion q;
+  const std::size_t a = largest - 1;
+  q.s = f * odd[a];
+  for (std::size_t b = 0; b < 3; ++b) {
+    q.v[b] = b == a ? 0.5 * twice : f * (r[3 * a + b] + r[3 * b + a]);
+  }
+  return q;
+}
+
+inline Quaternion turn_at(const std::vector<double>& coordinates, std::size_t n, std::size_t p) {
+  return {coordinates[3 * n + p],
+          {coordinates[4 * n + p], coordinates[5 * n + p], coordinates[6 * n + p]}};
+}
+
+inline void add_turn(const SplitIncrement<3>& increment, std::size_t n, std::vector<double>& z) {
+  if (z.size() == 3 * n) return;
+  const Quaternion turn = quaternion_of(increment.rotation);
+  for (std::size_t p = 0; p < n; ++p) {
+    const Quaternion q = product(turn, turn_at(z, n, p));
+    z[3 * n + p] = q.s;
+    for (std::size_t k = 0; k < 3; ++k) z[(4 + k) * n + p] = q.v[k];
+  }
+}
+
+// From rotations since F = I to Gibbs vectors since `from`, without the rotation of the increment.
+inline void take_turn(const SplitIncrement<3>& increment, const Configuration<3>& from,
+                      std::size_t n, std::vector<double>& z) {
+  const bool rotating = z.size() > 3 * n;
+  const std::vector<double> turned(z);
+  z.resize(6 * n);
+  const Quaternion back = conjugate(quaternion_of(increment.rotation));
+  for (std::size_t p = 0; p < n; ++p) {
+    Quaternion q;
+    if (rotating) {
+      q = product(product(back, turn_at(turned, n, p)), conjugate(turn_at(from.coordinates, n, p)));
+    }
+    for (std::size_t k = 0; k < 3; ++k) z[(3 + k) * n + p] = 2 * q.v[k] / q.s;
+  }
+}
+
+}  // namespace grainlaw

@@ -1,0 +1,161 @@
+// Changes of the contacts of spheres.
+#include "tangent/contact_change.hpp"
+
+namespace grainlaw {
+
+namespace {
+
+constexpr std::size_t width = Dimension<3>::lanes;
+using Lanes = simd::Lanes<width>;
+using Triple = std::array<Lanes, 3>;
+
+Lanes load(const ByDeformation<3>& value) { return simd::load<width>(value.lane); }
+
+Triple product(const Matrix3& m, const Triple& a) {
+  Triple result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    result[k] = m[3 * k] * a[0] + m[3 * k + 1] * a[1] + m[3 * k + 2] * a[2];
+  }
+  return result;
+}
+
+void add(Triple& a, const Triple& b) {
+  for (std::size_t k = 0; k < 3; ++k) a[k] += b[k];
+}
+
+struct Change {
+  Triple force, spin, branch, spring;
+};
+
+struct Loop {
+  const Increment<3>& increment;
+  Tensor<3> pull_back;
+  const DeformationChange<3>& change;
+  const HistoryChange<3>& history;
+};
+
+// `motion` null: under the affine motion and the history alone.
+Change change_of(const Loop& loop, const TouchingContact<3>& contact,
+                 const ByDeformation<3>* motion) {
+  constexpr std::size_t b = Dimension<3>::unknowns;
+  const auto& list = loop.increment.contacts;
+  const auto& law = *loop.increment.problem->law;
+  const auto& s = contact.stiffness;
+  const Vec<3> reference = grainlaw::product<3>(loop.pull_back, contact.point.branch);
+  Change result{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t m = 0; m < 3; ++m) {
+      result.branch[k] += load(loop.change[3 * k + m]) * reference[m];
+    }
+  }
+  Triple turn{};
+  if (motion != nullptr) {
+    const auto* zi = motion + contact.node_i * b;
+    const auto* zj = motion + contact.node_j * b;
+    Triple spin_i, spin_j;
+    for (std::size_t k = 0; k < 3; ++k) {
+      result.branch[k] += load(zj[k]) - load(zi[k]);
+      spin_i[k] = contact.lever_i * load(zi[3 + k]);
+      spin_j[k] = (1 - contact.lever_i) * load(zj[3 + k]);
+    }
+    turn = product(contact.point.spin_i, spin_i);
+    add(turn, product(contact.point.spin_j, spin_j));
+  }
+  result.force = product(s.force_by_branch, result.branch);
+  result.spin = product(s.spin_by_branch, result.branch);
+  if (motion != nullptr) {
+    add(result.force, product(s.force_by_turn, turn));
+    add(result.spin, product(s.spin_by_turn, turn));
+  }
+  Triple by_history{};
+  if (loop.history.normal != nullptr && law.tangential()) {
+    const double overlap = list.rest_of(contact.index) - contact.point.distance;
+    const double scale = start_scale(overlap, law);
+    const double kt_d = list.tangential_stiffness[contact.index] * stiffness_scale(overlap, law) *
+                        contact.point.distance;
+    Triple start;
+    for (std::size_t k = 0; k < 3; ++k) {
+      start[k] = scale * load(loop.history.force[contact.index][k]) +
+                 kt_d * load(loop.history.normal[contact.index][k]);
+    }
+    by_history = product(s.spring_by_start, start);
+    add(result.force, by_history);
+    if (law.rotating()) {
+      Matrix3 lever{};
+      grainlaw::add(lever, -list.inverse_reach[contact.index], cross_matrix(contact.point.branch));
+      add(result.spin, product(lever, by_history));
+    }
+  }
+  // The spring's own: what the force has beside the normal part kn, fn.
+  const auto& n = contact.point.normal;
+  Lanes along{};
+  for (std::size_t k = 0; k < 3; ++k) along += n[k] * result.branch[k];
+  const double by_distance = contact.point.normal_force / contact.point.distance;
+  const double kn = list.normal_stiffness[contact.index] *
+                    stiffness_scale(list.rest_of(contact.index) - contact.point.distance, law);
+  for (std::size_t k = 0; k < 3; ++k) {
+    result.spring[k] =
+        result.force[k] + (kn + by_distance) * n[k] * along - by_distance * result.branch[k];
+  }
+  return result;
+}
+
+Loop loop_of(const Increment<3>& increment, const DeformationChange<3>& change,
+             const HistoryChange<3>& history) {
+  return {increment, inverse<3>(increment.deformation), change, history};
+}
+
+void put(const Triple& from, std::array<ByDeformation<3>, 3>& to) {
+  for (std::size_t k = 0; k < 3; ++k) simd::store(to[k].lane, from[k]);
+}
+
+}  // namespace
+
+template <>
+void add_residual_changes<3>(const Increment<3>& increment, const Stiffness<3>& stiffness,
+                             const DeformationChange<3>& change, const HistoryChange<3>& history,
+                             std::span<ByDeformation<3>> residual) {
+  constexpr std::size_t b = Dimension<3>::unknowns;
+  const Loop loop = loop_of(increment, change, history);
+  const bool rotating = increment.problem->law->rotating();
+  for (const auto& contact : stiffness.touching()) {
+    const Change found = change_of(loop, contact, nullptr);
+    const double radius_i = contact.lever_i * contact.reach;
+    const double radius_j = contact.reach - radius_i;
+    const auto add_to = [&](std::size_t node, std::size_t k, const Lanes& value) {
+      double* const at = residual[node * b + k].lane;
+      simd::store(at, simd::load<width>(at) + value);
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+      add_to(contact.node_i, k, -found.force[k]);
+      add_to(contact.node_j, k, found.force[k]);
+      if (!rotating) continue;
+      add_to(contact.node_i, 3 + k, radius_i * found.spin[k]);
+      add_to(contact.node_j, 3 + k, radius_j * found.spin[k]);
+    }
+  }
+}
+
+template <>
+void find_contact_changes<3>(const Increment<3>& increment,
+                             std::span<const TouchingContact<3>> touching,
+                             const DeformationChange<3>& change, const HistoryChange<3>& history,
+                             std::span<const ByDeformation<3>> motion,
+                             std::span<ContactChange<3>> changes) {
+  const Loop loop = loop_of(increment, change, history);
+  for (std::size_t c = 0; c < touching.size(); ++c) {
+    const Change found = change_of(loop, touching[c], motion.data());
+    put(found.force, changes[c].force);
+    put(found.branch, changes[c].branch);
+    put(found.spring, changes[c].tangential_force);
+  }
+}
+
+template <>
+void find_moment_changes<3>(const Increment<3>& /*increment*/, const Stiffness<3>& /*stiffness*/,
+                            const DeformationChange<3>& /*change*/,
+                            const HistoryChange<3>& /*history*/,
+                            std::span<const ByDeformation<3>> /*motion*/,
+                            std::span<ByDeformation<3>> /*changes*/) {}
+
+}  // namespace grainlaw

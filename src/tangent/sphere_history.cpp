@@ -1,0 +1,76 @@
+// Derivatives of the history of contacts of spheres.
+#include "tangent/sphere_history.hpp"
+
+#include "base/room.hpp"
+#include "contact/contact_point.hpp"
+#include "packing/geometry.hpp"
+
+#include <cmath>
+
+namespace grainlaw {
+
+void HistoryDerivatives<3>::carry(const Increment<3>& increment,
+                                  std::span<const ContactChange<3>> changes,
+                                  std::span<const ByDeformation<3>> /*moment_changes*/,
+                                  std::span<const std::int32_t> place) {
+  const auto& list = increment.contacts;
+  carried_force_.clear();
+  for (std::size_t c = 0; c < list.size(); ++c) {
+    if (!increment.carries(c)) continue;
+    TripleByDeformation force = changes[static_cast<std::size_t>(place[c])].tangential_force;
+    for (auto& component : force) {
+      for (double& value : component.lane) value /= list.weight_of(c);
+    }
+    carried_force_.push_back(force);
+  }
+  keep_room(carried_force_);
+}
+
+void HistoryDerivatives<3>::start(const Increment<3>& increment,
+                                  std::span<const ByDeformation<3>> motion,
+                                  const DeformationChange<3>& change) {
+  constexpr std::size_t width = Dimension<3>::lanes;
+  const auto& list = increment.contacts;
+  const auto& law = *increment.problem->law;
+  const auto& history = increment.history;
+  const std::size_t b = Dimension<3>::unknowns;
+  const Tensor<3> cell = tensor_of<3>(increment.problem->packing->cell);
+  const Tensor<3> pull_back = inverse<3>(increment.start_deformation);
+  resize_with_room(normal_, list.size());
+  resize_with_room(force_, list.size());
+  std::size_t h = 0;
+  for (std::size_t c = 0; c < list.size(); ++c) {
+    const auto i = static_cast<std::size_t>(list.i[c]);
+    const auto j = static_cast<std::size_t>(list.j[c]);
+    const Vec<3> shift =
+        product<3>(cell, Vec<3>{list.shift[0][c], list.shift[1][c], list.shift[2][c]});
+    const Vec<3> l = branch<3>(increment.start.data(), increment.particles(), i, j,
+                               increment.start_deformation, shift);
+    const Vec<3> reference = product<3>(pull_back, l);
+    const double d = std::sqrt(square<3>(l));
+    const auto key = key_of(increment.pairs[c]);
+    while (h < history.size() && key_of(history[h]) < key) ++h;
+    const bool known = h < history.size() && key_of(history[h]) == key;
+    const double overlap = list.reach[c] - d;
+    // Of Hertz-Mindlin contacts the list has force / overlap^(1/4).
+    const double scale = law.hertzian() ? (overlap > 0 ? 1 / start_scale(overlap, law) : 0) : 1;
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      Vec<3> dl{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        dl[k] = motion[j * b + k].lane[lane] - motion[i * b + k].lane[lane];
+        for (std::size_t m = 0; m < 3; ++m) dl[k] += change[3 * k + m].lane[lane] * reference[m];
+      }
+      const double along = dot(l, dl) / (d * d);
+      for (std::size_t k = 0; k < 3; ++k) {
+        normal_[c][k].lane[lane] = (dl[k] - along * l[k]) / d;
+        double force = known ? scale * list.weight_of(c) * carried_force_[h][k].lane[lane] : 0;
+        if (law.hertzian() && overlap > 0) {
+          force += 0.25 * list.start_force[k][c] * along * d / overlap;
+        }
+        force_[c][k].lane[lane] = force;
+      }
+    }
+  }
+}
+
+}  // namespace grainlaw

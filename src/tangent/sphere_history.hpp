@@ -1,0 +1,40 @@
+// What the history of contacts of spheres starts from, differentiated by the components of F.
+#pragma once
+
+#include "increment/increment.hpp"
+#include "tangent/derivatives.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace grainlaw {
+
+using TripleByDeformation = std::array<ByDeformation<3>, 3>;
+
+// Of n_c and ft_c.
+template <>
+struct HistoryChange<3> {
+  const TripleByDeformation* normal = nullptr;
+  const TripleByDeformation* force = nullptr;
+};
+
+template <>
+class HistoryDerivatives<3> {
+ public:
+  // As those of discs.
+  void carry(const Increment<3>& increment, std::span<const ContactChange<3>> changes,
+             std::span<const ByDeformation<3>> moment_changes, std::span<const std::int32_t> place);
+  void start(const Increment<3>& increment, std::span<const ByDeformation<3>> motion,
+             const DeformationChange<3>& change);
+  [[nodiscard]] HistoryChange<3> of_list(bool /*moments*/) const {
+    return {normal_.data(), force_.data()};
+  }
+
+ private:
+  std::vector<TripleByDeformation> carried_force_;   // per contact of the history
+  std::vector<TripleByDeformation> normal_, force_;  // per listed contact
+};
+
+}  // namespace grainlaw

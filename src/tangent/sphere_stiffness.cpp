@@ -1,0 +1,103 @@
+// The stiffness of contacts of spheres, as blocks of the nodes they join.
+#include "base/constants.hpp"
+#include "base/room.hpp"
+#include "tangent/stiffness.hpp"
+
+#include <algorithm>
+
+namespace grainlaw {
+
+namespace {
+
+// What the columns of a node's unknowns do to force and spin moment of a contact: three for its place
+// (on j, minus on i), three for its spin.
+struct Columns {
+  Matrix3 force_by_spin, spin_by_spin;
+};
+
+Columns by_spin(const TouchingContact<3>& contact, const Matrix3& mean_spin, double lever) {
+  Matrix3 share{};
+  add(share, lever, mean_spin);
+  return {product<3>(contact.stiffness.force_by_turn, share),
+          product<3>(contact.stiffness.spin_by_turn, share)};
+}
+
+// -dr of a row node, of which the residual has sign x force and radius x spin moment.
+void add_block(BlockColumn<8>* block, double force_sign, double radius, double place_sign,
+               const SphereStiffness& s, const Columns& turn) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    double* of_place = block[c].lane;
+    double* of_spin = block[3 + c].lane;
+    for (std::size_t r = 0; r < 3; ++r) {
+      of_place[r] -= force_sign * place_sign * s.force_by_branch[3 * r + c];
+      of_place[3 + r] -= radius * place_sign * s.spin_by_branch[3 * r + c];
+      of_spin[r] -= force_sign * turn.force_by_spin[3 * r + c];
+      of_spin[3 + r] -= radius * turn.spin_by_spin[3 * r + c];
+    }
+  }
+}
+
+}  // namespace
+
+template <>
+void Stiffness<3>::add_contacts() {
+  const std::size_t edges = matrix_.edges.size();
+  for (const auto& contact : touching_) {
+    const std::size_t i = contact.node_i;
+    const std::size_t j = contact.node_j;
+    const std::int32_t edge = edge_of_contact_[contact.index];
+    const std::size_t upper = edge < 0 ? i : matrix_.upper(static_cast<std::size_t>(edge));
+    const std::size_t lower = edge < 0 ? i : upper + edges;
+    const Columns turn_i = by_spin(contact, contact.point.spin_i, contact.lever_i);
+    const Columns turn_j = by_spin(contact, contact.point.spin_j, 1 - contact.lever_i);
+    const double radius_i = contact.lever_i * contact.reach;
+    const double radius_j = (1 - contact.lever_i) * contact.reach;
+    const auto& s = contact.stiffness;
+    add_block(matrix_.block(i), -1, radius_i, -1, s, turn_i);
+    add_block(matrix_.block(i < j ? upper : lower), -1, radius_i, 1, s, turn_j);
+    add_block(matrix_.block(i < j ? lower : upper), 1, radius_j, -1, s, turn_i);
+    add_block(matrix_.block(j), 1, radius_j, 1, s, turn_j);
+  }
+}
+
+template <>
+void Stiffness<3>::add_moments() {}
+
+template <>
+void Stiffness<3>::hold_free_spins(const Increment<3>& increment) {
+  constexpr unsigned char two = 2, more = 3;
+  const std::size_t n = increment.nodes();
+  resize_with_room(contacts_of_node_, n);
+  resize_with_room(count_of_node_, n);
+  std::fill(count_of_node_.begin(), count_of_node_.end(), static_cast<unsigned char>(0));
+  for (std::size_t k = 0; k < touching_.size(); ++k) {
+    for (const std::size_t q : {touching_[k].node_i, touching_[k].node_j}) {
+      auto& count = count_of_node_[q];
+      if (count < two) contacts_of_node_[q][count] = static_cast<std::int32_t>(k);
+      if (count < more) ++count;
+    }
+  }
+  for (std::size_t q = 0; q < n; ++q) {
+    if (count_of_node_[q] != two) continue;
+    std::array<Vec<3>, 2> point;  // of contact, from the centre
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto& contact = touching_[static_cast<std::size_t>(contacts_of_node_[q][k])];
+      const double lever = contact.node_i == q ? contact.lever_i : contact.lever_i - 1;
+      for (std::size_t m = 0; m < 3; ++m) point[k][m] = lever * contact.point.branch[m];
+    }
+    const Vec<3> chord = sum(point[1], -1, point[0]);
+    const double square_length = square<3>(chord);
+    if (!(square_length > 0)) continue;
+    const auto c = touching_[static_cast<std::size_t>(contacts_of_node_[q][0])].index;
+    const double r = increment.node_radius[q];
+    const double hold =
+        tuned::free_spin_hold * increment.contacts.tangential_stiffness[c] * r * r / square_length;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t l = 0; l < 3; ++l) {
+        matrix_.block(q)[3 + l].lane[3 + k] += hold * chord[k] * chord[l];
+      }
+    }
+  }
+}
+
+}  // namespace grainlaw

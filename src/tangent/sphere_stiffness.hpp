@@ -1,0 +1,17 @@
+// The parts of the stiffness that spheres alone have. Included by stiffness.hpp.
+#pragma once
+
+#include "tangent/stiffness.hpp"
+
+namespace grainlaw {
+
+template <>
+void Stiffness<3>::add_contacts();
+template <>
+void Stiffness<3>::add_moments();
+// A sphere with exactly two contacts spins freely about the chord through its two contact points: held
+// with next to nothing, since the stress depends on it by the springs, and is determined only so.
+template <>
+void Stiffness<3>::hold_free_spins(const Increment<3>& increment);
+
+}  // namespace grainlaw
