@@ -11,7 +11,7 @@ template <int D>
 BoundarySpace<D> make_cell_space(const Packing& packing, const BoundaryOptions& options) {
   BoundarySpace<D> space;
   space.options = options;
-  space.reference_volume = std::abs(determinant<D>(packing.cell.data())) * packing.thickness;
+  space.reference_volume = std::abs(determinant<D>(packing.cell.data())) * (D == 2 ? packing.thickness : 1);
   const auto n = packing.size();
   space.nodes = space.sources = n;
   space.node.resize(n);

@@ -25,7 +25,7 @@ double hardness(const Request<D>& request) {
   for (std::size_t k = 1; k < squared<D>; ++k) work += p[k] * f0[k];
   const double pressure = -1.0 / D * work / determinant<D>(f0);
   const double radius = mean_radius(packing.radius);
-  double line = std::max(pressure * packing.thickness, request.problem->force_floor / radius);
+  double line = std::max(pressure * depth<D>(packing), request.problem->force_floor / radius);
   // A free packing has no pressure to compare with: that at F = I serves.
   if (may_be_free(request)) {
     line = std::max(line, unloaded_force(*request.problem) / radius);

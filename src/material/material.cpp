@@ -97,7 +97,7 @@ std::string unsettled(const Increment<D>& increment) {
   const double kn = increment.problem->law->stiffness(r, r);
   const auto stress = piola_stress(increment);
   const double pressure = -1.0 / D * trace<D>(stress);
-  const double ratio = kn / (pressure * packing.thickness);
+  const double ratio = kn / (pressure * depth<D>(packing));
   std::string text = fmt::format("mean pressure {:.3g} Pa, kn {:.3g} N/m", pressure, kn);
   if (!(pressure > 0)) return text + ": it does not bear; expected a denser packing";
   text += fmt::format(", kn/p {:.3g}", ratio);

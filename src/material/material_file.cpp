@@ -91,18 +91,35 @@ void check_thickness(const TomlTable& top, double given, double of_cell, const s
     top.fail("thickness", fmt::format("{}", given), fmt::format("{} as in {}", of_cell, cell));
 }
 
+// What is plane so far.
+void check_spheres(const TomlTable& top, const MaterialDescription& description) {
+  if (description.boundary.type != BoundaryType::periodic_cell)
+    top.fail("boundary", "a frame",
+             "type = \"periodic-cell\" with dimension = 3: frames are plane");
+  if (description.law.bonds())
+    top.fail("contact", "law = \"bonded\"", "another law with dimension = 3: bonds are of discs");
+  if (description.law.rolls())
+    top.fail("contact", "rolling", "none with dimension = 3: rolling resistance is of discs");
+}
+
 MaterialDescription read_description(TomlTable& top, const std::filesystem::path& directory) {
   MaterialDescription description;
-  if (const long dimension = top.required("dimension", integer_between(1)); dimension != 2)
-    top.fail("dimension", fmt::format("{}, which is not supported", dimension), "2");
+  const long dimension = top.required("dimension", integer_between(1));
+  if (dimension != 2 && dimension != 3)
+    top.fail("dimension", fmt::format("{}", dimension), "2 (discs) or 3 (spheres)");
   const auto thickness = top.optional("thickness", number_above(0));
+  if (dimension == 3 && thickness)
+    top.fail("thickness", "a number", "none with dimension = 3: spheres have their own");
   TomlTable packing = top.required_table("packing");
   description.law = read_contact(top.required_table("contact"));
   description.boundary = read_boundary(top.optional_table("boundary"));
   description.solver = read_solver(top.optional_table("solver"), description.boundary);
   top.finish();
+  if (dimension == 3) check_spheres(top, description);
 
   packing.require_either("particles", "generator");
+  if (dimension == 3 && packing.has("generator"))
+    packing.fail("generator", "a generator", "files of spheres: generators make discs");
   if (packing.has("generator")) {
     description.generator = read_generator(packing);
     packing.optional("density", number_above(0), description.generator->density);
@@ -114,7 +131,7 @@ MaterialDescription read_description(TomlTable& top, const std::filesystem::path
   const PackingPaths paths = read_paths(packing, directory);
   const auto density = packing.optional("density", number_above(0));
   packing.finish();
-  description.packing = read_packing(paths);
+  description.packing = read_packing(paths, static_cast<int>(dimension));
   if (density) description.packing.density = *density;
   if (thickness) check_thickness(top, *thickness, description.packing.thickness, paths.cell);
   return description;

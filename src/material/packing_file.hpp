@@ -11,6 +11,7 @@
 //                                                of the bond - (R_i + R_j)
 //   cell       H00, H01, H10, H11, thickness     lattice vectors as columns of H; rho is optional
 //              F00, F01, F10, F11                from reference_x, reference_y to x, y on average
+// Spheres have z, shift_z and ftz_on_j beside, H00 to H22, and no thickness.
 #pragma once
 
 #include "packing/packing.hpp"
@@ -29,7 +30,7 @@ struct PackingPaths {
 // vectors, as one sheared far, comes out in those. Throws Error: FILE_ERROR when a file
 // cannot be opened, BAD_PACKING when its content is wrong (message with file, line, what was found
 // and expected).
-Packing read_packing(const PackingPaths& paths);
+Packing read_packing(const PackingPaths& paths, int dimension = 2);
 
 // Write prefix_particles.csv, prefix_contacts.csv and prefix_cell.csv, so that reading them gives
 // the same bits. Throws Error (FILE_ERROR; BAD_PACKING where they could not be read, and writes

@@ -11,16 +11,23 @@
 namespace grainlaw {
 
 // What contacts are ordered by.
-using ContactKey = std::array<int, 4>;
-inline ContactKey key_of(const InitialContact& c) { return {c.i, c.j, c.shift[0], c.shift[1]}; }
+using ContactKey = std::array<int, 5>;
+inline ContactKey key_of(const InitialContact& c) {
+  return {c.i, c.j, c.shift[0], c.shift[1], c.shift[2]};
+}
+
+// Named from the side of the other particle: branch and forces turn round.
+void turn_round(InitialContact& contact);
 
 // Particles whose centres lie in one another are no packing, but lengths in different units; unless
 // they are named as contacts, whose forces tell, or those of a boundary that was deformed, of which
 // a rigid row does not feel each other. Throws Error (BAD_PACKING) that begins with the path.
+template <int D>
 void check_sizes(const std::string& path, const ParticleIds& ids, const Packing& packing);
 
 // Contacts join particles that touch, and have these lines in their file. Bonds stretch as far as they
 // hold: whether they do is seen by their forces. Throws as above.
+template <int D>
 void check_branches(const std::string& path, const std::vector<unsigned>& lines,
                     const Packing& packing);
 

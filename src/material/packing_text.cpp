@@ -22,10 +22,44 @@ std::vector<std::string> frame_columns(const Packing& packing) {
   return text;
 }
 
+std::string space_particles_text(const Packing& packing) {
+  const std::size_t n = packing.size();
+  const auto& x = packing.position;
+  fmt::memory_buffer text;
+  auto out = fmt::appender(text);
+  fmt::format_to(out, "id,x,y,z,r\n");
+  for (std::size_t p = 0; p < n; ++p) {
+    fmt::format_to(out, "{},{},{},{},{}\n", p, x[p], x[n + p], x[2 * n + p], packing.radius[p]);
+  }
+  return fmt::to_string(text);
+}
+
+std::string space_contacts_text(const Packing& packing) {
+  fmt::memory_buffer text;
+  auto out = fmt::appender(text);
+  fmt::format_to(out, "i,j,shift_x,shift_y,shift_z,fn,ftx_on_j,fty_on_j,ftz_on_j\n");
+  for (const InitialContact& c : packing.contacts) {
+    const auto& f = c.tangential_force;
+    fmt::format_to(out, "{},{},{},{},{},{},{},{},{}\n", c.i, c.j, c.shift[0], c.shift[1],
+                   c.shift[2], c.normal_force, f[0], f[1], f[2]);
+  }
+  return fmt::to_string(text);
+}
+
+std::string space_cell_text(const Packing& packing) {
+  std::string header, line;
+  for (std::size_t k = 0; k < 9; ++k) {
+    header += fmt::format("H{}{},", k / 3, k % 3);
+    line += fmt::format("{},", packing.cell[k]);
+  }
+  return header + "rho\n" + line + fmt::format("{}\n", packing.density);
+}
+
 }  // namespace
 
 std::string particles_text(const Packing& packing) {
   const std::size_t n = packing.size();
+  if (packing.dimension == 3) return space_particles_text(packing);
   const bool deformed = packing.frame && !packing.frame->reference.empty();
   const auto framed = packing.frame ? frame_columns(packing) : std::vector<std::string>(n);
   fmt::memory_buffer text;
@@ -43,6 +77,7 @@ std::string particles_text(const Packing& packing) {
 }
 
 std::string contacts_text(const Packing& packing) {
+  if (packing.dimension == 3) return space_contacts_text(packing);
   fmt::memory_buffer text;
   auto out = fmt::appender(text);
   const auto& contacts = packing.contacts;
@@ -62,6 +97,7 @@ std::string contacts_text(const Packing& packing) {
 }
 
 std::string cell_text(const Packing& packing) {
+  if (packing.dimension == 3) return space_cell_text(packing);
   const auto& h = packing.cell;
   std::string header = "H00,H01,H10,H11,thickness,rho";
   std::string line =

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "math/tensor.hpp"
+#include "packing/packing.hpp"
 
 #include <cstddef>
 #include <numbers>
@@ -43,6 +44,13 @@ double particle_mass(double density, double radius, double thickness) {
   } else {
     return density * particle_size<3>(radius);
   }
+}
+
+// What a pressure acts on beside a length of the packing: the thickness of discs, a diameter of spheres
+// [m].
+template <int D>
+double depth(const Packing& packing) {
+  return D == 2 ? packing.thickness : 2 * mean_radius(packing.radius);
 }
 
 // x_j - x_i + H shift [m]; positions component-major, `particles` apart.

@@ -18,6 +18,8 @@ enum class TangentKind { none, exact, elastic, perturbed };
 template <int D>
 class State {
  public:
+  static constexpr int dim = D;
+
   explicit State(std::shared_ptr<const Material<D>> material);
 
   // Find the equilibrium at F (dim x dim row-major, finite, det F > 0) from the committed state and

@@ -1,0 +1,141 @@
+// Packings of spheres on disk.
+#include "base/error.hpp"
+#include "io/csv_table.hpp"
+#include "material/packing_file_checks.hpp"
+#include "material/packing_files.hpp"
+#include "math/tensor.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace grainlaw {
+
+namespace {
+
+constexpr std::int64_t largest_shift = 511;
+
+enum ParticleColumn : std::size_t { id, x, y, z, r };
+enum ContactColumn : std::size_t { i, j, shift_x, shift_y, shift_z, fn, ftx, fty, ftz };
+enum CellColumn : std::size_t { h00, rho = 9, thickness };
+
+void read_cell(const PackingText& source, Packing& packing) {
+  CsvTable<11> table(
+      source.path, source.text,
+      {"H00", "H01", "H02", "H10", "H11", "H12", "H20", "H21", "H22", "rho", "thickness"});
+  table.require(h00, rho);
+  if (table.has(thickness))
+    table.fail("found a column 'thickness', expected none: spheres have their own");
+  if (!table.next()) table.fail("expected one line of numbers after the header");
+  for (std::size_t k = 0; k < 9; ++k) packing.cell[k] = table.real(h00 + k);
+  if (table.has(rho)) packing.density = table.positive(rho);
+  const double volume = determinant<3>(packing.cell.data());
+  if (!(volume > 0) || !std::isfinite(volume))
+    table.fail(fmt::format("found a cell of volume {} m3, expected det H > 0", volume));
+  if (table.next()) table.fail("expected one line of numbers after the header, found another");
+}
+
+// The neighbour search numbers cells.
+template <class Table>
+void check_place(const Table& table, const Tensor<3>& to_cells, const Vec<3>& first,
+                 const Vec<3>& place) {
+  constexpr double furthest_apart = 250, furthest = 1e8;  // [cells]
+  const auto cells = [&](const Vec<3>& vector) {
+    const Vec<3> counts = product<3>(to_cells, vector);
+    return std::max({std::abs(counts[0]), std::abs(counts[1]), std::abs(counts[2])});
+  };
+  if (const double away = cells(place); !(away <= furthest))
+    table.fail(fmt::format("the centre is {:.3g} cells from the origin, expected at most {:g}",
+                           away, furthest));
+  const Vec<3> apart{place[0] - first[0], place[1] - first[1], place[2] - first[2]};
+  if (const double away = cells(apart); !(away <= furthest_apart))
+    table.fail(fmt::format("the centre is {:.3g} cells from the first, expected at most {:g}", away,
+                           furthest_apart));
+}
+
+ParticleIds read_particles(const PackingText& source, Packing& packing) {
+  CsvTable<5> table(source.path, source.text, {"id", "x", "y", "z", "r"});
+  table.require(id, r + 1);
+  const Tensor<3> to_cells = inverse<3>(tensor_of<3>(packing.cell));
+  ParticleIds ids;
+  std::array<std::vector<double>, 3> places;
+  Vec<3> first{};
+  while (table.next()) {
+    const auto particle = static_cast<int>(packing.radius.size());
+    if (!ids.emplace(table.integer(id), particle).second)
+      table.complain(id, "an id that no other particle has");
+    const Vec<3> place{table.real(x), table.real(y), table.real(z)};
+    if (particle == 0) first = place;
+    check_place(table, to_cells, first, place);
+    for (std::size_t k = 0; k < 3; ++k) places[k].push_back(place[k]);
+    packing.radius.push_back(table.positive(r));
+  }
+  if (ids.empty()) table.fail("found no particle");
+  for (const auto& component : places) {
+    packing.position.insert(packing.position.end(), component.begin(), component.end());
+  }
+  return ids;
+}
+
+// Returns the line of each.
+std::vector<unsigned> read_contacts(const PackingText& source, const ParticleIds& ids,
+                                    Packing& packing) {
+  CsvTable<9> table(
+      source.path, source.text,
+      {"i", "j", "shift_x", "shift_y", "shift_z", "fn", "ftx_on_j", "fty_on_j", "ftz_on_j"});
+  table.require(i, ftz + 1);
+  const auto particle = [&](std::size_t column) {
+    const auto found = ids.find(table.integer(column));
+    if (found == ids.end()) table.complain(column, "the id of a particle");
+    return found->second;
+  };
+  const auto shift = [&](std::size_t column) {
+    const std::int64_t value = table.integer(column);
+    if (value > largest_shift || value < -largest_shift)
+      table.complain(column, "at most 511 cells");
+    return static_cast<int>(value);
+  };
+  std::map<ContactKey, std::pair<unsigned, InitialContact>> contacts;
+  while (table.next()) {
+    InitialContact contact{particle(i),
+                           particle(j),
+                           {shift(shift_x), shift(shift_y), shift(shift_z)},
+                           table.real(fn),
+                           {table.real(ftx), table.real(fty), table.real(ftz)}};
+    constexpr std::array<int, 3> none{};
+    if (contact.i > contact.j || (contact.i == contact.j && contact.shift < none)) {
+      turn_round(contact);
+    }
+    if (contact.i == contact.j && contact.shift == none)
+      table.fail(fmt::format("a particle (id {}) in contact with itself", table.text(i)));
+    const auto [other, fresh] = contacts.emplace(key_of(contact), std::pair(table.line(), contact));
+    if (!fresh) table.fail(fmt::format("the contact of line {} again", other->second.first));
+  }
+  std::vector<unsigned> lines;
+  for (const auto& [key, value] : contacts) {
+    packing.contacts.push_back(value.second);
+    lines.push_back(value.first);
+  }
+  return lines;
+}
+
+}  // namespace
+
+Packing read_space_packing(const PackingTexts& texts) {
+  Packing packing;
+  packing.dimension = 3;
+  read_cell(texts.cell, packing);
+  const ParticleIds ids = read_particles(texts.particles, packing);
+  std::vector<unsigned> lines;
+  if (!texts.contacts.path.empty()) lines = read_contacts(texts.contacts, ids, packing);
+  check_sizes<3>(texts.particles.path, ids, packing);
+  check_branches<3>(texts.contacts.path, lines, packing);
+  return packing;
+}
+
+}  // namespace grainlaw

@@ -1,0 +1,107 @@
+#include "state/any_state.hpp"
+
+#include "base/error.hpp"
+#include "homogenise/measures.hpp"
+#include "material/packing_file.hpp"
+#include "state/output.hpp"
+#include "state/serialise.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace grainlaw {
+
+namespace {
+
+template <int D>
+void check(const Tensor<D>& F) {
+  for (std::size_t i = 0; i < D; ++i)
+    for (std::size_t j = 0; j < D; ++j)
+      if (const double entry = F[i * D + j]; !std::isfinite(entry))
+        throw Error(GRAINLAW_NOT_FINITE, fmt::format("F{}{} is {}", i + 1, j + 1, entry));
+  const double det = determinant<D>(F);
+  if (!std::isfinite(det)) throw Error(GRAINLAW_STEP_TOO_LARGE, "det F overflows");
+  if (det <= 0) throw Error(GRAINLAW_INVERTED, fmt::format("det F = {:.6g}, expected > 0", det));
+}
+
+template <int D>
+std::variant<State<2>, State<3>> state_of(const std::shared_ptr<const Material<D>>& material) {
+  return State<D>(material);
+}
+
+}  // namespace
+
+AnyMaterial make_any_material(MaterialDescription description) {
+  if (description.packing.dimension == 3) return make_material<3>(std::move(description));
+  return make_material<2>(std::move(description));
+}
+
+AnyState::AnyState(const AnyMaterial& material)
+    : state_(std::visit([](const auto& one) { return state_of(one); }, material)) {}
+
+void AnyState::check_deformation(const double* F) const {
+  std::visit([&](const auto& state) { check<state.dim>(state.effective(F)); }, state_);
+}
+
+grainlaw_status AnyState::evaluate(const double* F, TangentKind kind, double* P, double* A,
+                                   grainlaw_report& report) {
+  return std::visit([&](auto& state) { return state.evaluate(F, kind, P, A, report); }, state_);
+}
+
+bool AnyState::commit() {
+  return std::visit([](auto& state) { return state.commit(); }, state_);
+}
+
+void AnyState::revert() {
+  std::visit([](auto& state) { state.revert(); }, state_);
+}
+
+bool AnyState::has_trial() const {
+  return std::visit([](const auto& state) { return state.has_trial(); }, state_);
+}
+
+std::size_t AnyState::saved_size() const {
+  return std::visit(
+      [](const auto& state) { return grainlaw::saved_size(state.material(), state.committed()); },
+      state_);
+}
+
+void AnyState::save(std::span<std::byte> bytes) const {
+  std::visit(
+      [&](const auto& state) {
+        save_configuration(state.material(), state.committed(), bytes);
+      },
+      state_);
+}
+
+void AnyState::load(std::span<const std::byte> bytes) {
+  std::visit([&](auto& state) { state.restore(load_configuration(state.material(), bytes)); },
+             state_);
+}
+
+void AnyState::measure(grainlaw_measure what, double* value) const {
+  std::visit(
+      [&](const auto& state) {
+        grainlaw::measure(state.material().problem(), state.current(), what, value);
+      },
+      state_);
+}
+
+void AnyState::write_force_chains(const std::string& path) const {
+  std::visit(
+      [&](const auto& state) {
+        grainlaw::write_force_chains(path, state.material(), state.current());
+      },
+      state_);
+}
+
+void AnyState::write_packing(const std::string& prefix) const {
+  std::visit(
+      [&](const auto& state) {
+        grainlaw::write_packing(prefix, as_packing(state.material(), state.current()));
+      },
+      state_);
+}
+
+}  // namespace grainlaw

@@ -1,0 +1,54 @@
+// Materials and states of either dimension: where the dimension is forgotten.
+#pragma once
+
+#include "state/state.hpp"
+
+#include <grainlaw/grainlaw.h>
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace grainlaw {
+
+using AnyMaterial =
+    std::variant<std::shared_ptr<const Material<2>>, std::shared_ptr<const Material<3>>>;
+
+// As make_material(), in the dimension of the description.
+AnyMaterial make_any_material(MaterialDescription description);
+
+class AnyState {
+ public:
+  explicit AnyState(const AnyMaterial& material);
+
+  [[nodiscard]] int dimension() const { return state_.index() == 0 ? 2 : 3; }
+
+  // Throws Error (NOT_FINITE, INVERTED, STEP_TOO_LARGE when the determinant overflows) for an F that no
+  // packing can follow; components that are found do not count.
+  void check_deformation(const double* F) const;
+
+  // As State has them.
+  grainlaw_status evaluate(const double* F, TangentKind kind, double* P, double* A,
+                           grainlaw_report& report);
+  bool commit();
+  void revert();
+  [[nodiscard]] bool has_trial() const;
+
+  // The committed state as bytes; bytes of saved_size().
+  [[nodiscard]] std::size_t saved_size() const;
+  void save(std::span<std::byte> bytes) const;
+  void load(std::span<const std::byte> bytes);
+
+  // Of the trial, or of the committed state when there is none.
+  void measure(grainlaw_measure what, double* value) const;
+  void write_force_chains(const std::string& path) const;
+  void write_packing(const std::string& prefix) const;
+
+ private:
+  std::variant<State<2>, State<3>> state_;
+};
+
+}  // namespace grainlaw
