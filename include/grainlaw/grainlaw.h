@@ -1,4 +1,5 @@
-/* grainlaw: a constitutive law made of grains. The C ABI; the only header a host needs.
+/* grainlaw: a constitutive law made of grains. The C ABI; the only header a host needs (it includes
+ * points.h, states by the set).
  *
  * A finite element code owns one grainlaw_state per integration point, hands it a total deformation
  * gradient F, and gets the first Piola-Kirchhoff stress P and, when asked, the tangent dP/dF of a
@@ -281,5 +282,7 @@ GRAINLAW_API grainlaw_status grainlaw_state_write_packing(const grainlaw_state*,
 #ifdef __cplusplus
 }
 #endif
+
+#include <grainlaw/points.h>
 
 #endif

@@ -157,6 +157,119 @@ class State {
   int dimension_;
 };
 
+// What an evaluation of a set came to; a recoverable failure is an answer here too.
+struct PointsEvaluation {
+  grainlaw_status status = GRAINLAW_OK;  // of the first failed point
+  grainlaw_summary summary = grainlaw_summary_default();
+  explicit operator bool() const { return status == GRAINLAW_OK; }
+
+  // "point 3: why", "" when none failed.
+  [[nodiscard]] std::string message() const {
+    if (summary.failed == 0) return summary.message;
+    return "point " + std::to_string(summary.first_failed) + ": " + summary.message;
+  }
+};
+
+// The integration points of one material, numbered from 0. A copy is an independent set.
+class Points {
+ public:
+  Points(const Material& material, std::size_t count) : dimension_(material.dimension()) {
+    grainlaw_points* handle = nullptr;
+    check(grainlaw_points_create(material.get(), count, &handle));
+    handle_.reset(handle);
+  }
+  Points(const Points& other) : dimension_(other.dimension_) {
+    grainlaw_points* handle = nullptr;
+    check(grainlaw_points_clone(other.get(), &handle));
+    handle_.reset(handle);
+  }
+  Points(Points&&) noexcept = default;
+  Points& operator=(Points other) noexcept {
+    handle_ = std::move(other.handle_);
+    dimension_ = other.dimension_;
+    return *this;
+  }
+  ~Points() = default;
+
+  [[nodiscard]] std::size_t size() const { return grainlaw_points_size(get()); }
+  [[nodiscard]] int dimension() const { return dimension_; }
+
+  // F[n*dim*dim], P[n*dim*dim], A[n*dim^4], status[n], reports[n] of grainlaw_report_default; all but
+  // F may be empty. threads <= 0: as many as the library takes. Throws StatusError, whose text names
+  // the point, for a status < 0, and for spans of another size.
+  [[nodiscard]] PointsEvaluation evaluate(std::span<const double> F, std::span<double> P,
+                                          unsigned want = 0, std::span<double> A = {},
+                                          int threads = 0, std::span<grainlaw_status> status = {},
+                                          std::span<grainlaw_report> reports = {}) {
+    const auto square = static_cast<std::size_t>(dimension_ * dimension_);
+    const std::size_t n = size();
+    const auto fits = [](std::size_t found, std::size_t need) {
+      return found == 0 || found == need;
+    };
+    if (F.size() != n * square || !fits(P.size(), n * square) ||
+        !fits(A.size(), n * square * square) || !fits(status.size(), n) || !fits(reports.size(), n))
+      throw StatusError(GRAINLAW_BAD_ARGUMENT,
+                        "F, P need dim^2 numbers a point and A dim^4; status and reports one each");
+    PointsEvaluation result;
+    result.status =
+        grainlaw_points_evaluate(get(), F.data(), want, given(P), given(A), given(status),
+                                 given(reports), threads, &result.summary);
+    if (result.status < 0) throw StatusError(result.status, result.message());
+    return result;
+  }
+
+  // All points, or none of them.
+  void commit() { check(grainlaw_points_commit(get())); }
+  void revert() { check(grainlaw_points_revert(get())); }
+
+  // The committed states as bytes, and back: all of them, or none.
+  [[nodiscard]] std::vector<std::byte> save() const {
+    std::size_t size = 0;
+    check(grainlaw_points_save(get(), nullptr, &size));
+    std::vector<std::byte> bytes(size);
+    check(grainlaw_points_save(get(), bytes.data(), &size));
+    return bytes;
+  }
+  void load(std::span<const std::byte> bytes) {
+    std::array<char, 256> message{};
+    const grainlaw_status status =
+        grainlaw_points_load(get(), bytes.data(), bytes.size(), message.data(), message.size());
+    check(status, message.data());
+  }
+
+  // All components of a measure, point by point.
+  [[nodiscard]] std::vector<double> measure(grainlaw_measure what) const {
+    std::size_t count = 0;
+    check(grainlaw_points_measure(get(), what, nullptr, &count));
+    std::vector<double> values(count);
+    check(grainlaw_points_measure(get(), what, values.data(), &count));
+    return values;
+  }
+
+  // For the C functions that read a state, e.g. grainlaw_state_write_vtk. Lives as long as the set.
+  // Throws StatusError for a number that is none.
+  [[nodiscard]] const grainlaw_state* state(std::size_t point) const {
+    const grainlaw_state* const found = grainlaw_points_state(get(), point);
+    if (found == nullptr)
+      throw StatusError(GRAINLAW_BAD_ARGUMENT, "there is no point " + std::to_string(point));
+    return found;
+  }
+
+  [[nodiscard]] grainlaw_points* get() const { return handle_.get(); }
+
+ private:
+  struct Destroy {
+    void operator()(grainlaw_points* handle) const { grainlaw_points_destroy(handle); }
+  };
+  template <class T>
+  static T* given(std::span<T> all) {
+    return all.empty() ? nullptr : all.data();
+  }
+
+  std::unique_ptr<grainlaw_points, Destroy> handle_;
+  int dimension_;
+};
+
 }  // namespace grainlaw::abi
 
 #endif

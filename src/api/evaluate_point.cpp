@@ -1,31 +1,12 @@
 #include "api/evaluate_point.hpp"
 
 #include "api/guard.hpp"
-#include "api/report.hpp"
-#include "base/error.hpp"
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace grainlaw::api {
 namespace {
 
 // What a factorisation costs in relaxation steps: some tens of them with hundreds of particles.
 constexpr long steps_per_factorisation = 50;
-
-// Throws Error (NOT_FINITE, INVERTED, STEP_TOO_LARGE when the determinant overflows).
-template <int D>
-void check_deformation(const Tensor<D>& F) {
-  for (std::size_t i = 0; i < D; ++i)
-    for (std::size_t j = 0; j < D; ++j)
-      if (const double entry = F[i * D + j]; !std::isfinite(entry))
-        throw Error(GRAINLAW_NOT_FINITE, fmt::format("F{}{} is {}", i + 1, j + 1, entry));
-  const double det = determinant<D>(F);
-  if (!std::isfinite(det)) throw Error(GRAINLAW_STEP_TOO_LARGE, "det F overflows");
-  if (det <= 0) throw Error(GRAINLAW_INVERTED, fmt::format("det F = {:.6g}, expected > 0", det));
-}
 
 TangentKind tangent_kind(unsigned want) {
   switch (want) {
@@ -47,23 +28,22 @@ bool known_want(unsigned want) {
          want == GRAINLAW_WANT_TANGENT_ELASTIC || want == GRAINLAW_WANT_TANGENT_PERTURBED;
 }
 
-grainlaw_status evaluate_point(grainlaw_state& handle, const double* F, unsigned want, double* P,
-                               double* A, void* report) noexcept {
-  grainlaw_report full = grainlaw_report_default();
-  const MessageBuffer message{full.message, sizeof full.message};
+grainlaw_status evaluate_point(IntegrationPoint& point, const double* F, unsigned want, double* P,
+                               double* A, grainlaw_report& report) noexcept {
+  report = grainlaw_report_default();
+  const MessageBuffer message{report.message, sizeof report.message};
   const grainlaw_status status = guarded(
       [&] {
-        check_deformation<2>(handle.state.effective(F));
+        point.state.check_deformation(F);
         const TangentKind kind = A == nullptr ? TangentKind::none : tangent_kind(want);
-        const grainlaw_status found = handle.state.evaluate(F, kind, P, A, full);
-        handle.last_cost = full.relaxation_steps + steps_per_factorisation * full.factorisations;
+        const grainlaw_status found = point.state.evaluate(F, kind, P, A, report);
+        point.cost = report.relaxation_steps + steps_per_factorisation * report.factorisations;
         return found;
       },
       message);
-  if (status != GRAINLAW_OK) handle.state.revert();
-  const bool suggests = full.step_ratio > 0 && full.step_ratio < 1;
-  if (status > GRAINLAW_OK && !suggests) full.step_ratio = 0.5;
-  if (report != nullptr) copy_report(full, report);
+  if (status != GRAINLAW_OK) point.state.revert();
+  const bool suggests = report.step_ratio > 0 && report.step_ratio < 1;
+  if (status > GRAINLAW_OK && !suggests) report.step_ratio = 0.5;
   return status;
 }
 

@@ -1,14 +1,15 @@
 // What a C handle points to, and how a dead or foreign one is told.
 #pragma once
 
-#include "material/material.hpp"
-#include "state/state.hpp"
+#include "points/points.hpp"
 
 #include <grainlaw/grainlaw.h>
 
+#include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <deque>
 #include <utility>
+#include <vector>
 
 namespace grainlaw::api {
 
@@ -36,20 +37,31 @@ class Magic {
 }  // namespace grainlaw::api
 
 struct grainlaw_material {
-  explicit grainlaw_material(std::shared_ptr<const grainlaw::Material<2>> shared)
-      : material(std::move(shared)) {}
+  explicit grainlaw_material(grainlaw::AnyMaterial shared) : material(std::move(shared)) {}
 
   grainlaw::api::Magic<0x6c61'6972'6574'616dULL> magic;
-  std::shared_ptr<const grainlaw::Material<2>> material;
+  grainlaw::AnyMaterial material;
 };
 
 struct grainlaw_state {
-  explicit grainlaw_state(grainlaw::State<2> initial, long cost = 0)
-      : state(std::move(initial)), last_cost(cost) {}
+  explicit grainlaw_state(grainlaw::AnyState initial, long cost = 0, bool in_set = false)
+      : point{std::move(initial), cost}, of_set(in_set) {}
 
   grainlaw::api::Magic<0x6574'6174'735f'6c67ULL> magic;
-  grainlaw::State<2> state;
-  long last_cost;  // of the last evaluation in relaxation steps; a batch begins with the dearest
+  grainlaw::IntegrationPoint point;
+  bool of_set;  // a set owns it
+};
+
+struct grainlaw_points {
+  explicit grainlaw_points(std::size_t n) : order(n) { points.reserve(n); }
+  void add(grainlaw::AnyState initial, long cost = 0) {
+    points.push_back(&states.emplace_back(std::move(initial), cost, true).point);
+  }
+
+  grainlaw::api::Magic<0x7374'6e69'6f70'6c67ULL> magic;
+  std::deque<grainlaw_state> states;  // stay where they are: hosts borrow them
+  std::vector<grainlaw::IntegrationPoint*> points;
+  std::vector<std::size_t> order;  // room for the next evaluation
 };
 
 namespace grainlaw::api {
@@ -59,6 +71,12 @@ template <class Handle>
 grainlaw_status check_handle(const Handle* handle) {
   if (handle == nullptr) return GRAINLAW_NULL_POINTER;
   return handle->magic.alive() ? GRAINLAW_OK : GRAINLAW_BAD_HANDLE;
+}
+
+// The same for what changes a state: one of a set is not for the host to change.
+inline grainlaw_status check_owned(const grainlaw_state* handle) {
+  const grainlaw_status status = check_handle(handle);
+  return status == GRAINLAW_OK && handle->of_set ? GRAINLAW_BAD_HANDLE : status;
 }
 
 }  // namespace grainlaw::api

@@ -1,6 +1,4 @@
 // Materials: from a file or from text to a handle.
-#include "material/material.hpp"
-
 #include "api/guard.hpp"
 #include "api/handle.hpp"
 #include "material/material_file.hpp"
@@ -21,7 +19,8 @@ grainlaw_status create(const void* source, grainlaw_material** out, api::Message
     message.write(grainlaw_status_text(GRAINLAW_NULL_POINTER));
     return GRAINLAW_NULL_POINTER;
   }
-  return api::guarded([&] { *out = new grainlaw_material(make_material<2>(describe())); }, message);
+  return api::guarded([&] { *out = new grainlaw_material(make_any_material(describe())); },
+                      message);
 }
 
 }  // namespace
@@ -41,7 +40,8 @@ grainlaw_status grainlaw_material_parse(const char* toml_text, const char* base_
 }
 
 int grainlaw_material_dimension(const grainlaw_material* handle) {
-  return api::check_handle(handle) == GRAINLAW_OK ? handle->material->packing.dimension : 0;
+  if (api::check_handle(handle) != GRAINLAW_OK) return 0;
+  return handle->material.index() == 0 ? 2 : 3;
 }
 
 void grainlaw_material_destroy(grainlaw_material* handle) {

@@ -1,9 +1,6 @@
 // States as files.
-#include "state/output.hpp"
-
 #include "api/guard.hpp"
 #include "api/handle.hpp"
-#include "material/packing_file.hpp"
 
 #include <grainlaw/grainlaw.h>
 
@@ -12,14 +9,11 @@ using namespace grainlaw;
 grainlaw_status grainlaw_state_write_vtk(const grainlaw_state* handle, const char* path) {
   if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
   if (path == nullptr) return GRAINLAW_NULL_POINTER;
-  return api::guarded(
-      [&] { write_force_chains(path, handle->state.material(), handle->state.current()); });
+  return api::guarded([&] { handle->point.state.write_force_chains(path); });
 }
 
 grainlaw_status grainlaw_state_write_packing(const grainlaw_state* handle, const char* prefix) {
   if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
   if (prefix == nullptr) return GRAINLAW_NULL_POINTER;
-  return api::guarded([&] {
-    write_packing(prefix, as_packing(handle->state.material(), handle->state.current()));
-  });
+  return api::guarded([&] { handle->point.state.write_packing(prefix); });
 }

@@ -1,4 +1,4 @@
-// Reports of callers built against this header or an earlier one.
+// Reports and summaries of callers built against this header or an earlier one.
 #pragma once
 
 #include <grainlaw/grainlaw.h>
@@ -17,18 +17,50 @@ inline bool known_report_size(std::size_t size) {
   return size >= first_report_size && size <= sizeof(grainlaw_report);
 }
 
-// The size a caller wrote at the start of its report.
+inline bool known_summary_size(std::size_t size) { return size == sizeof(grainlaw_summary); }
+
+// The size a caller wrote at the start of its report or summary.
 inline std::size_t claimed_size(const void* report) {
   std::size_t size;
   std::memcpy(&size, report, sizeof size);
   return size;
 }
 
-// As much of the full report as the caller's struct holds; the caller's size stays.
-inline void copy_report(const grainlaw_report& full, void* report) {
+// As much of the full report or summary as the caller's struct holds; the caller's size stays.
+template <class Struct>
+void copy_out(const Struct& full, void* to) {
   constexpr std::size_t after_size = sizeof(full.size);
-  std::memcpy(static_cast<char*>(report) + after_size,
-              reinterpret_cast<const char*>(&full) + after_size, claimed_size(report) - after_size);
+  std::memcpy(static_cast<char*>(to) + after_size,
+              reinterpret_cast<const char*>(&full) + after_size, claimed_size(to) - after_size);
 }
+
+// The caller's array of reports, or none.
+class Reports {
+ public:
+  explicit Reports(grainlaw_report* first)
+      : first_(first), stride_(first == nullptr ? 0 : padded(claimed_size(first))) {}
+
+  // OK or BAD_REPORT, for n of them: all have to be of one known size.
+  [[nodiscard]] grainlaw_status check(std::size_t n) const {
+    if (first_ == nullptr || n == 0) return GRAINLAW_OK;
+    const std::size_t size = claimed_size(first_);
+    if (!known_report_size(size)) return GRAINLAW_BAD_REPORT;
+    for (std::size_t k = 0; k < n; ++k)
+      if (claimed_size(at(k)) != size) return GRAINLAW_BAD_REPORT;
+    return GRAINLAW_OK;
+  }
+  [[nodiscard]] void* at(std::size_t k) const {
+    return first_ == nullptr ? nullptr : reinterpret_cast<char*>(first_) + k * stride_;
+  }
+
+ private:
+  static std::size_t padded(std::size_t size) {
+    constexpr std::size_t alignment = alignof(grainlaw_report);
+    return (size + alignment - 1) / alignment * alignment;
+  }
+
+  grainlaw_report* first_;
+  std::size_t stride_;
+};
 
 }  // namespace grainlaw::api

@@ -69,15 +69,22 @@ std::size_t AnyState::saved_size() const {
 
 void AnyState::save(std::span<std::byte> bytes) const {
   std::visit(
-      [&](const auto& state) {
-        save_configuration(state.material(), state.committed(), bytes);
+      [&](const auto& state) { save_configuration(state.material(), state.committed(), bytes); },
+      state_);
+}
+
+AnyConfiguration AnyState::read(std::span<const std::byte> bytes) const {
+  return std::visit(
+      [&](const auto& state) -> AnyConfiguration {
+        return load_configuration(state.material(), bytes);
       },
       state_);
 }
 
-void AnyState::load(std::span<const std::byte> bytes) {
-  std::visit([&](auto& state) { state.restore(load_configuration(state.material(), bytes)); },
-             state_);
+void AnyState::restore(AnyConfiguration committed) noexcept {
+  std::visit(
+      [&](auto& state) { state.restore(std::get<Configuration<state.dim>>(std::move(committed))); },
+      state_);
 }
 
 void AnyState::measure(grainlaw_measure what, double* value) const {

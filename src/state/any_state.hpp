@@ -20,6 +20,8 @@ using AnyMaterial =
 // As make_material(), in the dimension of the description.
 AnyMaterial make_any_material(MaterialDescription description);
 
+using AnyConfiguration = std::variant<Configuration<2>, Configuration<3>>;
+
 class AnyState {
  public:
   explicit AnyState(const AnyMaterial& material);
@@ -40,7 +42,9 @@ class AnyState {
   // The committed state as bytes; bytes of saved_size().
   [[nodiscard]] std::size_t saved_size() const;
   void save(std::span<std::byte> bytes) const;
-  void load(std::span<const std::byte> bytes);
+  [[nodiscard]] AnyConfiguration read(std::span<const std::byte> bytes) const;
+  // Makes what was read the committed state and drops the trial.
+  void restore(AnyConfiguration committed) noexcept;
 
   // Of the trial, or of the committed state when there is none.
   void measure(grainlaw_measure what, double* value) const;

@@ -5,77 +5,25 @@
 //   [gap of the bond]
 // Doubles; those in brackets only with a law that has bonds, and moments.
 //   u64 XXH3 of everything before
-// Every version begins with the first two and ends with the last, so that damage and another
-// version are told apart.
 #include "state/serialise.hpp"
 
 #include "base/error.hpp"
-
-#include <xxhash.h>
+#include "state/saved_bytes.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
 #include <cstdint>
 #include <string>
-#include <type_traits>
 
 namespace grainlaw {
 namespace {
 
-constexpr std::array<char, 8> magic{'G', 'R', 'A', 'I', 'N', 'L', 'A', 'W'};
-constexpr std::uint32_t format_version = 2;
-constexpr std::size_t version_end = magic.size() + sizeof(std::uint32_t);
+constexpr SavedKind kind{"saved state", {'G', 'R', 'A', 'I', 'N', 'L', 'A', 'W'}, 2};
 constexpr std::size_t header_size = version_end + sizeof(std::uint32_t) + sizeof(std::uint64_t);
 template <int D>
 constexpr std::size_t plain_contact_size =
     2 * sizeof(std::int32_t) + D * sizeof(std::int16_t) +
     sizeof(std::uint8_t) + Dimension<D>::tangents * sizeof(double);
-constexpr std::size_t checksum_size = sizeof(std::uint64_t);
-
-template <std::size_t size>
-using Word = std::conditional_t<
-    size == 1, std::uint8_t,
-    std::conditional_t<size == 2, std::uint16_t,
-                       std::conditional_t<size == 4, std::uint32_t, std::uint64_t>>>;
-
-class Writer {
- public:
-  explicit Writer(std::span<std::byte> bytes) : next_(bytes.data()) {}
-
-  template <class T>
-  void put(T value) {
-    const auto word = std::bit_cast<Word<sizeof(T)>>(value);
-    for (std::size_t k = 0; k < sizeof(T); ++k) *next_++ = static_cast<std::byte>(word >> (8 * k));
-  }
-
- private:
-  std::byte* next_;
-};
-
-// The caller has checked that the bytes suffice.
-class Reader {
- public:
-  explicit Reader(std::span<const std::byte> bytes) : next_(bytes.data()) {}
-
-  template <class T>
-  T get() {
-    Word<sizeof(T)> word = 0;
-    for (std::size_t k = 0; k < sizeof(T); ++k)
-      word = static_cast<Word<sizeof(T)>>(word | static_cast<Word<sizeof(T)>>(*next_++) << (8 * k));
-    return std::bit_cast<T>(word);
-  }
-
-  double get_finite() {
-    const double value = get<double>();
-    if (!std::isfinite(value)) throw Error(GRAINLAW_BAD_BYTES, "saved state: not a finite number");
-    return value;
-  }
-
- private:
-  const std::byte* next_;
-};
 
 template <int D>
 std::size_t size_without_contacts(const Material<D>& material) {
@@ -90,24 +38,8 @@ std::size_t contact_size(const Material<D>& material) {
   return plain_contact_size<D> + sizeof(double) * (moments + (material.law.bonds() ? 1U : 0U));
 }
 
-std::uint64_t checksum(std::span<const std::byte> bytes) {
-  return XXH3_64bits(bytes.data(), bytes.size());
-}
-
 void require(bool condition, grainlaw_status status, const char* found) {
   if (!condition) throw Error(status, std::string("saved state: ") + found);
-}
-
-void check_envelope(std::span<const std::byte> bytes) {
-  require(bytes.size() >= version_end + checksum_size, GRAINLAW_BAD_BYTES, "truncated");
-  Reader begin(bytes);
-  for (const char letter : magic)
-    require(begin.get<char>() == letter, GRAINLAW_BAD_BYTES, "not a saved state");
-  const auto content = bytes.first(bytes.size() - checksum_size);
-  require(Reader(bytes.last(checksum_size)).get<std::uint64_t>() == checksum(content),
-          GRAINLAW_BAD_BYTES, "damaged or truncated");
-  require(begin.get<std::uint32_t>() == format_version, GRAINLAW_WRONG_VERSION,
-          "of another format version");
 }
 
 // As the contact list keeps them: i <= j, ascending (i, j, shift), each once.
@@ -135,9 +67,8 @@ template <int D>
 void save_configuration(const Material<D>& material, const Configuration<D>& configuration,
                         std::span<std::byte> bytes) {
   const std::size_t spins = material.law.moments() ? Dimension<D>::spins : 0;
-  Writer out(bytes);
-  for (const char letter : magic) out.put(letter);
-  out.put(format_version);
+  ByteWriter out(bytes);
+  out.begin(kind);
   out.put(static_cast<std::uint32_t>(configuration.contacts.size()));
   out.put(material.fingerprint);
   for (std::size_t k = 0; k < squared<D>; ++k) out.put(configuration.deformation[k]);
@@ -157,14 +88,14 @@ void save_configuration(const Material<D>& material, const Configuration<D>& con
       out.put(configuration.bond_gaps.empty() ? 0.0 : configuration.bond_gaps[c]);
     }
   }
-  out.put(checksum(bytes.first(bytes.size() - checksum_size)));
+  out.end();
 }
 
 template <int D>
 Configuration<D> load_configuration(const Material<D>& material, std::span<const std::byte> bytes) {
-  check_envelope(bytes);
+  check_envelope(bytes, kind);
   require(bytes.size() >= header_size + checksum_size, GRAINLAW_BAD_BYTES, "truncated");
-  Reader in(bytes.subspan(version_end));
+  ByteReader in(bytes.subspan(version_end));
   const std::size_t contacts = in.get<std::uint32_t>();
   require(in.get<std::uint64_t>() == material.fingerprint, GRAINLAW_WRONG_MATERIAL,
           "of another material");

@@ -1,0 +1,178 @@
+// Sets of points: all that a host does with its integration points at once.
+#include "points/points.hpp"
+
+#include "api/evaluate_points.hpp"
+#include "api/guard.hpp"
+#include "api/handle.hpp"
+#include "api/report.hpp"
+#include "homogenise/measures.hpp"
+#include "points/serialise_points.hpp"
+
+#include <grainlaw/grainlaw.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <vector>
+
+using namespace grainlaw;
+
+namespace {
+
+// fill(set) adds n points.
+template <class Fill>
+grainlaw_status create(grainlaw_points** out, std::size_t n, Fill&& fill) {
+  return api::guarded([&] {
+    if (n > std::vector<std::size_t>().max_size()) throw std::bad_alloc();
+    auto set = std::make_unique<grainlaw_points>(n);
+    fill(*set);
+    *out = set.release();
+  });
+}
+
+// Of a call that was refused before it came to the points.
+Summary refusal(grainlaw_status status) {
+  Summary summary;
+  summary.status = status;
+  summary.step_ratio = 0;
+  std::strncpy(summary.message, grainlaw_status_text(status), sizeof summary.message - 1);
+  return summary;
+}
+
+void write(const Summary& found, grainlaw_summary* summary) {
+  if (summary == nullptr) return;
+  grainlaw_summary full = grainlaw_summary_default();
+  full.step_ratio = found.step_ratio;
+  full.failed = static_cast<long>(found.failed);
+  full.first_failed = found.failed > 0 ? static_cast<long>(found.first_failed) : -1;
+  std::memcpy(full.message, found.message, sizeof full.message);
+  api::copy_out(full, summary);
+}
+
+grainlaw_status measure_points(PointSpan points, grainlaw_measure what, double* values,
+                               size_t* count) {
+  std::size_t each = 0;  // components of the measure
+  if (!points.empty()) {
+    const int components = measure_count(points[0]->state.dimension(), what);
+    if (components < 0) return GRAINLAW_BAD_ARGUMENT;
+    each = static_cast<std::size_t>(components);
+  }
+  const std::size_t need = each * points.size();
+  if (values != nullptr) {
+    if (*count < need) return GRAINLAW_BUFFER_TOO_SMALL;
+    std::vector<double> found(need);  // all of them, or none is written
+    for (std::size_t k = 0; k < points.size(); ++k)
+      points[k]->state.measure(what, found.data() + k * each);
+    std::copy(found.begin(), found.end(), values);
+  }
+  *count = need;
+  return GRAINLAW_OK;
+}
+
+}  // namespace
+
+grainlaw_summary grainlaw_summary_default(void) {
+  grainlaw_summary summary{};
+  summary.size = sizeof summary;
+  return summary;
+}
+
+grainlaw_status grainlaw_points_create(const grainlaw_material* handle, size_t n,
+                                       grainlaw_points** out) {
+  if (out == nullptr) return GRAINLAW_NULL_POINTER;
+  *out = nullptr;
+  if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
+  return create(out, n, [&](grainlaw_points& set) {
+    for (std::size_t k = 0; k < n; ++k) set.add(AnyState(handle->material));
+  });
+}
+
+grainlaw_status grainlaw_points_clone(const grainlaw_points* handle, grainlaw_points** out) {
+  if (out == nullptr) return GRAINLAW_NULL_POINTER;
+  *out = nullptr;
+  if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
+  return create(out, handle->points.size(), [&](grainlaw_points& set) {
+    for (const IntegrationPoint* point : handle->points) set.add(point->state, point->cost);
+  });
+}
+
+void grainlaw_points_destroy(grainlaw_points* handle) {
+  if (api::check_handle(handle) == GRAINLAW_OK) delete handle;
+}
+
+size_t grainlaw_points_size(const grainlaw_points* handle) {
+  return api::check_handle(handle) == GRAINLAW_OK ? handle->points.size() : 0;
+}
+
+const grainlaw_state* grainlaw_points_state(const grainlaw_points* handle, size_t point) {
+  return point < grainlaw_points_size(handle) ? &handle->states[point] : nullptr;
+}
+
+grainlaw_status grainlaw_points_evaluate(grainlaw_points* handle, const double* F, unsigned want,
+                                         double* P, double* A, grainlaw_status* status,
+                                         grainlaw_report* reports, int threads,
+                                         grainlaw_summary* summary) {
+  if (const auto found = api::check_handle(handle); found != GRAINLAW_OK) return found;
+  if (summary != nullptr && !api::known_summary_size(api::claimed_size(summary)))
+    return GRAINLAW_BAD_REPORT;
+  const std::size_t n = handle->points.size();
+  const api::PointArrays arrays{F, want, P, A, status, api::Reports(reports)};
+  const grainlaw_status checked = api::check(arrays, n);
+  if (checked != GRAINLAW_OK && status != nullptr) std::fill_n(status, n, checked);
+  const Summary found = checked != GRAINLAW_OK
+                            ? refusal(checked)
+                            : api::evaluate_points(handle->points, handle->order, arrays, threads);
+  write(found, summary);
+  return found.status;
+}
+
+grainlaw_status grainlaw_points_commit(grainlaw_points* handle) {
+  if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
+  return commit_all(handle->points) ? GRAINLAW_OK : GRAINLAW_NO_TRIAL;
+}
+
+grainlaw_status grainlaw_points_revert(grainlaw_points* handle) {
+  if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
+  revert_all(handle->points);
+  return GRAINLAW_OK;
+}
+
+grainlaw_status grainlaw_points_save(const grainlaw_points* handle, void* bytes, size_t* size) {
+  if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
+  if (size == nullptr) return GRAINLAW_NULL_POINTER;
+  return api::guarded([&] {
+    const std::size_t need = saved_size(handle->points);
+    if (bytes != nullptr) {
+      if (*size < need) return GRAINLAW_BUFFER_TOO_SMALL;
+      save_points(handle->points, {static_cast<std::byte*>(bytes), need});
+    }
+    *size = need;
+    return GRAINLAW_OK;
+  });
+}
+
+grainlaw_status grainlaw_points_load(grainlaw_points* handle, const void* bytes, size_t size,
+                                     char* message, size_t message_size) {
+  const api::MessageBuffer text{message, message_size};
+  text.write("");
+  const auto refused = [&](grainlaw_status status) {
+    text.write(grainlaw_status_text(status));
+    return status;
+  };
+  if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return refused(status);
+  if (bytes == nullptr) return refused(GRAINLAW_NULL_POINTER);
+  return api::guarded(
+      [&] {
+        load_points(handle->points, {static_cast<const std::byte*>(bytes), size});
+      },
+      text);
+}
+
+grainlaw_status grainlaw_points_measure(const grainlaw_points* handle, grainlaw_measure what,
+                                        double* values, size_t* count) {
+  if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
+  if (count == nullptr) return GRAINLAW_NULL_POINTER;
+  return api::guarded([&] { return measure_points(handle->points, what, values, count); });
+}
