@@ -158,16 +158,16 @@ long write_vtk(const long& number, const long& point, string* const& path) {
 }
 
 double step_ratio(const long& number) {
-  return guarded("grainlawStepRatio", [&] { return find(number).failure().step_ratio; });
+  return guarded("grainlawStepRatio", [&] { return find(number).last().summary.step_ratio; });
 }
 
 long first_failed(const long& number) {
-  return guarded("grainlawFirstFailed", [&] { return find(number).failure().point; });
+  return guarded("grainlawFirstFailed", [&] { return find(number).last().summary.first_failed; });
 }
 
 string* message(Stack stack, const long& number) {
   return guarded("grainlawMessage", [&] {
-    return Add2StackOfPtr2Free(stack, new string(find(number).failure().message));
+    return Add2StackOfPtr2Free(stack, new string(find(number).last().message()));
   });
 }
 

@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <cctype>
 #include <climits>
-#include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <span>
 #include <stdexcept>
-#include <utility>
 
 namespace grainlaw_freefem {
 namespace {
@@ -64,161 +63,84 @@ grainlaw_measure measure_named(const std::string& name) {
   throw std::invalid_argument("there is no measure \"" + name + "\", expected one of " + names);
 }
 
-// A file of states: this text, the number of points, then size and bytes of each.
-constexpr char file_head[] = "grainlaw points 1\n";
-
-void write_number(grainlaw::adapters::WholeFile& file, std::uint64_t number) {
-  file.write(&number, sizeof number);
-}
-
-std::uint64_t read_number(std::istream& stream) {
-  std::uint64_t number = 0;
-  stream.read(reinterpret_cast<char*>(&number), sizeof number);
-  return number;
+grainlaw::abi::Points create(const std::string& material_path, long points) {
+  if (points < 1)
+    throw std::invalid_argument("the number of points is " + std::to_string(points) +
+                                ", expected at least 1");
+  return {grainlaw::abi::Material::load(material_path), static_cast<std::size_t>(points)};
 }
 
 }  // namespace
 
-PointSet::PointSet(const std::string& material_path, long points) {
-  if (points < 1)
-    throw std::invalid_argument("the number of points is " + std::to_string(points) +
-                                ", expected at least 1");
-  const auto material = grainlaw::abi::Material::load(material_path);
-  dimension_ = material.dimension();
-  const auto n = static_cast<std::size_t>(points);
-  states_.reserve(n);
-  for (std::size_t k = 0; k < n; ++k) states_.emplace_back(material);
-  collect_handles();
-  status_.resize(n, GRAINLAW_OK);
-  reports_.resize(n, grainlaw_report_default());
-}
-
-void PointSet::collect_handles() {
-  handles_.clear();
-  for (const grainlaw::abi::State& state : states_) handles_.push_back(state.get());
-}
+PointSet::PointSet(const std::string& material_path, long points)
+    : points_(create(material_path, points)) {}
 
 long PointSet::evaluate(const Array& F, const Array& P, const Array* A, long threads) {
-  const std::size_t n = states_.size();
-  const auto square = static_cast<std::size_t>(dimension_ * dimension_);
+  const std::size_t n = points_.size();
+  const auto square = static_cast<std::size_t>(dimension() * dimension());
   expect("F", F, square, n);
   expect("P", P, square, n);
   if (A != nullptr) expect("A", *A, square * square, n);
   if (threads < 0 || threads > INT_MAX)
     throw std::invalid_argument("threads is " + std::to_string(threads) +
                                 ", expected 0 (as many as the library takes) or a number of them");
-  evaluated_ = false;
-  failure_ = {};
   const unsigned want = A != nullptr ? unsigned{GRAINLAW_WANT_TANGENT_EXACT} : 0u;
-  const grainlaw_status status = grainlaw_evaluate_batch(
-      n, handles_.data(), F.data, want, P.data, A != nullptr ? A->data : nullptr, status_.data(),
-      reports_.data(), static_cast<int>(threads));
-  if (status == GRAINLAW_OK) {
-    evaluated_ = true;
-    return 0;
+  const std::span tangent(A != nullptr ? A->data : nullptr, A != nullptr ? n * square * square : 0);
+  last_ = {};
+  try {
+    last_ = points_.evaluate({F.data, n * square}, {P.data, n * square}, want, tangent,
+                             static_cast<int>(threads));
+  } catch (...) {
+    points_.revert();
+    throw;
   }
-  long failed = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    if (status_[k] == GRAINLAW_OK) continue;
-    if (status_[k] < 0) {
-      const std::string text = describe(k);
-      revert();
-      throw std::runtime_error(text);
-    }
-    if (failed++ == 0) {
-      failure_.point = static_cast<long>(k);
-      failure_.message = describe(k);
-    }
-    failure_.step_ratio = std::min(failure_.step_ratio, reports_[k].step_ratio);
-  }
-  if (failed == 0) check(status);  // of the call itself
-  return failed;
-}
-
-std::string PointSet::describe(std::size_t point) const {
-  const char* text = reports_[point].message;
-  return "point " + std::to_string(point) + ": " +
-         (text[0] != '\0' ? text : grainlaw_status_text(status_[point]));
+  return last_.summary.failed;
 }
 
 void PointSet::commit() {
-  if (!evaluated_)
-    throw std::logic_error(
-        failure_.point >= 0
-            ? "the last evaluation found no equilibrium; revert, and cut the step (" +
-                  failure_.message + ")"
-            : "there is nothing to commit, expected an evaluation before");
-  for (grainlaw_state* state : handles_) check(grainlaw_commit(state));
-  evaluated_ = false;
+  const grainlaw_status status = grainlaw_points_commit(points_.get());
+  if (status == GRAINLAW_NO_TRIAL)
+    throw std::logic_error(last_ ? "there is nothing to commit, expected an evaluation before"
+                                 : "the last evaluation found no equilibrium; revert, and cut the "
+                                   "step (" +
+                                       last_.message() + ")");
+  check(status);
 }
 
-void PointSet::revert() {
-  evaluated_ = false;
-  for (grainlaw_state* state : handles_) check(grainlaw_revert(state));
-}
+void PointSet::revert() { points_.revert(); }
 
 void PointSet::save(const std::string& path) const {
+  const std::vector<std::byte> bytes = points_.save();
   grainlaw::adapters::WholeFile file(path);
-  file.write(file_head, sizeof file_head);
-  write_number(file, states_.size());
-  for (const grainlaw::abi::State& state : states_) {
-    const std::vector<std::byte> bytes = state.save();
-    write_number(file, bytes.size());
-    file.write(bytes.data(), bytes.size());
-  }
+  file.write(bytes.data(), bytes.size());
   file.keep();
 }
 
 void PointSet::load(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw std::runtime_error(path + ": cannot be read");
-  const std::uint64_t file_size = std::filesystem::file_size(path);
-  char head[sizeof file_head] = {};
-  stream.read(head, sizeof head);
-  if (!stream || std::memcmp(head, file_head, sizeof head) != 0)
-    throw std::runtime_error(path + ": this is not a file of grainlawSave");
-  const std::uint64_t count = read_number(stream);
-  if (!stream || count != states_.size())
-    throw std::runtime_error(path + ": it holds " + std::to_string(count) + " points, expected " +
-                             std::to_string(states_.size()));
-  // Into copies first: either all points are read, or none is touched.
-  std::vector<grainlaw::abi::State> read = states_;
-  std::vector<std::byte> bytes;
-  for (std::size_t k = 0; k < read.size(); ++k) {
-    const std::uint64_t size = read_number(stream);
-    if (!stream || size > file_size)
-      throw std::runtime_error(path + ": it ends at point " + std::to_string(k));
-    bytes.resize(size);
-    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-    if (!stream) throw std::runtime_error(path + ": it ends at point " + std::to_string(k));
-    const grainlaw_status status = grainlaw_state_load(read[k].get(), bytes.data(), bytes.size());
-    if (status != GRAINLAW_OK)
-      throw std::runtime_error(path + ": point " + std::to_string(k) + ": " +
-                               grainlaw_status_text(status));
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (stream.bad()) throw std::runtime_error(path + ": cannot be read");
+  try {
+    points_.load(std::as_bytes(std::span(bytes)));
+  } catch (const grainlaw::abi::StatusError& error) {
+    throw std::runtime_error(path + ": " + error.what());
   }
-  states_ = std::move(read);
-  collect_handles();
-  evaluated_ = false;
-  failure_ = {};
+  last_ = {};
 }
 
 void PointSet::measure(const std::string& name, const Array& values) const {
-  const grainlaw_measure what = measure_named(name);
-  std::size_t components = 0;
-  check(grainlaw_state_measure(handles_.front(), what, nullptr, &components));
-  expect("the array of values", values, components, states_.size());
-  for (std::size_t k = 0; k < handles_.size(); ++k) {
-    std::size_t count = components;
-    check(grainlaw_state_measure(handles_[k], what, values.data + k * components, &count));
-  }
+  const std::vector<double> found = points_.measure(measure_named(name));
+  expect("the array of values", values, found.size() / points_.size(), points_.size());
+  std::copy(found.begin(), found.end(), values.data);
 }
 
 void PointSet::write_vtk(long point, const std::string& path) const {
   if (point < 0 || point >= size())
     throw std::invalid_argument("there is no point " + std::to_string(point) + ", expected 0 to " +
                                 std::to_string(size() - 1));
-  const grainlaw_status status =
-      grainlaw_state_write_vtk(handles_[static_cast<std::size_t>(point)], path.c_str());
+  const grainlaw_status status = grainlaw_state_write_vtk(
+      grainlaw_points_state(points_.get(), static_cast<std::size_t>(point)), path.c_str());
   check(status, path + ": " + grainlaw_status_text(status));
 }
 

@@ -15,13 +15,6 @@ struct Array {
   std::vector<std::size_t> shape;
 };
 
-// Of the last evaluation.
-struct Failure {
-  double step_ratio = 1;  // smallest suggested factor on the step [-]
-  long point = -1;        // the first that failed, -1: none
-  std::string message;
-};
-
 // Every function throws std::exception with a text for the user; what is committed has then not
 // changed.
 class PointSet {
@@ -29,14 +22,14 @@ class PointSet {
   // Points at F = I of the material of a file.
   PointSet(const std::string& material_path, long points);
 
-  [[nodiscard]] long size() const { return static_cast<long>(states_.size()); }
-  [[nodiscard]] long dimension() const { return dimension_; }
+  [[nodiscard]] long size() const { return static_cast<long>(points_.size()); }
+  [[nodiscard]] long dimension() const { return points_.dimension(); }
 
   // F[dim^2, n] -> P[dim^2, n] and, unless null, A[dim^4, n]: the exact tangent, in one batch.
   // Returns the number of points without an equilibrium, whose P and A keep what they held;
-  // failure() tells about them. threads 0: as many as the library takes.
+  // last() tells about them. threads 0: as many as the library takes.
   long evaluate(const Array& F, const Array& P, const Array* A, long threads);
-  [[nodiscard]] const Failure& failure() const { return failure_; }
+  [[nodiscard]] const grainlaw::abi::PointsEvaluation& last() const { return last_; }
 
   // All points, or none: refused unless the last evaluation found an equilibrium in each of them.
   void commit();
@@ -51,16 +44,8 @@ class PointSet {
   void write_vtk(long point, const std::string& path) const;
 
  private:
-  void collect_handles();
-  [[nodiscard]] std::string describe(std::size_t point) const;
-
-  int dimension_ = 0;
-  std::vector<grainlaw::abi::State> states_;
-  std::vector<grainlaw_state*> handles_;
-  std::vector<grainlaw_status> status_;
-  std::vector<grainlaw_report> reports_;
-  bool evaluated_ = false;  // all points hold the trial of the last evaluation
-  Failure failure_;
+  grainlaw::abi::Points points_;
+  grainlaw::abi::PointsEvaluation last_;  // evaluation
 };
 
 }  // namespace grainlaw_freefem

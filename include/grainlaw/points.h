@@ -47,7 +47,7 @@ typedef struct grainlaw_summary {
   char message[256]; /* of that point, or why the call was refused; "" after success */
 } grainlaw_summary;
 
-/* A summary with its size set and everything else zero. */
+/* A summary of no failures: its size set, step_ratio 1, first_failed -1, and the rest zero. */
 GRAINLAW_API grainlaw_summary grainlaw_summary_default(void);
 
 /* grainlaw_evaluate for all points of a set, on threads as grainlaw_evaluate_batch: F[n*dim*dim],

@@ -46,7 +46,7 @@ void write(const Summary& found, grainlaw_summary* summary) {
   grainlaw_summary full = grainlaw_summary_default();
   full.step_ratio = found.step_ratio;
   full.failed = static_cast<long>(found.failed);
-  full.first_failed = found.failed > 0 ? static_cast<long>(found.first_failed) : -1;
+  if (found.failed > 0) full.first_failed = static_cast<long>(found.first_failed);
   std::memcpy(full.message, found.message, sizeof full.message);
   api::copy_out(full, summary);
 }
@@ -76,6 +76,8 @@ grainlaw_status measure_points(PointSpan points, grainlaw_measure what, double* 
 grainlaw_summary grainlaw_summary_default(void) {
   grainlaw_summary summary{};
   summary.size = sizeof summary;
+  summary.step_ratio = 1;
+  summary.first_failed = -1;
   return summary;
 }
 

@@ -3,9 +3,8 @@
  * P = (F - I) Pa. */
 #include <grainlaw/grainlaw.h>
 
-#include <string.h>
-
-static char material, state;
+static char material, set;
+static size_t points;
 
 grainlaw_status grainlaw_material_load(const char* path, grainlaw_material** out, char* message,
                                        size_t size) {
@@ -16,21 +15,29 @@ grainlaw_status grainlaw_material_load(const char* path, grainlaw_material** out
 int grainlaw_material_dimension(const grainlaw_material* handle) { return handle != NULL ? 2 : 0; }
 void grainlaw_material_destroy(grainlaw_material* handle) { (void)handle; }
 
-grainlaw_status grainlaw_state_create(const grainlaw_material* handle, grainlaw_state** out) {
+/* One set at a time. */
+grainlaw_status grainlaw_points_create(const grainlaw_material* handle, size_t n,
+                                       grainlaw_points** out) {
   (void)handle;
-  *out = (grainlaw_state*)&state;
+  points = n;
+  *out = (grainlaw_points*)&set;
   return GRAINLAW_OK;
 }
-void grainlaw_state_destroy(grainlaw_state* handle) { (void)handle; }
-grainlaw_status grainlaw_commit(grainlaw_state* handle) { return (void)handle, GRAINLAW_OK; }
-grainlaw_status grainlaw_revert(grainlaw_state* handle) { return (void)handle, GRAINLAW_OK; }
+void grainlaw_points_destroy(grainlaw_points* handle) { (void)handle; }
+size_t grainlaw_points_size(const grainlaw_points* handle) { return (void)handle, points; }
+grainlaw_status grainlaw_points_commit(grainlaw_points* handle) {
+  return (void)handle, GRAINLAW_OK;
+}
+grainlaw_status grainlaw_points_revert(grainlaw_points* handle) {
+  return (void)handle, GRAINLAW_OK;
+}
 
-grainlaw_status grainlaw_evaluate_batch(size_t n, grainlaw_state* const* states, const double* F,
-                                        unsigned want, double* P, double* A,
-                                        grainlaw_status* status, grainlaw_report* reports,
-                                        int threads) {
-  (void)states, (void)want, (void)reports, (void)threads;
-  memset(status, 0, n * sizeof *status);
+grainlaw_status grainlaw_points_evaluate(grainlaw_points* handle, const double* F, unsigned want,
+                                         double* P, double* A, grainlaw_status* status,
+                                         grainlaw_report* reports, int threads,
+                                         grainlaw_summary* summary) {
+  (void)handle, (void)want, (void)status, (void)reports, (void)threads, (void)summary;
+  const size_t n = points;
   for (size_t k = 0; k < 4 * n; ++k) P[k] = F[k] - (k % 4 % 3 == 0);
   if (A != NULL)
     for (size_t k = 0; k < 16 * n; ++k) A[k] = k % 16 % 5 == 0;
