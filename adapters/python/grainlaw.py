@@ -22,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from grainlaw_library import Error, Handle, c_text, check, library, status_text, version
-from grainlaw_names import Measure, Report, Status, Tangent
+from grainlaw_names import Measure, Report, Status, Summary, Tangent
 
 __all__ = ["Error", "Evaluation", "Material", "Measure", "State", "States", "Status", "Tangent",
            "status_text", "version"]
@@ -71,6 +71,7 @@ class Evaluation:
     A: np.ndarray        #: (n, d, d, d, d) tangent [Pa], or None when none was asked for
     status: np.ndarray   #: (n,) Status as numbers
     reports: np.ndarray  #: (n,) fields of grainlaw_report by name, e.g. reports["sliding"]
+    summary: Summary     #: fields of grainlaw_summary
 
     @property
     def ok(self):
@@ -84,20 +85,17 @@ class Evaluation:
     @property
     def step_ratio(self):
         """Smallest factor on the step that a failed point suggests; 1 when all are well."""
-        ratios = np.atleast_1d(self.reports)["step_ratio"]
-        return float(np.min(ratios[self.failed], initial=1.0))
+        return self.summary.step_ratio
 
     @property
     def message(self):
-        """The first failed point, or "" """
-        failed = self.failed
-        return _point_message(failed[0], self.status, self.reports) if failed.size else ""
+        """The first failed point and why, or "" """
+        return _message(self.summary)
 
 
-def _point_message(point, status, reports):
-    code = int(np.atleast_1d(status)[point])
-    detail = np.atleast_1d(reports)["message"][point].decode(errors="replace")
-    return f"point {point}: {status_text(code)}" + (f" ({detail})" if detail else "")
+def _message(summary):
+    text = summary.message.decode(errors="replace")
+    return f"point {summary.first_failed}: {text}" if summary.failed else text
 
 
 class States:
@@ -110,26 +108,18 @@ class States:
         if not isinstance(count, (int, np.integer)) or count < 1:
             raise Error(Status.BAD_ARGUMENT, f"expected a number of points >= 1, got {count!r}")
         self.dimension = material.dimension
-        self._adopt([Handle(library.grainlaw_state_create, library.grainlaw_state_destroy,
-                             material._handle) for _ in range(count)], trial=False)
-
-    def _adopt(self, handles, trial):
-        self._handles = handles
-        self._array = (ctypes.c_void_p * len(handles))(*(h._as_parameter_.value for h in handles))
-        self._trial = trial
+        self._handle = Handle(library.grainlaw_points_create, library.grainlaw_points_destroy,
+                              material._handle, count)
 
     def __len__(self):
-        return len(self._handles)
-
-    def _cloned(self):
-        return [Handle(library.grainlaw_state_clone, library.grainlaw_state_destroy, handle)
-                for handle in self._handles]
+        return library.grainlaw_points_size(self._handle)
 
     def clone(self):
         """An independent copy, committed and trial."""
         copy = self.__class__.__new__(self.__class__)
         copy.dimension = self.dimension
-        copy._adopt(self._cloned(), self._trial)
+        copy._handle = Handle(library.grainlaw_points_clone, library.grainlaw_points_destroy,
+                              self._handle)
         return copy
 
     def evaluate(self, F, tangent=None, threads=0):
@@ -144,58 +134,48 @@ class States:
         status = np.zeros(n, np.intc)
         reports = np.zeros(n, _report)
         reports["size"] = _report.itemsize
-        self._trial = False
-        result = library.grainlaw_evaluate_batch(
-            n, self._array, F.ctypes.data, want, P.ctypes.data, A.ctypes.data if want else None,
-            status.ctypes.data, reports.ctypes.data, threads)
+        summary = Summary(size=ctypes.sizeof(Summary))
+        result = library.grainlaw_points_evaluate(
+            self._handle, F.ctypes.data, want, P.ctypes.data, A.ctypes.data if want else None,
+            status.ctypes.data, reports.ctypes.data, threads, ctypes.byref(summary))
         if result < 0:
-            if (status == result).all() and not (reports["message"] != b"").any():
-                raise Error(result)  # of the whole call
-            point = int(np.flatnonzero(status == result)[0])
-            raise Error(result, _point_message(point, status, reports), point)
-        self._trial = result == Status.OK
-        return Evaluation(P, A, status, reports)
+            raise Error(result, _message(summary), summary.first_failed if summary.failed else None)
+        return Evaluation(P, A, status, reports, summary)
 
     def commit(self):
         """Make the trial the committed state: of all points or, when one has none, of none."""
-        if not self._trial:
-            raise Error(Status.NO_TRIAL)
-        for handle in self._handles:
-            check(library.grainlaw_commit(handle))
-        self._trial = False
+        check(library.grainlaw_points_commit(self._handle))
 
     def revert(self):
         """Drop the trial, if any."""
-        self._trial = False
-        for handle in self._handles:
-            check(library.grainlaw_revert(handle))
+        check(library.grainlaw_points_revert(self._handle))
 
     def save(self):
-        """The committed states as a list of bytes."""
-        return [_save(handle) for handle in self._handles]
+        """The committed states as bytes."""
+        size = ctypes.c_size_t()
+        check(library.grainlaw_points_save(self._handle, None, ctypes.byref(size)))
+        data = ctypes.create_string_buffer(size.value)
+        check(library.grainlaw_points_save(self._handle, data, ctypes.byref(size)))
+        return data.raw
 
     def load(self, saved):
         """Replace the committed states by saved ones: all of them or, on an Error, none."""
-        if len(saved) != len(self):
-            raise Error(Status.BAD_BYTES, f"{len(saved)} saved states for {len(self)} points")
-        handles = self._cloned()
-        for point, (handle, data) in enumerate(zip(handles, saved)):
-            data = bytes(data)
-            status = library.grainlaw_state_load(handle, data, len(data))
-            check(status, f"point {point}: {status_text(status)}")
-        self._adopt(handles, trial=False)
+        saved = bytes(saved)
+        message = ctypes.create_string_buffer(256)
+        status = library.grainlaw_points_load(self._handle, saved, len(saved), message,
+                                              len(message))
+        check(status, message.value.decode(errors="replace"))
 
     def measure(self, what):
         """A Measure of the trial, or of the committed state where there is no trial:
         (n,), (n, d, d) or (n, components), in the unit that grainlaw.h gives."""
         count = ctypes.c_size_t()
-        check(library.grainlaw_state_measure(self._handles[0], what, None, ctypes.byref(count)))
-        values = np.empty((len(self), count.value))
-        for handle, row in zip(self._handles, values):
-            check(library.grainlaw_state_measure(handle, what, row.ctypes.data,
-                                                   ctypes.byref(count)))
-        square = (self.dimension, self.dimension)
-        shape = () if count.value == 1 else square if count.value == np.prod(square) else (-1,)
+        check(library.grainlaw_points_measure(self._handle, what, None, ctypes.byref(count)))
+        values = np.empty(count.value)
+        check(library.grainlaw_points_measure(self._handle, what, values.ctypes.data,
+                                              ctypes.byref(count)))
+        components, square = count.value // len(self), (self.dimension, self.dimension)
+        shape = () if components == 1 else square if components == np.prod(square) else (-1,)
         return values.reshape(len(self), *shape)
 
     def write_vtk(self, path, point=0):
@@ -209,12 +189,12 @@ class States:
     def _write(self, function, path, point):
         if not 0 <= point < len(self):
             raise Error(Status.BAD_ARGUMENT, f"point {point} is none of 0 to {len(self) - 1}")
-        status = function(self._handles[point], c_text(path))
+        status = function(library.grainlaw_points_state(self._handle, point), c_text(path))
         check(status, f"{os.fspath(path)}: {status_text(status)}")
 
 
 class State(States):
-    """One integration point: the same without the first axis; save gives bytes."""
+    """One integration point: the same without the first axis."""
 
     def __init__(self, material):
         super().__init__(material, 1)
@@ -223,24 +203,10 @@ class State(States):
         d = self.dimension
         answer = super().evaluate(_numbers(F, (d, d))[None], tangent, threads=1)
         A = None if answer.A is None else answer.A[0]
-        return Evaluation(answer.P[0], A, answer.status[0], answer.reports[0])
-
-    def save(self):
-        return super().save()[0]
-
-    def load(self, saved):
-        super().load([saved])
+        return Evaluation(answer.P[0], A, answer.status[0], answer.reports[0], answer.summary)
 
     def measure(self, what):
         return super().measure(what)[0]
-
-
-def _save(handle):
-    size = ctypes.c_size_t()
-    check(library.grainlaw_state_save(handle, None, ctypes.byref(size)))
-    data = ctypes.create_string_buffer(size.value)
-    check(library.grainlaw_state_save(handle, data, ctypes.byref(size)))
-    return data.raw[:size.value]
 
 
 def _numbers(F, shape):

@@ -2,7 +2,7 @@
 import ctypes
 import os
 
-from grainlaw_names import ABI, VERSION, Report, Status
+from grainlaw_names import ABI, VERSION, Report, Status, Summary
 
 
 class Error(Exception):
@@ -29,8 +29,11 @@ def _open():
         hint = "GRAINLAW_LIBRARY says so" if chosen else "set GRAINLAW_LIBRARY to its path"
         raise ImportError(f"the grainlaw library cannot be loaded: {error} ({hint})") from None
     found = library.grainlaw_version().decode()
-    # The library knows the reports of earlier headers, not those of later ones.
-    if found.split(".")[0] != str(ABI) or _report_size(library) < ctypes.sizeof(Report):
+    # The library knows the structs of earlier headers, not those of later ones.
+    small = any(_size(default) < ctypes.sizeof(ours) for default, ours in
+                ((library.grainlaw_report_default, Report),
+                 (library.grainlaw_summary_default, Summary)))
+    if found.split(".")[0] != str(ABI) or small:
         raise ImportError(f"{path} is grainlaw {found}; this module was made for {VERSION}")
     return library
 
@@ -46,16 +49,18 @@ def _declare(library):
         "material_parse": (ctypes.c_int, text, text, out, text, size),
         "material_dimension": (ctypes.c_int, pointer),
         "material_destroy": (None, pointer),
-        "state_create": (ctypes.c_int, pointer, out),
-        "state_clone": (ctypes.c_int, pointer, out),
-        "state_destroy": (None, pointer),
-        "evaluate_batch": (ctypes.c_int, size, pointer, pointer, ctypes.c_uint, pointer, pointer,
-                           pointer, pointer, ctypes.c_int),
-        "commit": (ctypes.c_int, pointer),
-        "revert": (ctypes.c_int, pointer),
-        "state_save": (ctypes.c_int, pointer, pointer, count),
-        "state_load": (ctypes.c_int, pointer, pointer, size),
-        "state_measure": (ctypes.c_int, pointer, ctypes.c_int, pointer, count),
+        "points_create": (ctypes.c_int, pointer, size, out),
+        "points_clone": (ctypes.c_int, pointer, out),
+        "points_destroy": (None, pointer),
+        "points_size": (size, pointer),
+        "points_state": (pointer, pointer, size),
+        "points_evaluate": (ctypes.c_int, pointer, pointer, ctypes.c_uint, pointer, pointer,
+                            pointer, pointer, ctypes.c_int, ctypes.POINTER(Summary)),
+        "points_commit": (ctypes.c_int, pointer),
+        "points_revert": (ctypes.c_int, pointer),
+        "points_save": (ctypes.c_int, pointer, pointer, count),
+        "points_load": (ctypes.c_int, pointer, pointer, size, text, size),
+        "points_measure": (ctypes.c_int, pointer, ctypes.c_int, pointer, count),
         "state_write_vtk": (ctypes.c_int, pointer, text),
         "state_write_packing": (ctypes.c_int, pointer, text),
     }
@@ -64,13 +69,13 @@ def _declare(library):
         function.restype, function.argtypes = result, arguments
 
 
-def _report_size(library):
-    # Returned by value: room for a report of any later version.
-    class AnyReport(ctypes.Structure):
+def _size(default):
+    # Returned by value: room for the struct of any later version.
+    class Any(ctypes.Structure):
         _fields_ = [("size", ctypes.c_size_t), ("rest", ctypes.c_char * 65536)]
 
-    library.grainlaw_report_default.restype = AnyReport
-    return library.grainlaw_report_default().size
+    default.restype = Any
+    return default().size
 
 
 library = _open()

@@ -78,14 +78,14 @@ class BadInput(Case):
         self.assert_refused(Status.BAD_MATERIAL, [], grainlaw.Material.parse, text, DATA)
 
     def test_saved_states_of_others(self):
-        self.assert_refused(Status.BAD_BYTES, ["2 saved states for 3 points"],
-                            self.states.load, self.before[:2])
-        damaged = bytearray(self.before[2])
-        damaged[100] ^= 1
+        self.assert_refused(Status.BAD_ARGUMENT, ["2 points, expected 3"],
+                            self.states.load, grainlaw.States(material(), 2).save())
+        damaged = bytearray(self.before)
+        damaged[-100] ^= 1  # of the last point
         fresh = grainlaw.States(material(), 3)
         kept = fresh.save()
-        self.assert_refused(Status.BAD_BYTES, ["point 2"],
-                            fresh.load, [*self.before[:2], bytes(damaged)])
+        self.assert_refused(Status.BAD_BYTES, ["damaged"], fresh.load, damaged)
+        self.assert_refused(Status.BAD_BYTES, ["truncated"], fresh.load, b"")
         self.assertEqual(fresh.save(), kept)  # not even the good ones
         with open(MATERIAL, encoding="utf-8") as file:
             other = grainlaw.Material.parse(file.read().replace("0.546", "0.446"), DATA)

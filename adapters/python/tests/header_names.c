@@ -1,8 +1,9 @@
-/* What a C compiler makes of the lists in the header, for header_test.py. */
+/* What a C compiler makes of the lists in the headers, for header_test.py. */
 #include <grainlaw/grainlaw.h>
 #include <stdio.h>
 
 #define FIELD(name) printf("Report %s %zu\n", #name, offsetof(grainlaw_report, name));
+#define SUMMARY_FIELD(name) printf("Summary %s %zu\n", #name, offsetof(grainlaw_summary, name));
 
 int main(void) {
 #define GRAINLAW_X(name, value, text) printf("Status %s %d\n", #name, (int)(name));
@@ -27,6 +28,12 @@ int main(void) {
   FIELD(tangent_exact)
   FIELD(history_advanced)
   FIELD(message)
-  printf("sizeof %zu\n", sizeof(grainlaw_report));
+  SUMMARY_FIELD(size)
+  SUMMARY_FIELD(step_ratio)
+  SUMMARY_FIELD(failed)
+  SUMMARY_FIELD(first_failed)
+  SUMMARY_FIELD(message)
+  printf("sizeof Report %zu\n", sizeof(grainlaw_report));
+  printf("sizeof Summary %zu\n", sizeof(grainlaw_summary));
   return 0;
 }

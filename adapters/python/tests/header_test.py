@@ -27,10 +27,12 @@ class Header(unittest.TestCase):
             ours = [(entry.name, entry.value) for entry in getattr(grainlaw_names, kind)]
             self.assertEqual(ours, said)
 
-    def test_report_has_the_size_and_offsets_of_the_header(self):
-        self.assertEqual(ctypes.sizeof(grainlaw_names.Report), int(self.said["sizeof"][0][0]))
-        for name, offset in self.said["Report"]:
-            self.assertEqual(getattr(grainlaw_names.Report, name).offset, int(offset), name)
+    def test_structs_have_the_size_and_offsets_of_the_header(self):
+        for name, size in self.said["sizeof"]:
+            ours = getattr(grainlaw_names, name)
+            self.assertEqual(ctypes.sizeof(ours), int(size))
+            for field, offset in self.said[name]:
+                self.assertEqual(getattr(ours, field).offset, int(offset), field)
 
     def test_the_library_knows_each_status_and_measure_and_no_more(self):
         unknown = status_text(1000)
