@@ -5,8 +5,6 @@
 #include <deal.II/grid/tria.h>
 #include <deal.II/lac/full_matrix.h>
 
-#include <algorithm>
-
 using namespace dealii;
 
 namespace grainlaw_dealii {
@@ -18,20 +16,16 @@ const FEValuesExtractors::Vector displacement_components(0);
 
 Points::Points(const Mapping<2>& mapping, const DoFHandler<2>& dofs,
                const Quadrature<2>& quadrature, const grainlaw::abi::Material& material)
-    : mapping_(mapping), dofs_(dofs), quadrature_(quadrature) {
-  const std::size_t n = dofs.get_triangulation().n_active_cells() * quadrature.size();
-  states_.reserve(n);
-  for (std::size_t k = 0; k < n; ++k) {
-    states_.emplace_back(material);
-    handles_.push_back(states_.back().get());
-  }
+    : mapping_(mapping),
+      dofs_(dofs),
+      quadrature_(quadrature),
+      points_(material, dofs.get_triangulation().n_active_cells() * quadrature.size()) {
+  const std::size_t n = points_.size();
   F_.resize(4 * n);
   P_.resize(4 * n);
   A_.resize(16 * n);
   trial_P_ = committed_P_ = P_;
   trial_A_ = committed_A_ = A_;
-  status_.resize(n);
-  reports_.resize(n);
 }
 
 bool Points::evaluate(const Vector<double>& displacement) {
@@ -46,42 +40,23 @@ bool Points::evaluate(const Vector<double>& displacement) {
           F_[4 * point(cell->active_cell_index(), q) + 2 * i + J] =
               gradients[q][i][J] + (i == J ? 1 : 0);
   }
-  std::fill(reports_.begin(), reports_.end(), grainlaw_report_default());
-  const grainlaw_status status = grainlaw_evaluate_batch(
-      handles_.size(), handles_.data(), F_.data(), GRAINLAW_WANT_TANGENT_EXACT, trial_P_.data(),
-      trial_A_.data(), status_.data(), reports_.data(), 0);
-  if (status < 0) throw grainlaw::abi::StatusError(status, message());
-  if (status != GRAINLAW_OK) return false;
+  last_ = points_.evaluate(F_, trial_P_, GRAINLAW_WANT_TANGENT_EXACT, trial_A_);
+  if (!last_) return false;
   P_.swap(trial_P_);
   A_.swap(trial_A_);
   return true;
 }
 
 void Points::commit() {
-  for (auto& state : states_) state.commit();
+  points_.commit();
   committed_P_ = P_;
   committed_A_ = A_;
 }
 
 void Points::revert() {
-  for (auto& state : states_) state.revert();
+  points_.revert();
   P_ = committed_P_;
   A_ = committed_A_;
-}
-
-double Points::step_ratio() const {
-  double ratio = 1;
-  for (std::size_t k = 0; k < status_.size(); ++k)
-    if (status_[k] != GRAINLAW_OK) ratio = std::min(ratio, reports_[k].step_ratio);
-  return ratio;
-}
-
-std::string Points::message() const {
-  for (std::size_t k = 0; k < status_.size(); ++k)
-    if (status_[k] != GRAINLAW_OK)
-      return "point " + std::to_string(k) + ": " + grainlaw_status_text(status_[k]) + " " +
-             reports_[k].message;
-  return {};
 }
 
 void Points::internal_forces(Vector<double>& forces) const {

@@ -1,4 +1,4 @@
-// grainlaw in deal.II: one state per quadrature point of a mesh, evaluated in one call.
+// grainlaw in deal.II: the quadrature points of a mesh as one set of points.
 #pragma once
 
 #include <deal.II/base/quadrature.h>
@@ -29,8 +29,8 @@ class Points {
   void revert();
 
   // The factor on the step that the failed points suggest, and the first of them in words.
-  [[nodiscard]] double step_ratio() const;
-  [[nodiscard]] std::string message() const;
+  [[nodiscard]] double step_ratio() const { return last_.summary.step_ratio; }
+  [[nodiscard]] std::string message() const { return last_.message(); }
 
   // Integrals of P : grad v and of grad v : A : grad u.
   void internal_forces(dealii::Vector<double>& forces) const;
@@ -44,13 +44,11 @@ class Points {
   const dealii::Mapping<2>& mapping_;
   const dealii::DoFHandler<2>& dofs_;
   dealii::Quadrature<2> quadrature_;
-  std::vector<grainlaw::abi::State> states_;
-  std::vector<grainlaw_state*> handles_;
+  grainlaw::abi::Points points_;
+  grainlaw::abi::PointsEvaluation last_;
   std::vector<double> F_, P_, A_;          // P, A: of the last success
   std::vector<double> trial_P_, trial_A_;  // being evaluated
   std::vector<double> committed_P_, committed_A_;
-  std::vector<grainlaw_status> status_;
-  std::vector<grainlaw_report> reports_;
 };
 
 }  // namespace grainlaw_dealii

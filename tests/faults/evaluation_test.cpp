@@ -60,7 +60,7 @@ long refuse_every_allocation(const std::shared_ptr<const Material>& material, un
         EXPECT_STREQ(answer.report.message, grainlaw_status_text(GRAINLAW_OUT_OF_MEMORY));
         EXPECT_EQ(answer.stress, Tensor{}) << "allocation " << k;
         EXPECT_EQ(grainlaw_commit(&state), GRAINLAW_NO_TRIAL) << "allocation " << k;
-        EXPECT_TRUE(same_bits(state.state.committed(), material->initial)) << "allocation " << k;
+        EXPECT_TRUE(same_bits(state.point.state.committed(), material->initial)) << "allocation " << k;
       }
       EXPECT_TRUE(evaluate(state, want) == expected) << "after allocation " << k;
     });

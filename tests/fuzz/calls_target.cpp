@@ -13,6 +13,7 @@
 namespace {
 
 using grainlaw::abi::Material;
+using grainlaw::abi::Points;
 using grainlaw::abi::State;
 using Tensor = std::array<double, 4>;
 
@@ -105,6 +106,51 @@ void batch(FuzzedDataProvider& input, std::vector<State>& states) {
   EXPECT(all == (whole == GRAINLAW_OK));
 }
 
+// A set, each call of which is of all points or of none.
+void set_of_points(FuzzedDataProvider& input, const Material& material, const State& state) {
+  Points set(material, input.ConsumeIntegralInRange<std::size_t>(0, 3));
+  const std::size_t n = set.size();
+  auto saved = set.save();
+  bool trial = n == 0;  // of all points
+  for (int call = 0; call < 5 && input.remaining_bytes() > 0; ++call) {
+    const auto before = set.save();
+    switch (input.ConsumeIntegralInRange<int>(0, 4)) {
+      case 0: {
+        if (!saved.empty() && input.ConsumeBool())
+          saved[input.ConsumeIntegralInRange<std::size_t>(0, saved.size() - 1)] ^= std::byte{1};
+        const auto status =
+            grainlaw_points_load(set.get(), saved.data(), saved.size(), nullptr, 0);
+        EXPECT(status == GRAINLAW_OK || status == GRAINLAW_BAD_BYTES);
+        EXPECT(set.save() == (status == GRAINLAW_OK ? saved : before));
+        if (status == GRAINLAW_OK) trial = n == 0;
+        break;
+      }
+      case 1: saved = before; break;
+      case 2:
+        EXPECT(grainlaw_points_commit(set.get()) == (trial ? GRAINLAW_OK : GRAINLAW_NO_TRIAL));
+        EXPECT(trial || set.save() == before);
+        trial = n == 0;
+        break;
+      default: {
+        std::vector<double> F, P(4 * n);
+        for (std::size_t k = 0; k < n; ++k) {
+          const Tensor next = deformation(input, state);
+          F.insert(F.end(), next.begin(), next.end());
+        }
+        grainlaw_summary summary = grainlaw_summary_default();
+        const auto status = grainlaw_points_evaluate(set.get(), F.data(), 0, P.data(), nullptr,
+                                                     nullptr, nullptr, 1, &summary);
+        EXPECT(set.save() == before);
+        EXPECT((status == GRAINLAW_OK) == (summary.failed == 0 && summary.first_failed == -1));
+        EXPECT(summary.first_failed < static_cast<long>(n));
+        EXPECT(std::memchr(summary.message, '\0', sizeof summary.message) != nullptr);
+        EXPECT(status != GRAINLAW_OK || finite(P.data(), P.size()));
+        trial = status == GRAINLAW_OK;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -133,12 +179,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         break;
       }
       case 5: batch(input, states); break;
-      case 6:
-      case 7: {
+      case 6: {
         const auto status = grainlaw_commit(state.get());
         EXPECT(status == GRAINLAW_OK || status == GRAINLAW_NO_TRIAL);
         break;
       }
+      case 7: set_of_points(input, material, state); break;
       default: evaluate(input, state);
     }
   }

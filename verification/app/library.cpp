@@ -21,6 +21,12 @@ State clone(const grainlaw_state* state) {
   return State(copy);
 }
 
+Points make_points(const Material& material, std::size_t count) {
+  grainlaw_points* points = nullptr;
+  check(grainlaw_points_create(material.get(), count, &points), "creating integration points");
+  return Points(points);
+}
+
 Evaluation evaluate(grainlaw_state* state, const Tensor& deformation, unsigned want) {
   Evaluation result;
   result.status = grainlaw_evaluate(state, deformation.data(), want, result.stress.data(),

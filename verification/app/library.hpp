@@ -33,15 +33,20 @@ struct MaterialDeleter {
 struct StateDeleter {
   void operator()(grainlaw_state* state) const { grainlaw_state_destroy(state); }
 };
+struct PointsDeleter {
+  void operator()(grainlaw_points* points) const { grainlaw_points_destroy(points); }
+};
 using Material = std::unique_ptr<grainlaw_material, MaterialDeleter>;
 using State = std::unique_ptr<grainlaw_state, StateDeleter>;
+using Points = std::unique_ptr<grainlaw_points, PointsDeleter>;
 
 // Throws ComputationError with the status text unless the status is OK.
 void check(grainlaw_status status, const std::string& what);
 
-// A new integration point at F = I, and an independent copy of one. Throw ComputationError.
+// A new integration point at F = I, an independent copy of one, and many. Throw ComputationError.
 State make_state(const Material& material);
 State clone(const grainlaw_state* state);
+Points make_points(const Material& material, std::size_t count);
 
 struct Evaluation {
   grainlaw_status status = GRAINLAW_OK;

@@ -20,21 +20,18 @@ double initial_modulus(const Material& material) {
 
 PointField::PointField(const Mesh& mesh, const Material& material, double hourglass) {
   for (const auto& element : mesh.elements)
-    for (const QuadPoint& geometry : quad_points(mesh.kind, mesh.positions(element))) {
+    for (const QuadPoint& geometry : quad_points(mesh.kind, mesh.positions(element)))
       points_.push_back({element, geometry, Tensor::Identity(), Tensor::Zero(), 0, {}});
-      states_.push_back(make_state(material));
-      handles_.push_back(states_.back().get());
-    }
   if (mesh.kind == ElementKind::q4r && hourglass > 0)
     hourglass_ = Hourglass(mesh, hourglass, initial_modulus(material));
   displacement_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * mesh.nodes.size()));
   const std::size_t n = points_.size();
-  status_.resize(n);
+  set_ = make_points(material, n);
   reports_.resize(n, grainlaw_report_default());
   deformation_.resize(n, Tensor::Identity());
   stress_.resize(n, Tensor::Zero());
   tangent_.resize(n, Tangent::Zero());
-  volume_ = measure_scalar(handles_.front(), GRAINLAW_REFERENCE_VOLUME);
+  volume_ = measure_scalar(state(0), GRAINLAW_REFERENCE_VOLUME);
 }
 
 Tensor PointField::gradient(const Point& point, const Eigen::VectorXd& displacement) {
@@ -60,26 +57,17 @@ grainlaw_status PointField::evaluate(const Eigen::VectorXd& displacement, unsign
     deformation_[p] = Tensor::Identity() + gradient(points_[p], displacement);
     reports_[p] = grainlaw_report_default();
   }
-  const grainlaw_status status = grainlaw_evaluate_batch(
-      points_.size(), handles_.data(), deformation_.front().data(), want, stress_.front().data(),
-      want != 0 ? tangent_.front().data() : nullptr, status_.data(), reports_.data(), threads);
+  const grainlaw_status status = grainlaw_points_evaluate(
+      set_.get(), deformation_.front().data(), want, stress_.front().data(),
+      want != 0 ? tangent_.front().data() : nullptr, nullptr, reports_.data(), threads, &summary_);
   if (status < 0) check(status, "evaluating the integration points");
   for (std::size_t p = 0; p < points_.size(); ++p) points_[p].effort.add(reports_[p]);
   return status;
 }
 
-double PointField::step_ratio() const {
-  double ratio = 1;
-  for (std::size_t p = 0; p < points_.size(); ++p)
-    if (status_[p] != GRAINLAW_OK) ratio = std::min(ratio, reports_[p].step_ratio);
-  return ratio;
-}
-
 std::string PointField::message() const {
-  for (std::size_t p = 0; p < points_.size(); ++p)
-    if (status_[p] != GRAINLAW_OK)
-      return fmt::format("integration point {}: {}", p, reports_[p].message);
-  return {};
+  if (summary_.failed == 0) return {};
+  return fmt::format("integration point {}: {}", summary_.first_failed, summary_.message);
 }
 
 Eigen::VectorXd PointField::internal_force() const {
@@ -115,6 +103,7 @@ void PointField::add_stiffness(Triplets& triplets) const {
 }
 
 void PointField::commit() {
+  check(grainlaw_points_commit(set_.get()), "committing the integration points");
   for (std::size_t p = 0; p < points_.size(); ++p) {
     Point& point = points_[p];
     const Tensor change = deformation_[p] - point.committed_deformation;
@@ -122,26 +111,21 @@ void PointField::commit() {
     point.committed_deformation = deformation_[p];
     point.committed_stress = stress_[p];
     point.effort.history_advanced += reports_[p].history_advanced;
-    check(grainlaw_commit(handles_[p]), "committing an integration point");
   }
 }
 
-void PointField::revert() {
-  for (grainlaw_state* state : handles_) check(grainlaw_revert(state), "dropping a trial");
-}
+void PointField::revert() { check(grainlaw_points_revert(set_.get()), "dropping the trials"); }
 
 void PointField::save(CheckpointWriter& out) const {
-  out.write(points_.size());
-  std::string bytes;
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    std::size_t size = 0;
-    check(grainlaw_state_save(handles_[p], nullptr, &size), "saving an integration point");
-    bytes.resize(size);
-    check(grainlaw_state_save(handles_[p], bytes.data(), &size), "saving an integration point");
-    out.write(bytes);
-    out.write(points_[p].committed_deformation);
-    out.write(points_[p].committed_stress);
-    out.write(points_[p].work);
+  std::size_t size = 0;
+  check(grainlaw_points_save(set_.get(), nullptr, &size), "saving the integration points");
+  std::string bytes(size, '\0');
+  check(grainlaw_points_save(set_.get(), bytes.data(), &size), "saving the integration points");
+  out.write(bytes);
+  for (const Point& point : points_) {
+    out.write(point.committed_deformation);
+    out.write(point.committed_stress);
+    out.write(point.work);
   }
   out.write(displacement_);
   out.write(deformation_);
@@ -150,18 +134,18 @@ void PointField::save(CheckpointWriter& out) const {
 }
 
 void PointField::restore(CheckpointReader& in) {
-  if (in.get<std::size_t>() != points_.size()) in.fail();
-  std::string bytes;
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    in.read(bytes);
-    const grainlaw_status status = grainlaw_state_load(handles_[p], bytes.data(), bytes.size());
-    if (status == GRAINLAW_WRONG_MATERIAL)
-      throw InputError(in.path().string() + ": was made with another material or packing");
-    check(status, "restoring an integration point from " + in.path().string());
-    in.read(points_[p].committed_deformation);
-    in.read(points_[p].committed_stress);
-    in.read(points_[p].work);
-    points_[p].effort = {};
+  const auto bytes = in.get<std::string>();
+  const grainlaw_status status =
+      grainlaw_points_load(set_.get(), bytes.data(), bytes.size(), nullptr, 0);
+  if (status == GRAINLAW_BAD_ARGUMENT) in.fail();
+  if (status == GRAINLAW_WRONG_MATERIAL)
+    throw InputError(in.path().string() + ": was made with another material or packing");
+  check(status, "restoring the integration points from " + in.path().string());
+  for (Point& point : points_) {
+    in.read(point.committed_deformation);
+    in.read(point.committed_stress);
+    in.read(point.work);
+    point.effort = {};
   }
   in.read(displacement_);
   in.read(deformation_);
@@ -191,7 +175,7 @@ Effort PointField::effort() const {
 Record PointField::record() {
   std::vector<Record> records;
   for (std::size_t p = 0; p < points_.size(); ++p) {
-    records.push_back(make_record(handles_[p], deformation_[p], stress_[p], reports_[p]));
+    records.push_back(make_record(state(p), deformation_[p], stress_[p], reports_[p]));
     records.back().external_work = points_[p].work;
   }
   Record record = mean(records);

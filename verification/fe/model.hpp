@@ -1,4 +1,4 @@
-// A total Lagrangian finite element model whose integration points are grainlaw states.
+// A total Lagrangian finite element model whose integration points are a set of grainlaw.
 #pragma once
 
 #include "app/library.hpp"
@@ -33,7 +33,7 @@ class PointField {
   // F at every point for these displacements, one batch call. When a point fails, its status.
   grainlaw_status evaluate(const Eigen::VectorXd& displacement, unsigned want, int threads);
   // Smallest step ratio of the points that failed, and the first of them with its message.
-  [[nodiscard]] double step_ratio() const;
+  [[nodiscard]] double step_ratio() const { return summary_.step_ratio; }
   [[nodiscard]] std::string message() const;
 
   // Largest change of F (Frobenius norm) that this change of displacement makes in a point.
@@ -71,7 +71,7 @@ class PointField {
   [[nodiscard]] const Tensor& stress(std::size_t point) const { return stress_[point]; }
   [[nodiscard]] const grainlaw_report& report(std::size_t point) const { return reports_[point]; }
   [[nodiscard]] const grainlaw_state* state(std::size_t point) const {
-    return states_[point].get();
+    return grainlaw_points_state(set_.get(), point);
   }
 
  private:
@@ -89,9 +89,8 @@ class PointField {
   std::vector<Point> points_;
   Hourglass hourglass_;
   Eigen::VectorXd displacement_;  // of the last evaluation [m]
-  std::vector<State> states_;
-  std::vector<grainlaw_state*> handles_;
-  std::vector<grainlaw_status> status_;
+  Points set_;
+  grainlaw_summary summary_ = grainlaw_summary_default();  // of the last evaluation
   std::vector<grainlaw_report> reports_;
   std::vector<Tensor> deformation_;
   std::vector<Tensor> stress_;
