@@ -1,5 +1,5 @@
 // Every number that was tuned, in one place: meaning, unit, and where it comes from.
-//   sweep  `verification/run sweep NAME=VALUE` leads the paths of `study reach` with another value;
+//   sweep  `verification/run sweep NAME=VALUE` leads the paths of `grainlaw_evidence reach` with another value;
 //          verification/README.md has what came of it
 //   reach, start, newton, error  studies of `verification/run study` that it was chosen by
 //   method  follows from what it is compared with

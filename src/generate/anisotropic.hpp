@@ -6,7 +6,7 @@
 namespace grainlaw {
 
 // Finds the deviatoric stress under which the contact normals have the wanted anisotropy
-// A = largest / smallest eigenvalue of the fabric - 1 (Liu, Bosco & Suiker 2017b, eq. 38), major along
+// A = largest / smallest eigenvalue of the fabric - 1 (Liu, Bosco & Suiker 2019, eq. 38), major along
 // `direction` [rad], by a secant search along a path of equilibria; the mean pressure, or the volume,
 // of the target is kept. Fabric follows stress: at isotropic stress only what chance and history left of it stays,
 // a few hundredths. The deviatoric stress remains in the packing. Contacts come and go one by one,

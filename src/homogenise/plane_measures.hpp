@@ -7,7 +7,7 @@
 
 namespace grainlaw {
 
-// Largest / smallest eigenvalue of the fabric - 1 (Liu, Bosco & Suiker 2017b, eq. 38) [-].
+// Largest / smallest eigenvalue of the fabric - 1 (Liu, Bosco & Suiker 2019, eq. 38) [-].
 double anisotropy(const Tensor<2>& fabric);
 
 // sqrt(1/2 Fa : Fa) of Fa = 4 dev fabric (Guo & Zhao 2014, eqs. 24-25) [-].

@@ -3,11 +3,11 @@
 #pragma once
 
 #include "base/error.hpp"
-#include "io/text_file.hpp"
+#include "io/csv_records.hpp"
 
-#include <csv.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -16,7 +16,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
-#include <tuple>
+#include <vector>
 
 namespace grainlaw {
 
@@ -27,21 +27,25 @@ class CsvTable {
   // path is the file's name in messages.
   CsvTable(const std::string& path, std::string_view text,
            const std::array<const char*, columns>& names)
-      : path_(path),
-        names_(names),
-        content_(checked(path, text)),
-        header_(first_line(content_)),
-        reader_(path, content_.data(), content_.data() + content_.size()) {
-    translate([&] {
-      std::apply(
-          [&](auto... name) {
-            reader_.read_header(io::ignore_extra_column | io::ignore_missing_column, name...);
-          },
-          names_);
-    });
+      : path_(path), names_(names), text_(text), records_(text_) {
+    if (text_.find('\0') != std::string::npos)
+      throw Error(GRAINLAW_BAD_PACKING, fmt::format("{}: not a text file", path));
+    if (!read_record()) fail("the file is empty, expected a header line");
+    header_ = shortened(text_.substr(0, text_.find_first_of("\r\n")));
+    width_ = fields_.size();
+    place_.fill(none);
+    for (std::size_t k = 0; k < width_; ++k)
+      for (std::size_t column = 0; column < columns; ++column)
+        if (fields_[k] == names_[column]) {
+          if (place_[column] != none) fail(fmt::format("column '{}' stands twice", fields_[k]));
+          place_[column] = k;
+        }
   }
 
-  [[nodiscard]] bool has(std::size_t column) const { return reader_.has_column(names_[column]); }
+  CsvTable(const CsvTable&) = delete;
+  CsvTable& operator=(const CsvTable&) = delete;
+
+  [[nodiscard]] bool has(std::size_t column) const { return place_[column] != none; }
 
   // Columns first..last-1 must be there.
   void require(std::size_t first, std::size_t last) const {
@@ -52,13 +56,16 @@ class CsvTable {
 
   // Read the next line that is not blank; false at the end.
   bool next() {
-    bool more = false;
-    translate(
-        [&] { more = std::apply([&](auto&... text) { return reader_.read_row(text...); }, row_); });
-    return more;
+    if (!read_record()) return false;
+    if (fields_.size() < width_) fail("fewer fields than the header has columns");
+    if (fields_.size() > width_) fail("more fields than the header has columns");
+    return true;
   }
 
-  [[nodiscard]] std::string_view text(std::size_t column) const { return row_[column]; }
+  // Empty where there is no such column.
+  [[nodiscard]] std::string_view text(std::size_t column) const {
+    return has(column) ? std::string_view(fields_[place_[column]]) : std::string_view();
+  }
 
   // A finite number.
   [[nodiscard]] double real(std::size_t column) const {
@@ -88,29 +95,31 @@ class CsvTable {
     throw Error(GRAINLAW_BAD_PACKING, fmt::format("{}:{}: {}", path_, line(), message));
   }
 
-  [[nodiscard]] unsigned line() const { return reader_.get_file_line(); }
+  [[nodiscard]] std::size_t line() const { return records_.line(); }
 
  private:
-  using Reader =
-      io::CSVReader<columns, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
-                    io::throw_on_overflow, io::empty_line_comment>;
-
-  // Ends in a line break: the reader looks one byte past the last line.
-  static std::string checked(const std::string& path, std::string_view found) {
-    std::string text(found);
-    if (text.find('\0') != std::string::npos)
-      throw Error(GRAINLAW_BAD_PACKING, fmt::format("{}: not a text file", path));
-    if (!text.empty() && text.back() != '\n') text += '\n';
-    return text;
-  }
+  static constexpr auto none = static_cast<std::size_t>(-1);
 
   // As much of it as a message has room for.
-  static std::string first_line(std::string_view text) {
+  static std::string shortened(std::string line) {
     constexpr std::size_t longest = 120;
-    std::string line(text.substr(0, text.find_first_of("\r\n")));
     for (char& letter : line)
       if (static_cast<unsigned char>(letter) < ' ') letter = ' ';
     return line.size() > longest ? line.substr(0, longest) + "..." : line;
+  }
+
+  // The next that is not blank, its fields without blanks around them; false at the end.
+  bool read_record() {
+    constexpr std::string_view blanks = " \t";
+    do {
+      if (!records_.next(fields_)) return false;
+      if (records_.open()) fail("a quote is not closed");
+      for (std::string& field : fields_) {
+        field.erase(0, std::min(field.size(), field.find_first_not_of(blanks)));
+        field.erase(field.find_last_not_of(blanks) + 1);
+      }
+    } while (fields_.size() == 1 && fields_.front().empty());
+    return true;
   }
 
   template <class T>
@@ -121,27 +130,14 @@ class CsvTable {
     return error == std::errc{} && stop == end && !field.empty();
   }
 
-  template <class Action>
-  void translate(Action&& action) const {
-    try {
-      action();
-    } catch (const io::error::header_missing&) {
-      fail("the file is empty, expected a header line");
-    } catch (const io::error::too_few_columns&) {
-      fail("fewer fields than the header has columns");
-    } catch (const io::error::too_many_columns&) {
-      fail("more fields than the header has columns");
-    } catch (const io::error::base& e) {
-      fail(e.what());
-    }
-  }
-
   std::string path_;
   std::array<const char*, columns> names_;
-  std::array<const char*, columns> row_{};
-  std::string content_;
+  std::string text_;
+  CsvRecords records_;
+  std::vector<std::string> fields_;
+  std::array<std::size_t, columns> place_{};  // of each column in a record
+  std::size_t width_ = 0;
   std::string header_;  // for messages
-  Reader reader_;
 };
 
 }  // namespace grainlaw

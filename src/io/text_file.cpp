@@ -1,6 +1,6 @@
 #include "io/text_file.hpp"
 
-#include "base/error.hpp"
+#include "io/descriptor.hpp"
 
 #include <fmt/format.h>
 
@@ -13,65 +13,17 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <memory>
-#include <new>
 #include <vector>
 
 namespace grainlaw {
 
 namespace {
 
-[[noreturn]] void fail(const std::string& path, const char* what, int error) {
-  if (error == ENOMEM) throw std::bad_alloc();
-  throw Error(GRAINLAW_FILE_ERROR,
-              fmt::format("{}: cannot be {}: {}", path, what, std::strerror(error)));
-}
-
-class Descriptor {
- public:
-  Descriptor(const std::string& path, int flags)
-      : number_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
-  ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  [[nodiscard]] bool valid() const { return number_ >= 0; }
-  [[nodiscard]] ssize_t read(char* to, std::size_t size) const {
-    for (;;) {
-      const ssize_t count = ::read(number_, to, size);
-      if (count >= 0 || errno != EINTR) return count;
-    }
-  }
-  // Each returns 0, or the error.
-  int write(std::string_view text) {
-    while (!text.empty()) {
-      const ssize_t count = ::write(number_, text.data(), text.size());
-      if (count < 0 && errno == EINTR) continue;
-      if (count < 0) return errno;
-      text.remove_prefix(static_cast<std::size_t>(count));
-    }
-    return 0;
-  }
-  int keep_mode(mode_t mode) { return ::fchmod(number_, mode) == 0 ? 0 : errno; }
-  int sync() {
-    const bool done = ::fsync(number_) == 0;
-    return done || errno == EINVAL || errno == ENOSYS ? 0 : errno;  // some file systems cannot
-  }
-  int close() {
-    const int result = number_ < 0 || ::close(number_) == 0 ? 0 : errno;
-    number_ = -1;
-    return result;
-  }
-
- private:
-  int number_;
-};
-
 std::string behind_links(const std::string& path) {
   const std::unique_ptr<char, void (*)(void*)> target(::realpath(path.c_str(), nullptr),
                                                       &std::free);
-  if (target == nullptr) fail(path, "written", errno);
+  if (target == nullptr) fail_file(path, "written", errno);
   return target.get();
 }
 
@@ -102,29 +54,33 @@ class NoSizeSignal {
 // A new file beside the one that it will be.
 class Beside {
  public:
-  Beside(const TextFile& file, bool sync) : path_(file.path), target_(file.path) {
+  Beside(const std::string& path, std::string_view text, Writing writing)
+      : path_(path), target_(path), writing_(writing) {
     struct stat old {};
     const bool exists = ::stat(path_.c_str(), &old) == 0;
     if (exists && !S_ISREG(old.st_mode)) {
-      write_in_place(file.text);
+      write_in_place(text);
       return;
     }
-    if (exists && ::access(path_.c_str(), W_OK) != 0) fail(path_, "written", errno);
+    if (exists && ::access(path_.c_str(), W_OK) != 0) fail_file(path_, "written", errno);
     if (exists) target_ = behind_links(path_);
-    static std::atomic<unsigned> number{0};  // no other process or thread has this name
+    const std::size_t end = target_.rfind('/');
+    directory_ = end == std::string::npos ? "." : target_.substr(0, end + 1);
+    static std::atomic<unsigned> number{0};
     for (;;) {
-      name_ = fmt::format("{}.{}.{}.new", target_, ::getpid(), number++);
-      Descriptor beside(name_, O_WRONLY | O_CREAT | O_EXCL);
-      if (!beside.valid() && errno == EEXIST) continue;
-      if (!beside.valid()) fail(path_, "written", errno);
-      int error = beside.write(file.text);
+      name_ = writing_.alone ? target_ + ".new"
+                             : fmt::format("{}.{}.{}.new", target_, ::getpid(), number++);
+      Descriptor beside(name_, O_WRONLY | O_CREAT | (writing_.alone ? O_TRUNC : O_EXCL));
+      if (!beside.valid() && errno == EEXIST && !writing_.alone) continue;
+      if (!beside.valid()) fail_file(path_, "written", errno);
+      int error = beside.write(text);
       if (error == 0 && exists) error = beside.keep_mode(old.st_mode & 07777U);
-      if (error == 0 && sync) error = beside.sync();
+      if (error == 0 && writing_.wait) error = beside.sync();
       const int closing = beside.close();
       if (error == 0) error = closing;
       if (error == 0) return;
       ::unlink(name_.c_str());
-      fail(path_, "written", error);
+      fail_file(path_, "written", error);
     }
   }
   ~Beside() {
@@ -135,22 +91,27 @@ class Beside {
 
   void take_place() {
     if (name_.empty()) return;
-    if (std::rename(name_.c_str(), target_.c_str()) != 0) fail(path_, "written", errno);
+    if (std::rename(name_.c_str(), target_.c_str()) != 0) fail_file(path_, "written", errno);
     name_.clear();
+    if (!writing_.wait) return;
+    // The name itself is on the disk once its directory is; nothing fails any more.
+    Descriptor directory(directory_, O_RDONLY | O_DIRECTORY);
+    if (directory.valid()) static_cast<void>(directory.sync());
   }
 
  private:
   // E.g. /dev/stdout.
   void write_in_place(std::string_view text) const {
     Descriptor file(path_, O_WRONLY | O_TRUNC);
-    if (!file.valid()) fail(path_, "written", errno);
+    if (!file.valid()) fail_file(path_, "written", errno);
     int error = file.write(text);
     const int closing = file.close();
     if (error == 0) error = closing;
-    if (error != 0) fail(path_, "written", error);
+    if (error != 0) fail_file(path_, "written", error);
   }
 
-  std::string path_, target_;
+  std::string path_, target_, directory_;
+  Writing writing_;
   std::string name_;  // "" : it is in its place
 };
 
@@ -158,26 +119,54 @@ class Beside {
 
 std::string read_text(const std::string& path) {
   const Descriptor file(path, O_RDONLY);
-  if (!file.valid()) fail(path, "read", errno);
+  if (!file.valid()) fail_file(path, "read", errno);
   std::string text;
   char block[1 << 14];
   ssize_t count = 0;
   while ((count = file.read(block, sizeof block)) > 0)
     text.append(block, static_cast<std::size_t>(count));
-  if (count < 0) fail(path, "read", errno);
+  if (count < 0) fail_file(path, "read", errno);
   return text;
 }
 
-void write_text(const std::string& path, std::string_view text) {
+void write_text(const std::string& path, std::string_view text, Writing writing) {
   const NoSizeSignal no_signal;
-  Beside({path, std::string(text)}, false).take_place();
+  Beside(path, text, writing).take_place();
 }
 
-void write_together(std::span<const TextFile> files) {
+void write_together(std::span<const TextFile> files, Writing writing) {
   const NoSizeSignal no_signal;
   std::vector<std::unique_ptr<Beside>> whole;
-  for (const TextFile& file : files) whole.push_back(std::make_unique<Beside>(file, true));
+  for (const TextFile& file : files)
+    whole.push_back(std::make_unique<Beside>(file.path, file.text, writing));
   for (const auto& file : whole) file->take_place();
+}
+
+void sync_file(const std::string& path) {
+  Descriptor file(path, O_RDONLY);
+  if (!file.valid()) fail_file(path, "written", errno);
+  if (const int error = file.sync(); error != 0) fail_file(path, "written", error);
+}
+
+GrowingFile::GrowingFile(const std::string& path)
+    : path_(path), file_(path, O_WRONLY | O_CREAT | O_TRUNC) {
+  if (!file_.valid()) fail_file(path, "written", errno);
+}
+
+GrowingFile::GrowingFile(const std::string& path, std::uintmax_t length)
+    : path_(path), file_(path, O_WRONLY | O_APPEND), length_(length) {
+  if (!file_.valid()) fail_file(path, "written", errno);
+  if (const int error = file_.cut(length); error != 0) fail_file(path, "written", error);
+}
+
+void GrowingFile::append(std::string_view bytes) {
+  const NoSizeSignal no_signal;
+  if (const int error = file_.write(bytes); error != 0) {
+    // Best effort: what is there of the piece would be read as the whole of it.
+    static_cast<void>(file_.cut(length_));
+    fail_file(path_, "written", error);
+  }
+  length_ += bytes.size();
 }
 
 }  // namespace grainlaw

@@ -35,6 +35,16 @@ bool resembles(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+toml::table parse_toml(std::string_view text, const std::string& name) {
+  // With exceptions, or a name to keep, it would end the process where there is no memory for them.
+  toml::parse_result parsed = toml::parse(text);
+  if (!parsed)
+    throw Error(GRAINLAW_BAD_MATERIAL,
+                fmt::format("{}:{}: {}", name, parsed.error().source().begin.line,
+                            parsed.error().description()));
+  return std::move(parsed).table();
+}
+
 Expectation<double> any_number() {
   return number("a number", [](double) { return true; });
 }
@@ -94,15 +104,15 @@ Expectation<std::array<double, 2>> positive_range() {
 }
 
 TomlTable TomlTable::required_table(std::string_view key) {
-  const toml::node* node = find(key);
-  if (node == nullptr) fail(key, "nothing", "a table");
-  return child(key, *node);
+  const toml::node* found = node(key);
+  if (found == nullptr) fail(key, "nothing", "a table");
+  return child(key, *found);
 }
 
 TomlTable TomlTable::optional_table(std::string_view key) {
   static const toml::table empty;
-  const toml::node* node = find(key);
-  return child(key, node == nullptr ? empty : *node);
+  const toml::node* found = node(key);
+  return child(key, found == nullptr ? empty : *found);
 }
 
 void TomlTable::require_either(std::string_view one, std::string_view other) {
@@ -125,13 +135,24 @@ void TomlTable::fail(std::string_view key, std::string_view found,
     if (!has(key) && !asked && resembles(key, other.str()))
       perhaps = fmt::format(" ({} in line {}?)", other.str(), value.source().begin.line);
   }
-  throw Error(GRAINLAW_BAD_MATERIAL, fmt::format("{}:{}: {}: found {}, expected {}{}", file_,
-                                                 line(key), path(key), found, expected, perhaps));
+  throw Error(GRAINLAW_BAD_MATERIAL, fmt::format("{}: {}: found {}, expected {}{}", where(key),
+                                                 path(key), found, expected, perhaps));
 }
 
-const toml::node* TomlTable::find(std::string_view key) {
-  asked_.emplace_back(key);
+const toml::node* TomlTable::node(std::string_view key) {
+  if (std::ranges::find(asked_, key) == asked_.end()) asked_.emplace_back(key);
   return table_->get(key);
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key) {
+  const toml::node* found = node(key);
+  std::vector<TomlTable> result;
+  if (found == nullptr) return result;
+  if (!found->is_array_of_tables())
+    fail(key, describe(*found), fmt::format("tables, each under [[{}]]", key));
+  for (const toml::node& item : *found->as_array())
+    result.push_back(child(fmt::format("{}[{}]", key, result.size() + 1), item));
+  return result;
 }
 
 TomlTable TomlTable::child(std::string_view key, const toml::node& node) const {
@@ -143,16 +164,24 @@ TomlTable TomlTable::child(std::string_view key, const toml::node& node) const {
 
 std::string TomlTable::path(std::string_view key) const { return prefix_ + std::string(key); }
 
-// That of the key, or of its table when the key is missing.
-unsigned TomlTable::line(std::string_view key) const {
+std::string TomlTable::where(std::string_view key) const {
+  auto line = table_->source().begin.line;
   for (const auto& [name, value] : *table_)
-    if (name.str() == key) return name.source().begin.line;
-  return std::max(1U, static_cast<unsigned>(table_->source().begin.line));
+    if (name.str() == key) line = name.source().begin.line;
+  // What was merged from several places has no line of its own.
+  if (line == 0 && !table_->empty()) return file_;
+  return fmt::format("{}:{}", file_, std::max(line, toml::source_index{1}));
+}
+
+std::string TomlTable::place() const {
+  return fmt::format("{}: {}", where(""),
+                     prefix_.substr(0, prefix_.size() - (prefix_.empty() ? 0 : 1)));
 }
 
 std::string TomlTable::describe(const toml::node& node) {
   constexpr std::size_t longest = 60;
   if (node.is_table()) return "a table";
+  if (node.is_array_of_tables()) return "an array of tables";
   if (node.is_floating_point()) return fmt::format("{:#}", node.value_or(NAN));
   std::string found;
   if (const toml::array* array = node.as_array()) {

@@ -58,18 +58,24 @@ Expectation<T> one_of(std::initializer_list<std::pair<std::string_view, T>> word
           }};
 }
 
+// The whole text of a file that is called by this name. Throws Error (BAD_MATERIAL) "name:line: what is
+// wrong".
+toml::table parse_toml(std::string_view text, const std::string& name);
+
 // Every failure is an Error (BAD_MATERIAL) with the text
 //   file:line: table.key: found X, expected Y
 class TomlTable {
  public:
-  // The file's top table. The file is only a name here; table must outlive this.
-  TomlTable(const toml::table& table, std::string file) : table_(&table), file_(std::move(file)) {}
+  // The table that messages call by this name, "" for the file's top one. The file is only a name here;
+  // table must outlive this.
+  TomlTable(const toml::table& table, std::string file, const std::string& name = "")
+      : table_(&table), file_(std::move(file)), prefix_(name.empty() ? "" : name + '.') {}
 
   template <class T>
   T required(std::string_view key, const Expectation<T>& expectation) {
-    const toml::node* node = find(key);
-    if (node == nullptr) fail(key, "nothing", expectation.text);
-    return read(key, *node, expectation);
+    const toml::node* found = node(key);
+    if (found == nullptr) fail(key, "nothing", expectation.text);
+    return read(key, *found, expectation);
   }
 
   template <class T, class U>
@@ -80,9 +86,9 @@ class TomlTable {
   // Nothing when the key is absent.
   template <class T>
   std::optional<T> optional(std::string_view key, const Expectation<T>& expectation) {
-    const toml::node* node = find(key);
-    if (node == nullptr) return std::nullopt;
-    return read(key, *node, expectation);
+    const toml::node* found = node(key);
+    if (found == nullptr) return std::nullopt;
+    return read(key, *found, expectation);
   }
 
   // Sets value when the key is there, else leaves its default.
@@ -91,6 +97,10 @@ class TomlTable {
     if (const std::optional<U> found = optional(key, expectation)) value = static_cast<T>(*found);
   }
 
+  // The value itself, for keys that are passed on; null when absent.
+  const toml::node* node(std::string_view key);
+  // The tables under [[key]]; absent: none.
+  std::vector<TomlTable> tables(std::string_view key);
   TomlTable required_table(std::string_view key);
   TomlTable optional_table(std::string_view key);  // empty when absent
 
@@ -101,23 +111,27 @@ class TomlTable {
   void finish() const;
 
   [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
+  [[nodiscard]] const toml::table& content() const { return *table_; }
+  // "file:line: name", for messages about what the table as a whole says.
+  [[nodiscard]] std::string place() const;
+  // A value as messages show it.
+  static std::string describe(const toml::node& node);
   // At the line of the key; of its table where it is missing, with the key that may be meant for it.
   [[noreturn]] void fail(std::string_view key, std::string_view found,
                          std::string_view expected) const;
 
  private:
   template <class T>
-  T read(std::string_view key, const toml::node& node, const Expectation<T>& expectation) const {
-    std::optional<T> value = expectation.read(node);
-    if (!value) fail(key, describe(node), expectation.text);
+  T read(std::string_view key, const toml::node& found, const Expectation<T>& expectation) const {
+    std::optional<T> value = expectation.read(found);
+    if (!value) fail(key, describe(found), expectation.text);
     return std::move(*value);
   }
 
-  const toml::node* find(std::string_view key);
   [[nodiscard]] TomlTable child(std::string_view key, const toml::node& node) const;
   [[nodiscard]] std::string path(std::string_view key) const;
-  [[nodiscard]] unsigned line(std::string_view key) const;
-  static std::string describe(const toml::node& node);
+  // "file:line" of the key, or of the table when the key is missing.
+  [[nodiscard]] std::string where(std::string_view key) const;
 
   const toml::table* table_;
   std::string file_;

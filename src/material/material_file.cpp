@@ -145,13 +145,8 @@ MaterialDescription read_material_file(const std::string& path) {
 
 MaterialDescription parse_material(std::string_view text, const std::string& base_directory,
                                    const std::string& name) {
-  // With exceptions, or a name to keep, it would end the process where there is no memory for them.
-  const toml::parse_result parsed = toml::parse(text);
-  if (!parsed)
-    throw Error(GRAINLAW_BAD_MATERIAL,
-                fmt::format("{}:{}: {}", name, parsed.error().source().begin.line,
-                            parsed.error().description()));
-  TomlTable top(parsed.table(), name);
+  const toml::table parsed = parse_toml(text, name);
+  TomlTable top(parsed, name);
   return read_description(top, base_directory);
 }
 

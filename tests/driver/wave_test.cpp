@@ -1,7 +1,7 @@
 // Waves through rows of discs: particles against closed forms, meshes against particles.
 
-#include "dns/wave_motion.hpp"
-#include "dns/wave_run.hpp"
+#include "wave/motion.hpp"
+#include "wave/run.hpp"
 #include "material/material_file.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace verification {
 namespace {
 
 const std::string scenes =
-    std::string(GRAINLAW_TEST_DATA) + "/../../verification/scenes/papers-003/";
+    std::string(GRAINLAW_TEST_DATA) + "/../../verification/scenes/liu2018_waves/";
 constexpr const char* string_bonds =
     "contact = { law = 'bonded', ratio = 0.4, friction = 0, bond.normal_strength = 3e6, "
     "bond.tangential_strength = 6e6 }";
@@ -113,7 +113,7 @@ TEST(wave, broken_bonds_dissipate_what_they_held) {
 
 TEST(wave, volumes_in_a_row_are_the_specimens_of_the_thesis) {
   const auto material =
-      grainlaw::make_material(grainlaw::read_material_file(scenes + "pack_regular.toml"));
+      grainlaw::make_material<2>(grainlaw::read_material_file(scenes + "pack_regular.toml"));
   EXPECT_EQ(repeat_along_x(*material, 40).size(), 9615U);
   const WaveSpecimen specimen = repeat_along_x(*material, 26);
   EXPECT_EQ(specimen.size(), 6255U);

@@ -2,7 +2,7 @@
 #include "support.hpp"
 
 #include "dns/scene.hpp"
-#include "dns/wave_scene.hpp"
+#include "wave/scene.hpp"
 #include "fe/scene.hpp"
 #include "point/scene.hpp"
 

@@ -1,6 +1,8 @@
 // Files that are either the old ones or the whole new ones, whenever the process or the machine
-// stops.
+// stops: those of src/io, with errors of the program.
 #pragma once
+
+#include "io/text_file.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -30,22 +32,16 @@ void sync_file(const std::filesystem::path& path);
 // A file that grows by whole pieces: what cannot be written to its end leaves nothing of itself.
 class GrowingFile {
  public:
-  // Empty, or with its first `length` bytes. Throw ComputationError.
+  // Empty, or with its first `length` bytes. Throw ComputationError, as append() does.
   explicit GrowingFile(const std::filesystem::path& path);
   GrowingFile(const std::filesystem::path& path, std::uintmax_t length);
-  ~GrowingFile();
-  GrowingFile(const GrowingFile&) = delete;
-  GrowingFile& operator=(const GrowingFile&) = delete;
 
-  // Throws ComputationError.
   void append(std::string_view bytes);
-  [[nodiscard]] std::uintmax_t length() const { return length_; }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::uintmax_t length() const { return file_.length(); }
+  [[nodiscard]] std::filesystem::path path() const { return file_.path(); }
 
  private:
-  std::filesystem::path path_;
-  int number_;
-  std::uintmax_t length_ = 0;
+  grainlaw::GrowingFile file_;
 };
 
 }  // namespace verification

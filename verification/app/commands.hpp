@@ -9,8 +9,8 @@ namespace verification {
 void add_point_command(CLI::App& app);
 void add_solve_command(CLI::App& app);
 void add_dns_command(CLI::App& app);
-void add_pack_command(CLI::App& app);
-void add_study_command(CLI::App& app);
 void add_wave_command(CLI::App& app);
+void add_pack_command(CLI::App& app);
+void add_compare_command(CLI::App& app);
 
 }  // namespace verification

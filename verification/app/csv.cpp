@@ -2,41 +2,17 @@
 
 #include "app/library.hpp"
 #include "app/text.hpp"
+#include "io/csv_records.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
 
 namespace verification {
 namespace {
-
-// The fields of the next record; empty at the end.
-std::vector<std::string> next_record(std::istream& stream) {
-  std::vector<std::string> fields;
-  bool quoted = false;
-  for (int c = stream.get(); c != EOF; c = stream.get()) {
-    if (fields.empty()) fields.emplace_back();
-    std::string& field = fields.back();
-    if (c == '"' && quoted && stream.peek() == '"') {
-      field += static_cast<char>(stream.get());
-    } else if (c == '"' && (quoted || field.empty())) {
-      quoted = !quoted;
-    } else if (quoted) {
-      field += static_cast<char>(c);
-    } else if (c == ',') {
-      fields.emplace_back();
-    } else if (c == '\n') {
-      break;
-    } else if (c != '\r' || stream.peek() != '\n') {
-      field += static_cast<char>(c);
-    }
-  }
-  return fields;
-}
 
 std::string header(const std::vector<std::string>& columns) {
   std::vector<std::string> fields;
@@ -100,16 +76,17 @@ const std::vector<double>& CsvTable::operator[](std::string_view name) const {
 }
 
 CsvTable read_csv(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
+  const std::string text = as<InputError>([&] { return grainlaw::read_text(path.string()); });
+  grainlaw::CsvRecords records(text);
   CsvTable table;
-  for (const std::string& field : next_record(stream)) table.names.push_back(without_unit(field));
-  if (table.names.empty()) throw InputError(fmt::format("{}: cannot be read", path.string()));
-  table.columns.resize(table.names.size());
   std::vector<std::string> fields;
-  for (int number = 2; !(fields = next_record(stream)).empty(); ++number) {
+  if (!records.next(fields)) throw InputError(fmt::format("{}: cannot be read", path.string()));
+  for (const std::string& field : fields) table.names.push_back(without_unit(field));
+  table.columns.resize(table.names.size());
+  while (records.next(fields)) {
     if (fields.size() != table.names.size())
-      throw InputError(fmt::format("{}:{}: found {} fields, expected {}", path.string(), number,
-                                   fields.size(), table.names.size()));
+      throw InputError(fmt::format("{}:{}: found {} fields, expected {}", path.string(),
+                                   records.line(), fields.size(), table.names.size()));
     for (std::size_t k = 0; k < fields.size(); ++k)
       table.columns[k].push_back(std::strtod(fields[k].c_str(), nullptr));
   }
@@ -117,11 +94,11 @@ CsvTable read_csv(const std::filesystem::path& path) {
 }
 
 std::vector<std::string> read_csv_names(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::vector<std::string> names;
-  next_record(stream);
-  for (std::vector<std::string> fields; !(fields = next_record(stream)).empty();)
-    names.push_back(fields.front());
+  const std::string text = as<InputError>([&] { return grainlaw::read_text(path.string()); });
+  grainlaw::CsvRecords records(text);
+  std::vector<std::string> names, fields;
+  records.next(fields);
+  while (records.next(fields)) names.push_back(fields.front());
   return names;
 }
 

@@ -27,7 +27,7 @@ class CsvWriter {
   void row(const std::vector<double>& values);
   // Bytes written so far, header included.
   [[nodiscard]] std::uintmax_t length() const { return file_.length(); }
-  [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
+  [[nodiscard]] std::filesystem::path path() const { return file_.path(); }
 
  private:
   GrowingFile file_;

@@ -1,6 +1,8 @@
 // The library as the driver sees it: the public C header with handles that close themselves.
 #pragma once
 
+#include "base/error.hpp"
+
 #include <grainlaw/grainlaw.h>
 
 #include <Eigen/Dense>
@@ -26,6 +28,16 @@ struct ComputationError : std::runtime_error {
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+// What src/io throws, as an error of the program.
+template <class Failure, class Action>
+decltype(auto) as(Action&& action) {
+  try {
+    return action();
+  } catch (const grainlaw::Error& error) {
+    throw Failure(error.what());
+  }
+}
 
 struct MaterialDeleter {
   void operator()(grainlaw_material* material) const { grainlaw_material_destroy(material); }

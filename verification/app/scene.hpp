@@ -2,8 +2,7 @@
 #pragma once
 
 #include "app/library.hpp"
-
-#include <toml++/toml.h>
+#include "io/toml_table.hpp"
 
 #include <filesystem>
 #include <limits>
@@ -25,13 +24,14 @@ inline constexpr Range positive{0, std::numeric_limits<double>::infinity(), true
 inline constexpr Range not_negative{0, std::numeric_limits<double>::infinity(), false,
                                     "a number >= 0"};
 
-// A table of a scene file. Every key that is asked for counts as known; close() refuses the rest.
-// All functions throw InputError "file:line: key: found X, expected Y".
+// A table of a scene file: src/io's, with errors of the program. Every key that is asked for counts as
+// known; close() refuses the rest. All functions throw InputError "file:line: key: found X, expected Y".
 class SceneTable {
  public:
-  SceneTable(const toml::table& table, std::filesystem::path file, std::string name);
+  // The table that messages call by this name, "" for the root. It must outlive this.
+  SceneTable(const toml::table& table, std::filesystem::path file, const std::string& name);
 
-  bool has(std::string_view key) { return find(key) != nullptr; }
+  bool has(std::string_view key) { return node(key) != nullptr; }
 
   double number(std::string_view key, const Range& range = any_number);
   double number_or(std::string_view key, double fallback, const Range& range = any_number);
@@ -51,7 +51,7 @@ class SceneTable {
   SceneTable table(std::string_view key);
   std::vector<SceneTable> tables(std::string_view key);
   // The value itself, for keys that are passed on; null when absent.
-  const toml::node* node(std::string_view key);
+  const toml::node* node(std::string_view key) { return table_.node(key); }
 
   // To be called when everything was asked for. Throws for the first key that nobody knows.
   void close() const;
@@ -61,17 +61,17 @@ class SceneTable {
   [[noreturn]] void fail(std::string_view key, std::string_view found,
                          std::string_view expected) const;
   // "file:line: name", for messages about what the table as a whole says.
-  [[nodiscard]] std::string place() const;
+  [[nodiscard]] std::string place() const { return table_.place(); }
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
-  [[nodiscard]] const toml::table& content() const { return *table_; }
+  [[nodiscard]] const toml::table& content() const { return table_.content(); }
 
  private:
-  const toml::node* find(std::string_view key);
+  SceneTable(grainlaw::TomlTable table, std::filesystem::path file);
+  template <class T>
+  T required(std::string_view key, const grainlaw::Expectation<T>& expectation);
 
-  const toml::table* table_;
+  grainlaw::TomlTable table_;
   std::filesystem::path file_;
-  std::string name_;  // dotted name of this table, "" for the root
-  std::vector<std::string> known_;
 };
 
 // A parsed scene file; SceneTable points into it.

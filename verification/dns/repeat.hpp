@@ -43,7 +43,7 @@ void write_frame(const FramePacking& frame, const std::string& prefix);
 
 // columns x rows copies, each shifted by the vectors of the cell. Copies share the particles and
 // contacts of the sides between them, so that n of them have n times the contacts of the periodic
-// packing that the frame was cut from, and those of two sides once more (Liu, Bosco & Suiker 2017b,
+// packing that the frame was cut from, and those of two sides once more (Liu, Bosco & Suiker 2019,
 // section 4.2).
 FramePacking repeat(const FramePacking& frame, int columns, int rows);
 

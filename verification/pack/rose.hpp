@@ -15,7 +15,7 @@ struct Rose {
   double direction = 0;   // of the larger eigenvalue against x [rad]
 };
 
-// Every contact counts with its normal and the opposite one (Liu, Bosco & Suiker 2017b, eq. 39);
+// Every contact counts with its normal and the opposite one (Liu, Bosco & Suiker 2019, eq. 39);
 // copies in a frame count once.
 Rose contact_rose(const WrittenPacking& packing, int sectors = 36);
 

@@ -7,7 +7,7 @@ namespace verification {
 
 // Mass of every displacement component [kg/m], for a density in mass per reference volume [kg/m3]:
 // the mass of an element shared in the ratio of the integrals of its squared shape functions
-// (thesis eq. 4.17, papers/000 eq. 24).
+// (thesis eq. 4.17, liu2019_biaxial eq. 24).
 Eigen::VectorXd lumped_mass(const Mesh& mesh, double density);
 
 }  // namespace verification

@@ -1,5 +1,5 @@
 // Dynamic relaxation of a finite element model to equilibrium at the end of every load step: explicit
-// dynamics with adaptive viscous damping and time step (Liu et al., papers/000 eqs. 20-29).
+// dynamics with adaptive viscous damping and time step (Liu et al., liu2019_biaxial eqs. 20-29).
 #pragma once
 
 #include "fe/solver/solver.hpp"

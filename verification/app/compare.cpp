@@ -1,0 +1,177 @@
+// `grainlaw compare NAME=TABLE...`: finished drained tests beside each other, of this program and of
+// others.
+
+#include "app/commands.hpp"
+#include "app/csv.hpp"
+#include "app/figure.hpp"
+#include "app/library.hpp"
+#include "app/output.hpp"
+#include "app/table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace verification {
+namespace {
+
+constexpr double percent = 100;
+
+// A drained test; strains in %, axial compression and dilation positive, stresses in kPa.
+struct Curves {
+  std::string name;
+  std::vector<double> strain, axial_stress, ratio, volumetric, coordination;
+
+  [[nodiscard]] double stress_at(double at) const { return interpolate(strain, axial_stress, at); }
+  [[nodiscard]] double peak() const {
+    if (axial_stress.empty()) return std::numeric_limits<double>::quiet_NaN();
+    return *std::max_element(axial_stress.begin(), axial_stress.end());
+  }
+  // Mean axial stress of the rows between two strains.
+  [[nodiscard]] double mean_stress(double from, double to) const {
+    std::vector<double> inside;
+    for (std::size_t k = 0; k < strain.size(); ++k)
+      if (strain[k] >= from && strain[k] <= to) inside.push_back(axial_stress[k]);
+    if (inside.empty()) return std::numeric_limits<double>::quiet_NaN();
+    return std::accumulate(inside.begin(), inside.end(), 0.0) / static_cast<double>(inside.size());
+  }
+};
+
+std::vector<double> scaled(const std::vector<double>& values, double factor) {
+  std::vector<double> result = values;
+  for (double& value : result) value *= factor;
+  return result;
+}
+
+// Of `grainlaw point` or `solve`; else with the columns of YADE's tables in scenes/reference.
+Curves read_curves(const std::string& name, const std::filesystem::path& path) {
+  const CsvTable table = read_csv(path);
+  const bool own =
+      std::find(table.names.begin(), table.names.end(), "sigma22") != table.names.end();
+  Curves curves{name,
+                scaled(table["axial_strain"], percent),
+                own ? scaled(table["sigma22"], -1e-3) : scaled(table["axial_stress"], 1e-3),
+                own ? table["stress_ratio"] : std::vector<double>(),
+                scaled(table["volumetric_strain"], percent),
+                table["coordination"]};
+  for (std::size_t k = 0; !own && k < table.rows(); ++k)
+    curves.ratio.push_back(table["axial_stress"][k] / table["lateral_stress"][k]);
+  return curves;
+}
+
+void print_stresses(const std::vector<Curves>& runs, const std::filesystem::path& file) {
+  std::vector<std::string> columns{"axial_stress[kPa]"};
+  for (const Curves& run : runs) columns.push_back(run.name);
+  Table table("axial stress", columns);
+  const auto line = [&](const std::string& name,
+                        const std::function<double(const Curves&)>& value) {
+    std::vector<Table::Cell> cells{name};
+    for (const Curves& run : runs) cells.push_back(value(run));
+    table.row(cells);
+  };
+  for (const double strain : {0.1, 0.2, 0.5, 1.0, 2.0})
+    line(fmt::format("at {:.1f} % axial strain", strain),
+         [strain](const Curves& run) { return run.stress_at(strain); });
+  line("peak", [](const Curves& run) { return run.peak(); });
+  line("mean 6-10 %", [](const Curves& run) { return run.mean_stress(6, 10); });
+  table.print();
+  table.write(file);
+}
+
+// Largest relative difference of axial stress up to a strain before the peak, where the path does
+// not yet depend on round-off, at multiples of 0.1 %.
+void print_agreement(const Curves& a, const Curves& b) {
+  constexpr double last = 1.0;  // %
+  double worst = 0;
+  for (int k = 1; k <= static_cast<int>(last * 10 + 0.5); ++k) {
+    const double reference = b.stress_at(0.1 * k);
+    const double error = std::abs(a.stress_at(0.1 * k) - reference) / reference;
+    // NaN, of a run that ended before, stays.
+    worst = std::isnan(worst) || error <= worst ? worst : error;
+  }
+  fmt::print("  {:<24} against {:<24} {:.2e} [-]\n", a.name, b.name, worst);
+}
+
+void draw_comparison(const std::string& title, const std::vector<Curves>& runs,
+                     const std::filesystem::path& stem) {
+  constexpr std::array<const char*, 8> colours{colour::blue,  colour::orange, colour::green,
+                                               colour::black, colour::grey,   colour::purple,
+                                               colour::sky,   colour::amber};
+  constexpr std::array<Stroke, 5> strokes{Stroke::solid, Stroke::dashed, Stroke::solid,
+                                          Stroke::thin, Stroke::thin};
+  Figure figure{title, "axial strain [%]", {}};
+  Panel ratio{"stress ratio σ22 / σ11 [-]", {}, 1.5, "bottom right"};
+  Panel volumetric{"volumetric strain, dilation + [%]", {}, 1, ""};
+  Panel coordination{"coordination number [-]", {}, 1, ""};
+  // The first on top, so that the lines of the others do not hide it.
+  for (std::size_t k = runs.size(); k-- > 0;) {
+    const Curves& run = runs[k];
+    const char* colour = colours[k % colours.size()];
+    const Stroke stroke = strokes[k % strokes.size()];
+    ratio.curves.push_back({run.name, run.strain, run.ratio, colour, stroke});
+    volumetric.curves.push_back({"", run.strain, run.volumetric, colour, stroke});
+    coordination.curves.push_back({"", run.strain, run.coordination, colour, stroke});
+  }
+  figure.panels = {ratio, volumetric, coordination};
+  if (draw(figure, stem)) fmt::print("\npicture: {0}.svg and {0}.png\n", stem.string());
+}
+
+struct Arguments {
+  std::vector<std::string> tables;   // NAME=TABLE
+  std::vector<std::string> against;  // names
+  std::string title = "Drained compression";
+  std::string name = "comparison";
+  std::string output = ".";
+};
+
+void compare(const Arguments& arguments) {
+  std::vector<Curves> runs;
+  for (const std::string& table : arguments.tables) {
+    const std::size_t end = table.rfind('=');
+    if (end == std::string::npos || end == 0)
+      throw InputError(fmt::format("found {}, expected NAME=TABLE", table));
+    runs.push_back(read_curves(table.substr(0, end), table.substr(end + 1)));
+  }
+  std::vector<const Curves*> references;
+  for (const std::string& name : arguments.against) {
+    const auto found =
+        std::find_if(runs.begin(), runs.end(), [&](const Curves& run) { return run.name == name; });
+    if (found == runs.end())
+      throw InputError(fmt::format("--against: found {}, expected the name of a table", name));
+    references.push_back(&*found);
+  }
+  if (references.empty()) references.push_back(&runs.back());
+  const std::filesystem::path stem = output_stem(arguments.output, arguments.name);
+  print_stresses(runs, stem.string() + ".csv");
+  fmt::print("\nlargest relative difference of the axial stress up to 1 % axial strain\n");
+  for (const Curves* reference : references)
+    for (const Curves& run : runs)
+      if (&run != reference) print_agreement(run, *reference);
+  draw_comparison(arguments.title, runs, stem);
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("compare", "compare finished drained tests with each other");
+  command->add_option("tables", arguments->tables, "NAME=TABLE.csv of each")->required();
+  command->add_option("--against", arguments->against,
+                      "NAME of what others are measured by (the last)");
+  command->add_option("--title", arguments->title, "of the picture")->capture_default_str();
+  command->add_option("--name", arguments->name, "of the files")->capture_default_str();
+  command->add_option("--output", arguments->output, "directory for the results")
+      ->capture_default_str();
+  command->callback([arguments] { compare(*arguments); });
+}
+
+}  // namespace verification

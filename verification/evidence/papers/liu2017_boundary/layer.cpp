@@ -1,0 +1,224 @@
+// Figures 11 and 12: an infinite layer, cohesive and frictional, under vertical stress and shear.
+
+#include "evidence/papers/liu2017_boundary/boundary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace verification {
+namespace {
+
+constexpr int packings = 5;
+constexpr double residual_from = 0.15;  // F12 from which on the ratio counts as residual
+
+// -sigma12 / sigma22 at every step: both shear stresses, which differ by the moments of D sides.
+std::vector<double> ratio(const PaperRun& run, const char* shear = "sigma12") {
+  std::vector<double> values = run.history[shear];
+  const std::vector<double>& normal = run.history["sigma22"];
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] = std::abs(values[k] / normal[k]);
+  return values;
+}
+
+// det F relative to the start, which is under the vertical stress.
+std::vector<double> volume(const PaperRun& run) {
+  std::vector<double> values = run.history["volumetric_strain"];
+  const double start = 1 + values.front();
+  for (double& value : values) value = (1 + value) / start;
+  return values;
+}
+
+struct Strength {
+  double peak = 0, peak_at = 0;         // sigma12 / sigma22 [-], F12 [-]
+  double residual = 0;                  // mean of the ratio beyond residual_from [-]
+  double residual_21 = 0;               // the same of sigma21
+  double volume = 1;                    // det F at the end
+  double until = 0;                     // F12 of the last step
+  double broken_start = 0, broken = 0;  // bonds, at the start and at the end
+  double contacts = 0;                  // at the start
+};
+
+Strength strength(const PaperRun& run) {
+  const std::vector<double>& shear = run.history["F12"];
+  const std::vector<double> r = ratio(run), r21 = ratio(run, "sigma21");
+  Strength s;
+  // What slides at once at F12 = 0 under the vertical stress alone is no peak.
+  const auto top = std::max_element(r.begin(), r.end());
+  s.peak = *top;
+  s.peak_at = shear[static_cast<std::size_t>(top - r.begin())];
+  double count = 0;
+  for (std::size_t k = 0; k < r.size(); ++k)
+    if (shear[k] >= residual_from - 1e-9) {
+      s.residual += r[k];
+      s.residual_21 += r21[k];
+      ++count;
+    }
+  s.residual = count > 0 ? s.residual / count : std::nan("");
+  s.residual_21 = count > 0 ? s.residual_21 / count : std::nan("");
+  s.volume = volume(run).back();
+  s.until = shear.back();
+  s.broken_start = run.history["broken_bonds"].front();
+  s.broken = run.history["broken_bonds"].back();
+  s.contacts = run.history["contacts"].front();
+  return s;
+}
+
+void figure_11(const PaperStudy& study) {
+  struct Kind {
+    const char* name;
+    const char* colour;
+  };
+  Panel stress{"σ12 / σ22 [-]", {}, 1.2, "top right"};
+  Panel dilation{"det F from the start of shear [-]", {}, 1, "top left"};
+  Panel rotation{"mean |rotation| [rad]", {}, 1, "top left"};
+  for (const Kind kind : {Kind{"frictional", colour::blue}, Kind{"cohesive", colour::orange},
+                          Kind{"strong", colour::green}})
+    for (int k = 1; k <= packings; ++k) {
+      const auto run = study.run(fmt::format("figure_12_{}_{}", kind.name, k));
+      if (!run) continue;
+      const Stroke stroke = k == 1 ? Stroke::solid : Stroke::thin;
+      const std::string title = k == 1 ? kind.name : "";
+      const std::vector<double> x = run->column("F12");
+      stress.curves.push_back({title, x, ratio(*run), kind.colour, stroke});
+      dilation.curves.push_back({title, x, volume(*run), kind.colour, stroke});
+      if (run->particles)
+        rotation.curves.push_back({title, (*run->particles)["F12"],
+                                   (*run->particles)["mean_rotation_magnitude"], kind.colour,
+                                   stroke});
+    }
+  if (stress.curves.empty()) return;
+  Figure figure{"Fig. 11: five layers; thick: the first", "F12 [-]", {stress, dilation}};
+  if (!rotation.curves.empty()) figure.panels.push_back(rotation);
+  draw(figure, study.results / "figure_11");
+}
+
+std::string list(const std::vector<double>& values, const char* format) {
+  std::string text;
+  for (const double value : values)
+    text += (text.empty() ? "" : ", ") + fmt::format(fmt::runtime(format), value);
+  return text;
+}
+
+double mean(const std::vector<double>& values) {
+  return values.empty() ? std::nan("")
+                        : std::accumulate(values.begin(), values.end(), 0.0) /
+                              static_cast<double>(values.size());
+}
+
+void compare_layers(PaperStudy& study) {
+  Table table(
+      "Layer: cohesive and frictional",
+      {"packing[-]", "law", "peak_s12_over_s22[-]", "F12_at_peak[-]", "residual_s12_over_s22[-]",
+       "residual_s21_over_s22[-]", "det_F_end[-]", "until_F12[-]", "contacts_start[-]",
+       "broken_start[-]", "broken_end[-]", "peak_over_frictional[-]"});
+  std::vector<double> residual, peak_at, cohesive_at, strong_at, gain, strong_gain, broken,
+      volume_change;
+  for (int k = 1; k <= packings; ++k) {
+    const auto frictional = study.run(fmt::format("figure_12_frictional_{}", k));
+    if (!frictional) continue;
+    const Strength base = strength(*frictional);
+    for (const char* law : {"frictional", "cohesive", "strong"}) {
+      const auto run = study.run(fmt::format("figure_12_{}_{}", law, k));
+      if (!run) continue;
+      const Strength s = strength(*run);
+      table.row({static_cast<double>(k), law, s.peak, s.peak_at, s.residual, s.residual_21,
+                 s.volume, s.until, s.contacts, s.broken_start, s.broken, s.peak / base.peak});
+      if (std::string(law) == "frictional") {
+        residual.push_back(s.residual);
+        peak_at.push_back(s.peak_at);
+        volume_change.push_back(s.volume);
+      } else if (std::string(law) == "cohesive") {
+        gain.push_back(s.peak / base.peak);
+        cohesive_at.push_back(s.peak_at);
+        // Bonds of the same packing, of which none breaks when they are 20 times as strong.
+        if (const auto strong = study.run(fmt::format("figure_12_strong_{}", k)))
+          broken.push_back(s.broken_start / strength(*strong).contacts);
+      } else {
+        strong_gain.push_back(s.peak / base.peak);
+        strong_at.push_back(s.peak_at);
+      }
+    }
+  }
+  if (residual.empty()) return;
+  table.print();
+  table.write(study.results / "layer.csv");
+  study.facts.agree("11", "frictional: residual σ12 / σ22", "0.28",
+                    fmt::format("{}; mean {:.3f}", list(residual, "{:.2f}"), mean(residual)),
+                    std::abs(mean(residual) - 0.28) < 0.05);
+  study.facts.agree("11", "frictional: F12 at the peak", "0.06", list(peak_at, "{:.3f}"),
+                    std::abs(mean(peak_at) - 0.06) < 0.03);
+  study.facts.agree("11", "frictional: dilation, det F at the end", "rises, then constant",
+                    list(volume_change, "{:.3f}"), mean(volume_change) > 1);
+  if (!gain.empty()) {
+    study.facts.agree("11", "cohesive peak / frictional peak, strengths of Table 6", "1.5",
+                      fmt::format("{}; mean {:.2f}", list(gain, "{:.2f}"), mean(gain)),
+                      std::abs(mean(gain) - 1.5) < 0.15);
+    study.facts.add("11", "cohesive: share of bonds broken by P22 alone, strengths of Table 6",
+                    "not stated", list(broken, "{:.2f}"), "-");
+  }
+  if (!strong_gain.empty()) {
+    study.facts.agree(
+        "11", "cohesive peak / frictional peak, 20 times the strengths", "1.5",
+        fmt::format("{}; mean {:.2f}", list(strong_gain, "{:.2f}"), mean(strong_gain)),
+        std::abs(mean(strong_gain) - 1.5) < 0.15);
+    study.facts.agree("11", "cohesive: F12 at the peak, 20 times the strengths", "0.07",
+                      list(strong_at, "{:.3f}"), std::abs(mean(strong_at) - 0.07) < 0.03);
+  }
+}
+
+// Cases WHAT of a scene, one row each.
+void tabulate(const PaperStudy& study, const char* scene, const std::string& title,
+              const std::vector<std::string>& cases) {
+  Table table(title, {"case", "peak_s12_over_s22[-]", "F12_at_peak[-]", "residual_s12_over_s22[-]",
+                      "residual_s21_over_s22[-]", "det_F_end[-]", "until_F12[-]",
+                      "contacts_start[-]", "broken_start[-]", "broken_end[-]"});
+  bool any = false;
+  for (const std::string& name : cases) {
+    const auto run = study.run(fmt::format("{}_{}", scene, name));
+    if (!run) continue;
+    any = true;
+    const Strength s = strength(*run);
+    table.row({name, s.peak, s.peak_at, s.residual, s.residual_21, s.volume, s.until, s.contacts,
+               s.broken_start, s.broken});
+  }
+  if (!any) return;
+  table.print();
+  table.write(study.results / (std::string(scene) + ".csv"));
+}
+
+// liu2019_biaxial, fig. 10: locked rotation.
+void locked_rotation(PaperStudy& study) {
+  const auto free = study.run("locked_rotation_free");
+  const auto locked = study.run("locked_rotation_locked");
+  if (!free || !locked) return;
+  const auto deviator = [](const PaperRun& run) {
+    std::vector<double> q = run.history["sigma11"];
+    for (std::size_t k = 0; k < q.size(); ++k) q[k] -= run.history["sigma22"][k];
+    return *std::max_element(q.begin(), q.end());
+  };
+  const double a = deviator(*free), b = deviator(*locked);
+  Table table("Locked rotation, drained biaxial compression",
+              {"rotation", "peak_deviator[Pa]", "over_free[-]"});
+  table.row({"free", a, 1.0});
+  table.row({"locked", b, b / a});
+  table.print();
+  table.write(study.results / "locked_rotation.csv");
+  study.facts.agree("000-10", "strength with locked rotation / with free rotation", "at least 1.3",
+                    fmt::format("{:.2f}", b / a), b / a >= 1.3);
+}
+
+}  // namespace
+
+void study_layer(PaperStudy& study) {
+  figure_11(study);
+  compare_layers(study);
+  tabulate(study, "layer_strength", "Layer: bond strength",
+           {"frictional", "x1", "x2", "x5", "x10", "x20", "x50"});
+  tabulate(study, "layer_rows", "Layer: top and bottom rows",
+           {"discs", "rigid", "discs_low", "rigid_low"});
+  locked_rotation(study);
+}
+
+}  // namespace verification

@@ -1,0 +1,109 @@
+#include "evidence/studies/features/cost.hpp"
+
+#include "evidence/studies/clock.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <thread>
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+namespace verification {
+namespace {
+
+// What malloc has handed out and not got back; only glibc says.
+double heap_bytes() {
+#if defined(__GLIBC__)
+  const struct mallinfo2 info = mallinfo2();
+  return static_cast<double>(info.uordblks + info.hblkhd);
+#else
+  return std::numeric_limits<double>::quiet_NaN();
+#endif
+}
+
+struct Led {
+  State state;
+  std::vector<double> cpu = {};  // of every increment [ms]
+  long evaluations = 0;
+  long relaxation_steps = 0;
+  long factorisations = 0;
+};
+
+Led lead(const Material& material, const std::vector<Increment>& path, const Usage& usage) {
+  Led led{make_state(material)};
+  grainlaw_state* const state = led.state.get();
+  for (const Increment& increment : path) {
+    double& cpu = led.cpu.emplace_back();
+    for (const Tensor& deformation : increment) {
+      const double start = cpu_milliseconds();
+      const Evaluation found = evaluate(state, deformation, usage.want);
+      cpu += cpu_milliseconds() - start;
+      check(found.status, "an increment of the feature table");
+      ++led.evaluations;
+      led.relaxation_steps += found.report.relaxation_steps;
+      led.factorisations += found.report.factorisations;
+    }
+    if (usage.also) {
+      const double start = cpu_milliseconds();
+      usage.also(state);
+      cpu += cpu_milliseconds() - start;
+    }
+    check(grainlaw_commit(state), "committing an increment of the feature table");
+  }
+  return led;
+}
+
+// Memory of a thread that has evaluated, over that of a state which has taken all it needs.
+double workspace_bytes(const State& state, const Tensor& deformation, unsigned want) {
+  evaluate(state.get(), deformation, want);
+  check(grainlaw_revert(state.get()), "dropping a trial");
+  double bytes = 0;
+  std::thread([&] {
+    const double before = heap_bytes();
+    evaluate(state.get(), deformation, want);
+    bytes = heap_bytes() - before;
+  }).join();
+  return bytes;
+}
+
+}  // namespace
+
+CostMeasurement::CostMeasurement(const MaterialSource& source, const std::vector<Increment>& path,
+                                 const Usage& usage)
+    : path_(path), usage_(usage) {
+  make_material(source);  // what is loaded and allocated once in a process
+  double bytes = heap_bytes();
+  material_ = make_material(source);
+  cost_.material = heap_bytes() - bytes;
+
+  const Led led = lead(material_, path_, usage_);  // takes the memory of this thread, too
+  cpu_ = led.cpu;
+  bytes = heap_bytes();
+  const State state = lead(material_, path_, usage_).state;
+  cost_.state = heap_bytes() - bytes;
+  evaluations_ = static_cast<double>(led.evaluations);
+  cost_.relaxation_steps = static_cast<double>(led.relaxation_steps) / evaluations_;
+  cost_.factorisations = static_cast<double>(led.factorisations) / evaluations_;
+  cost_.workspace = workspace_bytes(state, path_.back().back(), usage_.want);
+  std::size_t size = 0;
+  check(grainlaw_state_save(state.get(), nullptr, &size), "sizing a saved state");
+  cost_.saved = static_cast<double>(size);
+  cost_.particles = measure_scalar(state.get(), GRAINLAW_PARTICLES);
+}
+
+void CostMeasurement::again() {
+  const Led led = lead(material_, path_, usage_);
+  for (std::size_t k = 0; k < cpu_.size(); ++k) cpu_[k] = std::min(cpu_[k], led.cpu[k]);
+}
+
+Cost CostMeasurement::cost() const {
+  Cost cost = cost_;
+  cost.cpu = std::accumulate(cpu_.begin(), cpu_.end(), 0.0) / evaluations_;
+  return cost;
+}
+
+}  // namespace verification

@@ -1,0 +1,107 @@
+// The particles of a specimen in motion (Liu's thesis, eq. 4.21): explicit integration with the
+// contact laws of the library, without damping.
+#pragma once
+
+#include "contact/contact_list.hpp"
+#include "packing/neighbours.hpp"
+#include "wave/specimen.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace verification {
+
+// Energies of the specimen; work + stored at the start = kinetic + stored + dissipated.
+struct WaveEnergy {
+  double work = 0;        // done by the right end since the start [J]
+  double kinetic = 0;     // [J]
+  double coherent = 0;    // of it, in the mean motion of cross-sections [J]
+  double stored = 0;      // in contacts [J]
+  double dissipated = 0;  // by friction, broken bonds and damping [J]
+};
+
+// Damping that single grains feel and waves do not: the velocity of every particle decays towards
+// the mean of its cross-section at this rate. Momentum is conserved.
+struct AgitationDamping {
+  double rate = 0;   // [1/s]
+  double slice = 0;  // width of cross-sections [m]
+};
+
+// First-order finite differences as in eqs. 4.18-4.20, which are central ones with velocities half a
+// step behind: accelerations from the positions, velocities from the accelerations, positions from
+// the velocities.
+class WaveMotion {
+ public:
+  // Throws InputError when the time step [s] is beyond the limit of stability.
+  WaveMotion(const WaveSpecimen& specimen, const grainlaw::ContactLaw& law, double time_step);
+
+  // One time step; at its end the right end stands at this displacement [m]. Throws
+  // ComputationError when positions are lost.
+  void step(double end_displacement);
+
+  // Bring to rest what the supports left unbalanced, before the first step. Throws ComputationError
+  // when that takes too long.
+  void settle();
+  void damp(const AgitationDamping& damping) { damping_ = damping; }
+
+  [[nodiscard]] const WaveSpecimen& specimen() const { return *specimen_; }
+  [[nodiscard]] double displacement(std::size_t p) const {  // in x, since it was at rest [m]
+    return particles_[p].x - rest_[p];
+  }
+  // Sums of the contact forces on every particle in y, copies apart [N].
+  [[nodiscard]] std::vector<double> vertical_forces() const;
+  // Cross-sections are `slice` wide [m].
+  [[nodiscard]] WaveEnergy energy(double slice) const;
+  [[nodiscard]] int touching() const;
+
+ private:
+  // Mean velocities of cross-sections, and which one a particle is in.
+  struct Slices {
+    std::vector<std::array<double, 2>> velocity;
+    std::vector<double> mass;
+    std::vector<std::uint32_t> of;  // nodes
+  };
+  void list_contacts();
+  void keep_list();
+  void find_forces();
+  void break_bonds();
+  void damp_agitation();
+  void move_particles();
+  [[nodiscard]] double force_on_right_end() const;
+  [[nodiscard]] std::size_t node(std::size_t p) const {
+    return static_cast<std::size_t>(specimen_->node[p]);
+  }
+  // A bound of the largest stable time step [s]: 2 / the largest of the frequencies by Gershgorin.
+  void find_largest_time_step();
+  void find_slices(double width, Slices& slices) const;
+  void add_to_slices(double half_step, Slices& slices) const;
+  [[nodiscard]] std::vector<double> coordinates() const;
+
+  const WaveSpecimen* specimen_;
+  grainlaw::ContactLaw law_;
+  double time_step_;
+  AgitationDamping damping_;
+  Slices slices_;  // of the damping
+  double gap_;     // neighbours are listed within it [m]
+  double end_ = 0;
+  double work_ = 0, dissipated_ = 0, largest_time_step_ = 0;
+  std::vector<grainlaw::ParticleRecord<2>> particles_;
+  // Of the nodes; roll: R theta.
+  std::vector<grainlaw::ForceRecord<2>> forces_, velocity_, inverse_mass_;
+  std::vector<double> mass_;              // of the nodes [kg]
+  std::vector<std::size_t> particle_of_;  // one of each node
+  std::vector<std::array<double, 2>> listed_;
+  std::vector<double> rest_;  // x where the wave starts [m]
+  std::vector<std::size_t> right_;
+  // What the next list starts from.
+  std::vector<grainlaw::ContactHistory<2>> history_;
+  std::vector<double> moments_, gaps_;
+  grainlaw::NeighbourSearch<2> search_;
+  std::vector<grainlaw::NeighbourPair<2>> pairs_;
+  std::vector<double> weights_;
+  grainlaw::ContactList<2> list_;
+};
+
+}  // namespace verification

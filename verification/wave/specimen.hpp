@@ -1,0 +1,61 @@
+// A specimen of particles for waves: representative volumes side by side, with the same particles,
+// contacts and bonds, supported as in Liu's thesis (2018), figure 4.1.
+#pragma once
+
+#include "contact/history.hpp"
+#include "contact/law.hpp"
+#include "material/material.hpp"
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace verification {
+
+// Bits of WaveSpecimen::held: directions in which a particle does not move by the forces on it.
+enum Held : unsigned char { held_x = 1, held_y = 2, held_rotation = 4 };
+
+// Particles of the left end are held, those of the right end move with the pulse; bottom and top
+// are supported in y. When a frame's bottom and top are copies of each other, the specimen is a slice
+// of a layer without end, as its representative volumes are: copies share their motion, and each has
+// half of the mass and of the contacts along its side. When its material counts contacts whole
+// (contact_weight = "one"), bottom and top are free surfaces but for their supports.
+struct WaveSpecimen {
+  std::vector<double> position;  // component-major [m]
+  std::vector<double> radius;    // [m]
+  std::vector<double> mass;      // [kg]
+  std::vector<int> node;         // particles of the same node move together
+  std::size_t nodes = 0;
+  std::vector<unsigned char> held;  // bits of Held
+  std::vector<char> right;          // on the right end
+  std::vector<unsigned char> side;  // 1: on the bottom, 2: on the top
+  // What the contacts start from, ordered by (i, j).
+  std::vector<grainlaw::ContactHistory<2>> contacts;
+  std::vector<double> moments;  // empty for laws without
+  std::vector<double> gaps;     // empty unless bonds span gaps
+  bool shared = false;          // bottom and top are copies that move together
+  double length = 0;            // between the ends [m]
+  double height = 0;            // [m]
+  double thickness = 0;         // [m]
+  std::size_t tiles = 0;
+
+  [[nodiscard]] std::size_t size() const { return radius.size(); }
+  [[nodiscard]] double right_end() const;    // x there [m]
+  [[nodiscard]] double mean_radius() const;  // [m]
+  // Of the contact between two particles: 1/2 along a side that is shared.
+  [[nodiscard]] double weight(std::size_t i, std::size_t j) const {
+    return shared && (side[i] & side[j]) != 0 ? 0.5 : 1;
+  }
+};
+
+// `tiles` representative volumes of the material in a row along x, in their equilibrium at F = I.
+// Of a frame the sides are its own; of a periodic cell the discs within a radius of the outermost
+// centre, and the right end repeats the left one. Throws InputError for cells that are not
+// rectangular.
+WaveSpecimen repeat_along_x(const grainlaw::Material<2>& material, std::size_t tiles);
+
+// Mass of the representative volume over its volume [kg/m3], eq. 4.2.
+double mean_density(const grainlaw::Material<2>& material);
+
+}  // namespace verification
