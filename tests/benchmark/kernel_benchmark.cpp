@@ -20,13 +20,14 @@ using namespace grainlaw;
 
 constexpr std::array<double, 4> target{1.0004, 0, 0, 0.999};
 
-const Material& material() {
-  static const auto instance = make_material(read_material_file(GRAINLAW_TEST_DATA "/rve400.toml"));
+const Material<2>& material() {
+  static const auto instance =
+      make_material<2>(read_material_file(GRAINLAW_TEST_DATA "/rve400.toml"));
   return *instance;
 }
 
 // The packing side by side with itself, `side` x `side` times, particles numbered at random.
-std::shared_ptr<const Material> tiled(int side) {
+std::shared_ptr<const Material<2>> tiled(int side) {
   MaterialDescription description = read_material_file(GRAINLAW_TEST_DATA "/rve400.toml");
   const Packing one = description.packing;
   Packing& many = description.packing;
@@ -65,28 +66,28 @@ std::shared_ptr<const Material> tiled(int side) {
       }
     }
   }
-  return make_material(std::move(description));
+  return make_material<2>(std::move(description));
 }
 
 // An increment that has come to rest, with its contacts' status mixed.
-Workspace solved() {
-  static const Problem problem = material().problem();
-  Request request{&problem, &material().solver, &material().initial, target};
+Workspace<2> solved() {
+  static const Problem<2> problem = material().problem();
+  Request<2> request{&problem, &material().solver, &material().initial, target};
   request.tolerance = 1e-6;
-  Workspace workspace;
+  Workspace<2> workspace;
   solve(request, workspace);
   return workspace;
 }
 
 void begin_increment(benchmark::State& timing) {
-  const Problem problem = material().problem();
-  Increment increment;
+  const Problem<2> problem = material().problem();
+  Increment<2> increment;
   for (auto _ : timing) increment.begin(problem, material().initial, target);
 }
 BENCHMARK(begin_increment)->Unit(benchmark::kMicrosecond);
 
 void contact_forces(benchmark::State& timing) {
-  Workspace workspace = solved();
+  Workspace<2> workspace = solved();
   for (auto _ : timing) {
     workspace.increment.update_forces();
     benchmark::ClobberMemory();
@@ -97,9 +98,9 @@ BENCHMARK(contact_forces)->Unit(benchmark::kMicrosecond);
 // Divided by the counter `steps`: a relaxation step, with its share of new masses.
 void relaxation(benchmark::State& timing) {
   const auto packing = tiled(static_cast<int>(timing.range(0)));
-  const Problem problem = packing->problem();
+  const Problem<2> problem = packing->problem();
   constexpr long steps = 500;
-  Workspace workspace;
+  Workspace<2> workspace;
   for (auto _ : timing) {
     workspace.increment.begin(problem, packing->initial, target);
     workspace.increment.refresh_masses();
@@ -120,11 +121,11 @@ class Assembled {
     relax(workspace.increment, 1e-3, 2000, History::committed, workspace.relaxation);
     workspace.newton.stiffness.assemble(workspace.increment, 0);
   }
-  Workspace workspace;
+  Workspace<2> workspace;
 
  private:
-  std::shared_ptr<const Material> packing_;
-  Problem problem_;
+  std::shared_ptr<const Material<2>> packing_;
+  Problem<2> problem_;
 };
 
 void assembly(benchmark::State& timing) {

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <random>
 #include <set>
 #include <span>
@@ -40,18 +41,21 @@ std::vector<Edge> near_pairs(std::size_t nodes, std::mt19937& random) {
 }
 
 // Non-symmetric values; diagonal blocks that outweigh the others, as stiffness does.
-void fill(BlockMatrix& matrix, std::mt19937& random) {
+template <std::size_t width>
+void fill(BlockMatrix<width>& matrix, std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   const auto b = static_cast<std::size_t>(matrix.components);
-  for (Quad& column : matrix.blocks) {
+  const double outweighing = std::max(6, 2 * matrix.components);
+  for (auto& column : matrix.blocks) {
     for (std::size_t row = 0; row < b; ++row) column.lane[row] = uniform(random);
   }
   for (std::size_t q = 0; q < matrix.nodes; ++q) {
-    for (std::size_t k = 0; k < b; ++k) matrix.block(q)[k].lane[k] += 6;
+    for (std::size_t k = 0; k < b; ++k) matrix.block(q)[k].lane[k] += outweighing;
   }
 }
 
-Eigen::MatrixXd dense(const BlockMatrix& matrix) {
+template <std::size_t width>
+Eigen::MatrixXd dense(const BlockMatrix<width>& matrix) {
   const auto nodes = static_cast<Eigen::Index>(matrix.nodes);
   Eigen::MatrixXd result =
       Eigen::MatrixXd::Zero(matrix.components * nodes, matrix.components * nodes);
@@ -80,16 +84,20 @@ std::vector<double> random_vector(std::size_t size, std::mt19937& random) {
   return values;
 }
 
-// One quad per node.
-std::vector<Quad> by_node(const BlockMatrix& matrix, const std::vector<double>& values) {
-  std::vector<Quad> result(matrix.nodes);
+// One column per node.
+template <std::size_t width>
+std::vector<BlockColumn<width>> by_node(const BlockMatrix<width>& matrix,
+                                        const std::vector<double>& values) {
+  std::vector<BlockColumn<width>> result(matrix.nodes);
   for (std::size_t k = 0; k < values.size(); ++k) {
     result[k % matrix.nodes].lane[k / matrix.nodes] = values[k];
   }
   return result;
 }
 
-std::vector<double> by_component(const BlockMatrix& matrix, const std::vector<Quad>& values) {
+template <std::size_t width>
+std::vector<double> by_component(const BlockMatrix<width>& matrix,
+                                 const std::vector<BlockColumn<width>>& values) {
   std::vector<double> result(matrix.nodes * static_cast<std::size_t>(matrix.components));
   for (std::size_t k = 0; k < result.size(); ++k) {
     result[k] = values[k % matrix.nodes].lane[k / matrix.nodes];
@@ -97,18 +105,21 @@ std::vector<double> by_component(const BlockMatrix& matrix, const std::vector<Qu
   return result;
 }
 
-std::vector<double> solve(BlockLU& lu, const BlockMatrix& matrix, const std::vector<double>& b) {
+template <std::size_t width>
+std::vector<double> solve(BlockLU<width>& lu, const BlockMatrix<width>& matrix,
+                          const std::vector<double>& b) {
   auto x = by_node(matrix, b);
   lu.solve(x);
   return by_component(matrix, x);
 }
 
-// Vector l in lane l: one quad per node and component.
-std::vector<Quad> together(const BlockMatrix& matrix,
-                           const std::array<std::vector<double>, 4>& vectors) {
+// Vector l in lane l: one for each node and component.
+template <std::size_t width>
+std::vector<Together<width>> together(const BlockMatrix<width>& matrix,
+                                      const std::array<std::vector<double>, width>& vectors) {
   const auto b = static_cast<std::size_t>(matrix.components);
-  std::vector<Quad> result(matrix.nodes * b);
-  for (std::size_t l = 0; l < 4; ++l) {
+  std::vector<Together<width>> result(matrix.nodes * b);
+  for (std::size_t l = 0; l < width; ++l) {
     for (std::size_t k = 0; k < result.size(); ++k) {
       result[k % matrix.nodes * b + k / matrix.nodes].lane[l] = vectors[l][k];
     }
@@ -116,8 +127,9 @@ std::vector<Quad> together(const BlockMatrix& matrix,
   return result;
 }
 
-std::vector<double> lane(const BlockMatrix& matrix, const std::vector<Quad>& vectors,
-                         std::size_t l) {
+template <std::size_t width>
+std::vector<double> lane(const BlockMatrix<width>& matrix,
+                         const std::vector<Together<width>>& vectors, std::size_t l) {
   const auto b = static_cast<std::size_t>(matrix.components);
   std::vector<double> result(vectors.size());
   for (std::size_t k = 0; k < result.size(); ++k) {
@@ -131,49 +143,78 @@ Eigen::VectorXd as_eigen(const std::vector<double>& values) {
 }
 
 // Largest entry of b - A x over that of b.
-double defect(const BlockMatrix& matrix, const std::vector<double>& b,
+template <std::size_t width>
+double defect(const BlockMatrix<width>& matrix, const std::vector<double>& b,
               const std::vector<double>& x) {
-  return (as_eigen(b) - dense(matrix) * as_eigen(x)).lpNorm<Eigen::Infinity>() /
-         as_eigen(b).lpNorm<Eigen::Infinity>();
+  return (as_eigen(b) - dense(matrix) * as_eigen(x)).cwiseAbs().maxCoeff() /
+         as_eigen(b).cwiseAbs().maxCoeff();
 }
 
-void expect_solution(const BlockMatrix& matrix, const std::vector<double>& b,
+template <std::size_t width>
+void expect_solution(const BlockMatrix<width>& matrix, const std::vector<double>& b,
                      const std::vector<double>& x) {
   const Eigen::VectorXd expected = dense(matrix).partialPivLu().solve(as_eigen(b));
   EXPECT_LE((as_eigen(x) - expected).norm(), 1e-10 * expected.norm());
 }
 
-BlockMatrix random_matrix(std::size_t nodes, int components, std::mt19937& random) {
-  BlockMatrix matrix;
+template <std::size_t width>
+BlockMatrix<width> random_matrix(std::size_t nodes, int components, std::mt19937& random) {
+  BlockMatrix<width> matrix;
   matrix.reset(nodes, components, near_pairs(nodes, random));
   fill(matrix, random);
   return matrix;
 }
 
-std::size_t unknowns(const BlockMatrix& matrix) {
+template <std::size_t width>
+std::size_t unknowns(const BlockMatrix<width>& matrix) {
   return matrix.nodes * static_cast<std::size_t>(matrix.components);
 }
 
-void expect_solved(const BlockMatrix& matrix, BlockLU& lu, std::mt19937& random) {
+template <std::size_t width>
+void expect_solved(const BlockMatrix<width>& matrix, BlockLU<width>& lu, std::mt19937& random) {
   lu.analyse(matrix);
   ASSERT_TRUE(lu.factorise(matrix));
   const auto b = random_vector(unknowns(matrix), random);
   expect_solution(matrix, b, solve(lu, matrix, b));
 }
 
-TEST(block_lu, solves_as_a_dense_factorisation_does) {
+// Blocks of 2 and 3 fill columns of four, blocks of 6 columns of eight.
+struct ColumnsOfFour {
+  static constexpr std::size_t width = 4;
+  static constexpr std::array components{2, 3};
+};
+struct ColumnsOfEight {
+  static constexpr std::size_t width = 8;
+  static constexpr std::array components{6};
+};
+
+template <class Columns>
+struct block_lu : testing::Test, Columns {
+  using Matrix = BlockMatrix<Columns::width>;
+  using LU = BlockLU<Columns::width>;
+  static constexpr int least = Columns::components.front();
+  static constexpr int most = Columns::components.back();
+};
+template <class Columns>
+struct gmres : block_lu<Columns> {};
+using EveryColumns = testing::Types<ColumnsOfFour, ColumnsOfEight>;
+TYPED_TEST_SUITE(block_lu, EveryColumns);
+TYPED_TEST_SUITE(gmres, EveryColumns);
+
+TYPED_TEST(block_lu, solves_as_a_dense_factorisation_does) {
   std::mt19937 random(11);
-  BlockLU lu;  // of one matrix after the other
-  for (const int components : {2, 3}) {
+  typename TestFixture::LU lu;  // of one matrix after the other
+  for (const int components : TestFixture::components) {
     for (const std::size_t nodes : {1U, 2U, 10U, 60U, 200U}) {
-      expect_solved(random_matrix(nodes, components, random), lu, random);
+      expect_solved(random_matrix<TestFixture::width>(nodes, components, random), lu, random);
     }
   }
 }
 
 // Groups of nodes that all touch each other, one after the other; `shared` of each are the next one's too.
-BlockMatrix chained_groups(std::size_t groups, std::size_t size, std::size_t shared, int components,
-                           std::mt19937& random) {
+template <std::size_t width>
+BlockMatrix<width> chained_groups(std::size_t groups, std::size_t size, std::size_t shared,
+                                  int components, std::mt19937& random) {
   std::set<Edge> edges;
   const std::size_t step = size - shared;
   for (std::size_t g = 0; g < groups; ++g) {
@@ -183,7 +224,7 @@ BlockMatrix chained_groups(std::size_t groups, std::size_t size, std::size_t sha
       }
     }
   }
-  BlockMatrix matrix;
+  BlockMatrix<width> matrix;
   const std::vector<Edge> ordered(edges.begin(), edges.end());
   matrix.reset(groups * step + shared, components, ordered);
   fill(matrix, random);
@@ -195,34 +236,35 @@ BlockMatrix chained_groups(std::size_t groups, std::size_t size, std::size_t sha
   return matrix;
 }
 
-// 8 nodes of 3 unknowns and 12 of 2 fill a block of pivots.
-TEST(block_lu, eliminates_fronts_of_any_size) {
+// 8 nodes of 3 unknowns, 12 of 2 and 4 of 6 fill a block of pivots.
+TYPED_TEST(block_lu, eliminates_fronts_of_any_size) {
   std::mt19937 random(21);
-  BlockLU lu;  // of one matrix after the other
-  for (const int components : {2, 3}) {
-    for (const std::size_t size : {3U, 7U, 8U, 9U, 12U, 13U, 17U, 40U}) {
-      expect_solved(chained_groups(1, size, 0, components, random), lu, random);
+  typename TestFixture::LU lu;  // of one matrix after the other
+  for (const int components : TestFixture::components) {
+    for (const std::size_t size : {3U, 4U, 5U, 7U, 8U, 9U, 12U, 13U, 17U, 40U}) {
+      expect_solved(chained_groups<TestFixture::width>(1, size, 0, components, random), lu, random);
       for (const std::size_t shared : {std::size_t{1}, size / 2}) {
-        expect_solved(chained_groups(4, size, shared, components, random), lu, random);
+        expect_solved(chained_groups<TestFixture::width>(4, size, shared, components, random), lu,
+                      random);
       }
     }
   }
 }
 
-TEST(block_lu, solves_parts_that_do_not_touch) {
+TYPED_TEST(block_lu, solves_parts_that_do_not_touch) {
   std::mt19937 random(22);
-  BlockLU lu;
-  for (const int components : {2, 3}) {
-    expect_solved(chained_groups(5, 6, 0, components, random), lu, random);
-    expect_solved(chained_groups(30, 1, 0, components, random), lu, random);
+  typename TestFixture::LU lu;
+  for (const int components : TestFixture::components) {
+    expect_solved(chained_groups<TestFixture::width>(5, 6, 0, components, random), lu, random);
+    expect_solved(chained_groups<TestFixture::width>(30, 1, 0, components, random), lu, random);
   }
 }
 
-TEST(block_lu, analysis_serves_other_values_on_the_same_graph) {
+TYPED_TEST(block_lu, analysis_serves_other_values_on_the_same_graph) {
   std::mt19937 random(12);
-  for (const int components : {2, 3}) {
-    BlockMatrix matrix = random_matrix(80, components, random);
-    BlockLU lu;
+  for (const int components : TestFixture::components) {
+    auto matrix = random_matrix<TestFixture::width>(80, components, random);
+    typename TestFixture::LU lu;
     for (int k = 0; k < 5; ++k) {
       expect_solved(matrix, lu, random);
       matrix.set_zero();
@@ -231,68 +273,69 @@ TEST(block_lu, analysis_serves_other_values_on_the_same_graph) {
   }
 }
 
-TEST(block_lu, other_graph_of_equal_size_is_analysed_anew) {
+TYPED_TEST(block_lu, other_graph_of_equal_size_is_analysed_anew) {
   std::mt19937 random(13);
-  BlockLU lu;
+  typename TestFixture::LU lu;
   for (int k = 0; k < 5; ++k) {
-    expect_solved(random_matrix(50, 3, random), lu, random);
+    expect_solved(random_matrix<TestFixture::width>(50, TestFixture::most, random), lu, random);
   }
 }
 
-TEST(block_lu, fill_in_stays_far_below_dense) {
+TYPED_TEST(block_lu, fill_in_stays_far_below_dense) {
   std::mt19937 random(14);
-  const BlockMatrix matrix = random_matrix(400, 3, random);
-  BlockLU lu;
+  const auto matrix = random_matrix<TestFixture::width>(400, TestFixture::most, random);
+  typename TestFixture::LU lu;
   lu.analyse(matrix);
   EXPECT_GE(lu.factor_blocks(), matrix.nodes + 2 * matrix.edges.size());
   EXPECT_LT(lu.factor_blocks(), matrix.nodes * matrix.nodes / 8);
 }
 
-TEST(block_lu, solves_four_together) {
+TYPED_TEST(block_lu, solves_several_together) {
   std::mt19937 random(18);
-  for (const int components : {2, 3}) {
-    const BlockMatrix matrix = random_matrix(70, components, random);
-    std::array<std::vector<double>, 4> b;
+  for (const int components : TestFixture::components) {
+    const auto matrix = random_matrix<TestFixture::width>(70, components, random);
+    std::array<std::vector<double>, TestFixture::width> b;
     for (auto& vector : b) vector = random_vector(unknowns(matrix), random);
     const auto right = together(matrix, b);
     auto x = right;
-    BlockLU lu;
+    typename TestFixture::LU lu;
     lu.analyse(matrix);
     ASSERT_TRUE(lu.factorise(matrix));
-    lu.solve_four(x);
-    for (std::size_t l = 0; l < 4; ++l) expect_solution(matrix, b[l], lane(matrix, x, l));
-    std::vector<Quad> r(x.size());
-    matrix.residual_of_four(right, x, r);
-    for (std::size_t l = 0; l < 4; ++l) {
+    lu.solve_together(x);
+    for (std::size_t l = 0; l < TestFixture::width; ++l)
+      expect_solution(matrix, b[l], lane(matrix, x, l));
+    auto r = right;
+    matrix.residual_together(right, x, r);
+    for (std::size_t l = 0; l < TestFixture::width; ++l) {
       EXPECT_LE(as_eigen(lane(matrix, r, l)).norm(), 1e-12 * as_eigen(b[l]).norm());
     }
   }
 }
 
-TEST(block_lu, forgets_what_it_solved_before) {
+TYPED_TEST(block_lu, forgets_what_it_solved_before) {
   std::mt19937 random(19);
-  const BlockMatrix first = random_matrix(90, 3, random);
-  const BlockMatrix second = random_matrix(60, 2, random);
-  const BlockMatrix third = random_matrix(90, 3, random);
+  const auto first = random_matrix<TestFixture::width>(90, TestFixture::most, random);
+  const auto second = random_matrix<TestFixture::width>(60, TestFixture::least, random);
+  const auto third = random_matrix<TestFixture::width>(90, TestFixture::most, random);
   const auto b = random_vector(unknowns(third), random);
-  BlockLU used;
+  typename TestFixture::LU used;
   for (const auto* matrix : {&first, &second, &third, &first, &third}) {
     used.analyse(*matrix);
     ASSERT_TRUE(used.factorise(*matrix));
   }
-  BlockLU fresh;
+  typename TestFixture::LU fresh;
   fresh.analyse(third);
   ASSERT_TRUE(fresh.factorise(third));
   EXPECT_EQ(solve(used, third, b), solve(fresh, third, b));
 }
 
-TEST(block_lu, adds_to_the_diagonal) {
+TYPED_TEST(block_lu, adds_to_the_diagonal) {
   std::mt19937 random(20);
-  for (const int components : {2, 3}) {
-    BlockMatrix matrix = random_matrix(30, components, random);
+  for (const int components : TestFixture::components) {
+    auto matrix = random_matrix<TestFixture::width>(30, components, random);
     const auto added = by_node(matrix, random_vector(unknowns(matrix), random));
     const auto b = random_vector(unknowns(matrix), random);
-    BlockLU lu;
+    typename TestFixture::LU lu;
     lu.analyse(matrix);
     ASSERT_TRUE(lu.factorise(matrix, added));
     const auto x = solve(lu, matrix, b);
@@ -305,21 +348,23 @@ TEST(block_lu, adds_to_the_diagonal) {
   }
 }
 
-TEST(block_lu, inverts_pivot_blocks_of_little_but_one_direction) {
+TYPED_TEST(block_lu, inverts_pivot_blocks_of_little_but_one_direction) {
   // As of a particle with one sliding contact, held by the grounding alone across it.
   for (const double ground : {1e-2, 1e-6, 1e-9}) {
-    BlockMatrix matrix;
-    matrix.reset(1, 3, {});
-    const std::array<double, 3> row{0.6, 0.8, 0.3};
-    const std::array<double, 3> column{0.5, -0.7, 0.2};
-    for (std::size_t c = 0; c < 3; ++c) {
-      for (std::size_t r = 0; r < 3; ++r) matrix.block(0)[c].lane[r] = row[r] * column[c];
+    typename TestFixture::Matrix matrix;
+    matrix.reset(1, TestFixture::most, {});
+    constexpr std::size_t size = TestFixture::most;
+    constexpr std::array row{0.6, 0.8, 0.3, -0.5, 0.4, 0.7};
+    constexpr std::array column{0.5, -0.7, 0.2, 0.3, -0.4, 0.6};
+    for (std::size_t c = 0; c < size; ++c) {
+      for (std::size_t r = 0; r < size; ++r) matrix.block(0)[c].lane[r] = row[r] * column[c];
       matrix.block(0)[c].lane[c] += ground;
     }
-    BlockLU lu;
+    typename TestFixture::LU lu;
     lu.analyse(matrix);
     ASSERT_TRUE(lu.factorise(matrix));
-    const std::vector<double> b{1, 2, 3};
+    std::vector<double> b(size);
+    std::iota(b.begin(), b.end(), 1.0);
     const Eigen::VectorXd x = as_eigen(solve(lu, matrix, b));
     const Eigen::VectorXd exact = dense(matrix).fullPivLu().solve(as_eigen(b));
     EXPECT_LE((x - exact).norm(), 1e-13 / ground * exact.norm()) << ground;
@@ -328,10 +373,10 @@ TEST(block_lu, inverts_pivot_blocks_of_little_but_one_direction) {
 
 // As of particles that move in one direction without that a force changes: what holds them there is the grounding alone.
 // The inverse of such a block would lose digits for all others too.
-TEST(block_lu, solves_to_rounding_beside_blocks_that_are_nearly_singular) {
+TYPED_TEST(block_lu, solves_to_rounding_beside_blocks_that_are_nearly_singular) {
   std::mt19937 random(23);
-  for (const int components : {2, 3}) {
-    BlockMatrix matrix = random_matrix(80, components, random);
+  for (const int components : TestFixture::components) {
+    auto matrix = random_matrix<TestFixture::width>(80, components, random);
     const auto b = static_cast<std::size_t>(components);
     for (const std::size_t loose : {5U, 40U, 71U}) {
       Eigen::VectorXd direction = as_eigen(random_vector(b, random)).normalized();
@@ -356,24 +401,26 @@ TEST(block_lu, solves_to_rounding_beside_blocks_that_are_nearly_singular) {
     }
     const Eigen::VectorXd right = dense(matrix) * as_eigen(random_vector(unknowns(matrix), random));
     const std::vector<double> one(right.begin(), right.end());
-    BlockLU lu;
+    typename TestFixture::LU lu;
     lu.analyse(matrix);
     ASSERT_TRUE(lu.factorise(matrix));
-    auto four = together(matrix, {one, one, one, one});
-    lu.solve_four(four);
-    for (const auto& x : {solve(lu, matrix, one), lane(matrix, four, 2)}) {
+    std::array<std::vector<double>, TestFixture::width> same;
+    same.fill(one);
+    auto several = together(matrix, same);
+    lu.solve_together(several);
+    for (const auto& x : {solve(lu, matrix, one), lane(matrix, several, 2)}) {
       EXPECT_LE(defect(matrix, one, x), 1e-13);
     }
   }
 }
 
-TEST(block_lu, residual_is_that_of_the_dense_matrix) {
+TYPED_TEST(block_lu, residual_is_that_of_the_dense_matrix) {
   std::mt19937 random(15);
-  for (const int components : {2, 3}) {
-    const BlockMatrix matrix = random_matrix(40, components, random);
+  for (const int components : TestFixture::components) {
+    const auto matrix = random_matrix<TestFixture::width>(40, components, random);
     const auto x = random_vector(unknowns(matrix), random);
     const auto b = random_vector(unknowns(matrix), random);
-    std::vector<Quad> r(matrix.nodes);
+    std::vector<BlockColumn<TestFixture::width>> r(matrix.nodes);
     matrix.residual(by_node(matrix, b), by_node(matrix, x), r);
     EXPECT_LE(
         (as_eigen(by_component(matrix, r)) - as_eigen(b) + dense(matrix) * as_eigen(x)).norm(),
@@ -381,33 +428,34 @@ TEST(block_lu, residual_is_that_of_the_dense_matrix) {
   }
 }
 
-TEST(block_lu, singular_pivot_block_is_reported) {
+TYPED_TEST(block_lu, singular_pivot_block_is_reported) {
   std::mt19937 random(16);
-  for (const int components : {2, 3}) {
-    BlockMatrix matrix = random_matrix(1, components, random);
+  for (const int components : TestFixture::components) {
+    auto matrix = random_matrix<TestFixture::width>(1, components, random);
     const auto b = static_cast<std::size_t>(components);
     for (std::size_t row = 0; row < b; ++row) matrix.block(0)[1].lane[row] = 0;  // second column
-    BlockLU lu;
+    typename TestFixture::LU lu;
     lu.analyse(matrix);
     EXPECT_FALSE(lu.factorise(matrix));
   }
 }
 
-std::vector<double> solve_by_gmres(BlockLU& lu, const BlockMatrix& matrix,
+template <std::size_t width>
+std::vector<double> solve_by_gmres(BlockLU<width>& lu, const BlockMatrix<width>& matrix,
                                    const std::vector<double>& b) {
-  std::vector<Quad> x(matrix.nodes);
-  Gmres().solve(matrix, lu, 1e-13, by_node(matrix, b), x);
+  std::vector<BlockColumn<width>> x(matrix.nodes);
+  Gmres<width>().solve(matrix, lu, 1e-13, by_node(matrix, b), x);
   return by_component(matrix, x);
 }
 
-TEST(gmres, solves_where_refinement_with_the_same_factors_diverges) {
+TYPED_TEST(gmres, solves_where_refinement_with_the_same_factors_diverges) {
   std::mt19937 random(17);
-  for (const int components : {2, 3}) {
-    const BlockMatrix factorised = random_matrix(200, components, random);
-    BlockLU lu;
+  for (const int components : TestFixture::components) {
+    const auto factorised = random_matrix<TestFixture::width>(200, components, random);
+    typename TestFixture::LU lu;
     lu.analyse(factorised);
     ASSERT_TRUE(lu.factorise(factorised));
-    BlockMatrix matrix = factorised;  // three nodes three times as stiff
+    auto matrix = factorised;  // three nodes three times as stiff
     for (const std::size_t q : {3U, 77U, 150U}) {
       for (int k = 0; k < components; ++k) {
         for (double& value : matrix.block(q)[k].lane) value *= 3;
@@ -427,16 +475,18 @@ TEST(gmres, solves_where_refinement_with_the_same_factors_diverges) {
 }
 
 // A node that nothing holds but what the factors add, to it and to the others.
-BlockMatrix with_loose_node(int components, double to_others, std::mt19937& random, BlockLU& lu) {
-  BlockMatrix matrix = random_matrix(60, components, random);
+template <std::size_t width>
+BlockMatrix<width> with_loose_node(int components, double to_others, std::mt19937& random,
+                                   BlockLU<width>& lu) {
+  BlockMatrix<width> matrix = random_matrix<width>(60, components, random);
   const auto b = static_cast<std::size_t>(components);
-  std::fill_n(matrix.block(7), b, Quad{});
+  std::fill_n(matrix.block(7), b, BlockColumn<width>{});
   for (std::size_t e = 0; e < matrix.edges.size(); ++e) {
     if (matrix.edges[e].first != 7 && matrix.edges[e].second != 7) continue;
-    std::fill_n(matrix.block(matrix.upper(e)), b, Quad{});
-    std::fill_n(matrix.block(matrix.lower(e)), b, Quad{});
+    std::fill_n(matrix.block(matrix.upper(e)), b, BlockColumn<width>{});
+    std::fill_n(matrix.block(matrix.lower(e)), b, BlockColumn<width>{});
   }
-  std::vector<Quad> ground(matrix.nodes);
+  std::vector<BlockColumn<width>> ground(matrix.nodes);
   for (std::size_t q = 0; q < ground.size(); ++q) {
     for (std::size_t k = 0; k < b; ++k) ground[q].lane[k] = q == 7 ? 0.5 : to_others;
   }
@@ -445,11 +495,11 @@ BlockMatrix with_loose_node(int components, double to_others, std::mt19937& rand
   return matrix;
 }
 
-TEST(gmres, solves_a_singular_matrix_for_what_is_in_its_range) {
+TYPED_TEST(gmres, solves_a_singular_matrix_for_what_is_in_its_range) {
   std::mt19937 random(18);
-  for (const int components : {2, 3}) {
-    BlockLU lu;
-    const BlockMatrix matrix = with_loose_node(components, 0.5, random, lu);
+  for (const int components : TestFixture::components) {
+    typename TestFixture::LU lu;
+    const auto matrix = with_loose_node(components, 0.5, random, lu);
     auto b = random_vector(unknowns(matrix), random);
     for (std::size_t k = 0; k < b.size(); ++k) {
       if (k % matrix.nodes == 7) b[k] = 0;
@@ -458,13 +508,13 @@ TEST(gmres, solves_a_singular_matrix_for_what_is_in_its_range) {
   }
 }
 
-TEST(gmres, leaves_of_the_rest_what_is_not_in_the_range) {
+TYPED_TEST(gmres, leaves_of_the_rest_what_is_not_in_the_range) {
   std::mt19937 random(19);
-  BlockLU lu;
-  const BlockMatrix matrix = with_loose_node(3, 0, random, lu);
+  typename TestFixture::LU lu;
+  const auto matrix = with_loose_node(TestFixture::most, 0, random, lu);
   auto b = random_vector(unknowns(matrix), random);
   b[7] = 0.25;
-  b[7 + matrix.nodes] = b[7 + 2 * matrix.nodes] = 0;
+  for (std::size_t k = 7 + matrix.nodes; k < b.size(); k += matrix.nodes) b[k] = 0;
   const Eigen::VectorXd rest =
       as_eigen(b) - dense(matrix) * as_eigen(solve_by_gmres(lu, matrix, b));
   EXPECT_NEAR(rest.norm(), 0.25, 1e-12);

@@ -36,12 +36,12 @@ struct Pair {
     packing.cell = {10, 0, 0, 10};
     packing.radius = {1, 1};
     packing.position = {0, 2, 0, 0};
-    space = make_cell_space(packing);
+    space = make_cell_space<2>(packing);
     problem = {&packing, &law, &space, 1, 1e-8};
     Configuration from;
     from.deformation = {1, 0, 0, 1};
     from.coordinates = {0, 2, 0, 0, 0, 0};
-    from.contacts = {{0, 1, {}, false, true, 0}};
+    from.contacts = {{0, 1, {}, false, true, {0}}};
     from.moments = {0};
     increment.begin(problem, from, identity);
   }

@@ -37,7 +37,7 @@ void expect_equal_work(const State& state, std::mt19937& random) {
     if (material.law.rotating()) {
       const auto& r = material.packing.radius;
       const double lever = r[i] / (r[i] + r[j]);
-      part -= c.weight * c.tangential_force * std::hypot(c.branch_x, c.branch_y) *
+      part -= c.weight * c.tangential_force[0] * std::hypot(c.branch[0], c.branch[1]) *
               (lever * motion.rotation[i] + (1 - lever) * motion.rotation[j]);
     }
     work -= part / space.reference_volume;

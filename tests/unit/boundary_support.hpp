@@ -69,9 +69,9 @@ inline Spaces all_spaces(const Packing& packing) {
 
 // Weighted force on j.
 inline std::array<double, 2> force_on_j(const ContactView& c) {
-  const double d = std::hypot(c.branch_x, c.branch_y);
-  return {c.weight * (c.normal_force * c.branch_x - c.tangential_force * c.branch_y) / d,
-          c.weight * (c.normal_force * c.branch_y + c.tangential_force * c.branch_x) / d};
+  const double d = std::hypot(c.branch[0], c.branch[1]);
+  return {c.weight * (c.normal_force * c.branch[0] - c.tangential_force[0] * c.branch[1]) / d,
+          c.weight * (c.normal_force * c.branch[1] + c.tangential_force[0] * c.branch[0]) / d};
 }
 
 // Force that the surroundings exert on every particle of a frame, and the moment.
@@ -95,7 +95,7 @@ inline Surroundings surroundings(const State& state) {
       result.force[j][k] -= f[k];
     }
     const auto& r = material.packing.radius;
-    const double couple = c.weight * c.tangential_force * std::hypot(c.branch_x, c.branch_y);
+    const double couple = c.weight * c.tangential_force[0] * std::hypot(c.branch[0], c.branch[1]);
     result.moment[i] += couple * r[i] / (r[i] + r[j]);
     result.moment[j] += couple * r[j] / (r[i] + r[j]);
     result.scale += c.normal_force / static_cast<double>(views.size());

@@ -103,7 +103,7 @@ void expect_loops_agree(Discs discs) {
   EXPECT_NEAR(f.y, point.normal_force * point.normal[1] + point.tangential_force * point.normal[0],
               scale);
   if (discs.law.moments()) {
-    EXPECT_NEAR(f.unused, discs.moment(), scale);
+    EXPECT_NEAR(f.moment, discs.moment(), scale);
     const double couple = -point.distance * point.tangential_force;
     EXPECT_NEAR(discs.force[4], 0.25 * couple - discs.moment(), 10 * scale);
     EXPECT_NEAR(discs.force[5], 0.75 * couple + discs.moment(), 10 * scale);

@@ -32,13 +32,13 @@ struct Scene {
   }
 
   ContactTotals look() {
-    return sides.look(increment.records, material->law, Increment::mass_factor, increment.contacts);
+    return sides.look(increment.records, material->law, tuned::mass_factor, increment.contacts);
   }
 
   // Residual by the law where the records are.
   [[nodiscard]] std::vector<ForceRecord> residual() {
     std::vector<ForceRecord> result(increment.nodes());
-    evaluate_contacts(increment.records, material->law, increment.contacts, result);
+    evaluate_contacts<2>(increment.records, material->law, increment.contacts, result);
     return result;
   }
 

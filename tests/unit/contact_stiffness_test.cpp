@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::test {
 namespace {
 
 constexpr double kn = 1000;
@@ -35,7 +35,7 @@ struct Contact {
   Contact(double committed_force, double overlap, double turn) {
     const std::vector<double> start{0, 3.1, 0, 2.3, 0.2, -0.1};
     const std::vector<NeighbourPair> pairs{{0, 1, {}}};
-    const std::vector<ContactHistory> history{{0, 1, {}, false, false, committed_force}};
+    const std::vector<ContactHistory> history{{0, 1, {}, false, false, {committed_force}}};
     test::build(pairs, radius, law(), cell, {start, cell, history}, list);
     const double angle = std::atan2(2.3, 3.1) + turn;
     z = {0.1,   0.1 + (4 - overlap) * std::cos(angle),
@@ -65,17 +65,17 @@ Matrix3 differences(const Contact& contact, double step) {
   const auto moved = [&](std::size_t column, double by) {
     Contact other = contact;
     if (column == 0) {
-      other.z[1] += by * at.normal_x;
-      other.z[3] += by * at.normal_y;
+      other.z[1] += by * at.normal[0];
+      other.z[3] += by * at.normal[1];
     } else if (column == 1) {
-      other.z[1] -= by * at.normal_y;
-      other.z[3] += by * at.normal_x;
+      other.z[1] -= by * at.normal[1];
+      other.z[3] += by * at.normal[0];
     } else {
       other.z[5] += by / 0.75;  // lambda_j
     }
     const Forces f = forces(other);
-    return std::array{f.x * at.normal_x + f.y * at.normal_y, -f.x * at.normal_y + f.y * at.normal_x,
-                      f.couple};
+    return std::array{f.x * at.normal[0] + f.y * at.normal[1],
+                      -f.x * at.normal[1] + f.y * at.normal[0], f.couple};
   };
   Matrix3 result{};
   for (std::size_t column = 0; column < 3; ++column) {
@@ -121,4 +121,4 @@ TEST(contact_stiffness, is_zero_when_open) {
 }
 
 }  // namespace
-}  // namespace grainlaw
+}  // namespace grainlaw::test

@@ -1,9 +1,11 @@
 // Contact forces on coordinates and forces that are component-major, for tests of few discs.
 #pragma once
 
+#include "plane.hpp"
+
+#include "contact/contact_forces.hpp"
 #include "contact/contact_list.hpp"
 #include "contact/contact_point.hpp"
-#include "contact/contact_forces.hpp"
 
 #include <cstddef>
 #include <numeric>
@@ -29,7 +31,7 @@ inline void build(std::span<const NeighbourPair> pairs, std::span<const double> 
                   const HistoryStart& start, ContactList& list) {
   std::vector<int> node(radius.size());
   std::iota(node.begin(), node.end(), 0);
-  build_contacts(pairs, {}, radius, node, radius.size(), law, cell, start, list);
+  build_contacts<2>(pairs, {}, radius, node, radius.size(), law, cell, start, list);
 }
 
 // Forces and moments on the particles, as many components as z has.
@@ -37,7 +39,7 @@ inline std::vector<double> forces(std::span<const double> z, std::span<const dou
                                   const ContactLaw& law, ContactList& list) {
   const std::size_t n = radius.size();
   std::vector<ForceRecord> sums(n);
-  evaluate_contacts(records(z, radius), law, list, sums);
+  evaluate_contacts<2>(records(z, radius), law, list, sums);
   std::vector<double> result(z.size());
   for (std::size_t p = 0; p < n; ++p) {
     result[p] = sums[p].x;

@@ -39,7 +39,7 @@ struct Discs {
   void evaluate() { force = test::forces(z, radius, law, list); }
   double advance() {
     std::vector<ForceRecord> sums(size());
-    return advance_contacts(test::records(z, radius), law, list, sums);
+    return advance_contacts<2>(test::records(z, radius), law, list, sums);
   }
   [[nodiscard]] double energy() const { return stored_energy(list, z, size(), law); }
   [[nodiscard]] double moment(std::size_t c = 0) const {

@@ -53,7 +53,8 @@ std::array<double, 2> reference_branch(const State& state, const ContactView& c)
             space.reference[n + j] - space.reference[n + i]};
   }
   const Tensor back = inverse(deformation_of(state));
-  return {back[0] * c.branch_x + back[1] * c.branch_y, back[2] * c.branch_x + back[3] * c.branch_y};
+  return {back[0] * c.branch[0] + back[1] * c.branch[1],
+          back[2] * c.branch[0] + back[3] * c.branch[1]};
 }
 
 Tangent sum_over_contacts(const State& state) {
@@ -63,8 +64,8 @@ Tangent sum_over_contacts(const State& state) {
   for (const ContactView& c : contact_views(material.problem(), state.current())) {
     const auto [kn, kt] = stiffnesses(material.law, radius[static_cast<std::size_t>(c.i)],
                                       radius[static_cast<std::size_t>(c.j)], c.overlap);
-    const double d = std::hypot(c.branch_x, c.branch_y);
-    const std::array<double, 2> n{c.branch_x / d, c.branch_y / d};
+    const double d = std::hypot(c.branch[0], c.branch[1]);
+    const std::array<double, 2> n{c.branch[0] / d, c.branch[1] / d};
     const std::array<double, 2> t{-n[1], n[0]};
     const auto L = reference_branch(state, c);
     for (std::size_t m = 0; m < 4; ++m) {

@@ -167,12 +167,12 @@ std::map<Bond, double> bonds(const Packing& periodic, const Packing& packing, do
     return std::array{static_cast<int>(std::lround((h[3] * x - h[1] * y) / area)),
                       static_cast<int>(std::lround((h[0] * y - h[2] * x) / area))};
   };
-  NeighbourSearch search;
-  std::vector<NeighbourPair> pairs;
+  NeighbourSearch<2> search;
+  std::vector<NeighbourPair<2>> pairs;
   search.find(packing.size(), packing.position.data(), packing.radius.data(),
               framed ? nullptr : h.data(), std::abs(depth), pairs);
   std::map<Bond, double> found;
-  for (const NeighbourPair& pair : pairs) {
+  for (const NeighbourPair<2>& pair : pairs) {
     const Point a = centre(packing, pair.i);
     const Point b = centre(packing, pair.j);
     const double x = b[0] - a[0] + h[0] * pair.shift[0] + h[1] * pair.shift[1];

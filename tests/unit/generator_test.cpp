@@ -20,9 +20,9 @@ TEST(generator, scatters_discs_that_do_not_touch) {
     options.seed = count;
     const Packing packing = scatter(options);
     ASSERT_EQ(packing.size(), count);
-    std::vector<NeighbourPair> pairs;
-    NeighbourSearch().find(count, packing.position.data(), packing.radius.data(),
-                           packing.cell.data(), 0, pairs);
+    std::vector<NeighbourPair<2>> pairs;
+    NeighbourSearch<2>().find(count, packing.position.data(), packing.radius.data(),
+                              packing.cell.data(), 0, pairs);
     EXPECT_TRUE(pairs.empty());
     double solid = 0;
     for (const double r : packing.radius) solid += std::numbers::pi * r * r;

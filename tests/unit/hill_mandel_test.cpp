@@ -41,9 +41,9 @@ Tensor stress_of(const State& state) {
 
 // Weighted force on j.
 std::array<double, 2> force_on_j(const ContactView& c) {
-  const double d = std::hypot(c.branch_x, c.branch_y);
-  return {c.weight * (c.normal_force * c.branch_x - c.tangential_force * c.branch_y) / d,
-          c.weight * (c.normal_force * c.branch_y + c.tangential_force * c.branch_x) / d};
+  const double d = std::hypot(c.branch[0], c.branch[1]);
+  return {c.weight * (c.normal_force * c.branch[0] - c.tangential_force[0] * c.branch[1]) / d,
+          c.weight * (c.normal_force * c.branch[1] + c.tangential_force[0] * c.branch[0]) / d};
 }
 
 void expect_equal_work(const State& state, const Tensor& F, std::mt19937& random) {
@@ -73,8 +73,8 @@ void expect_equal_work(const State& state, const Tensor& F, std::mt19937& random
     const auto j = static_cast<std::size_t>(c.j);
     const auto a = static_cast<std::size_t>(space.node[i]);
     const auto b = static_cast<std::size_t>(space.node[j]);
-    const double lx = inverse[0] * c.branch_x + inverse[1] * c.branch_y;
-    const double ly = inverse[2] * c.branch_x + inverse[3] * c.branch_y;
+    const double lx = inverse[0] * c.branch[0] + inverse[1] * c.branch[1];
+    const double ly = inverse[2] * c.branch[0] + inverse[3] * c.branch[1];
     const double dx = variation[0] * lx + variation[1] * ly + fluctuation[0][b] - fluctuation[0][a];
     const double dy = variation[2] * lx + variation[3] * ly + fluctuation[1][b] - fluctuation[1][a];
     const auto f = force_on_j(c);
@@ -82,7 +82,7 @@ void expect_equal_work(const State& state, const Tensor& F, std::mt19937& random
     if (material.law.rotating()) {
       const auto& r = material.packing.radius;
       const double lever = r[i] / (r[i] + r[j]);
-      part -= c.weight * c.tangential_force * std::hypot(c.branch_x, c.branch_y) *
+      part -= c.weight * c.tangential_force[0] * std::hypot(c.branch[0], c.branch[1]) *
               (lever * fluctuation[2][a] + (1 - lever) * fluctuation[2][b]);
     }
     work -= part / space.reference_volume;
@@ -131,7 +131,7 @@ Surroundings surroundings(const State& state) {
       result.force[j][k] -= f[k];
     }
     const auto& r = material.packing.radius;
-    const double couple = c.weight * c.tangential_force * std::hypot(c.branch_x, c.branch_y);
+    const double couple = c.weight * c.tangential_force[0] * std::hypot(c.branch[0], c.branch[1]);
     result.moment[i] += couple * r[i] / (r[i] + r[j]);
     result.moment[j] += couple * r[j] / (r[i] + r[j]);
     result.scale += c.normal_force / static_cast<double>(views.size());

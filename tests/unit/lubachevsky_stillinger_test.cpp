@@ -31,9 +31,9 @@ double volume_fraction(const Packing& packing) {
 }
 
 std::size_t pairs_within(const Packing& packing, double gap) {
-  std::vector<NeighbourPair> pairs;
-  NeighbourSearch().find(packing.size(), packing.position.data(), packing.radius.data(),
-                         packing.cell.data(), gap, pairs);
+  std::vector<NeighbourPair<2>> pairs;
+  NeighbourSearch<2>().find(packing.size(), packing.position.data(), packing.radius.data(),
+                            packing.cell.data(), gap, pairs);
   return pairs.size();
 }
 

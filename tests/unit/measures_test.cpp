@@ -13,7 +13,7 @@ const State& reference_state() {
 
 Tensor tensor(const State& state, grainlaw_measure what) {
   Tensor value{};
-  EXPECT_EQ(measure_count(state.material().problem(), what), 4);
+  EXPECT_EQ(measure_count(state.material().packing.dimension, what), 4);
   measure(state.material().problem(), state.current(), what, value.data());
   return value;
 }
@@ -69,8 +69,8 @@ TEST(measures, fabric_and_anisotropy_follow_their_equations) {
   Tensor fabric{};  // Guo & Zhao (2014) eq. 22
   const auto views = contact_views(state.material().problem(), state.current());
   for (const auto& c : views) {
-    const double d = std::hypot(c.branch_x, c.branch_y);
-    const double n[2] = {c.branch_x / d, c.branch_y / d};
+    const double d = std::hypot(c.branch[0], c.branch[1]);
+    const double n[2] = {c.branch[0] / d, c.branch[1] / d};
     for (std::size_t i = 0; i < 2; ++i) {
       for (std::size_t j = 0; j < 2; ++j) {
         fabric[2 * i + j] += n[i] * n[j] / static_cast<double>(views.size());

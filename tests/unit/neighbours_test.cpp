@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +11,7 @@
 #include <ctime>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace grainlaw {
@@ -36,9 +38,9 @@ Discs random_discs(std::size_t n, const std::array<double, 4>& h, double radius_
 }
 
 // Every shift that could matter, each pair tried: the definition, and slow.
-std::vector<NeighbourPair> brute_force(const Discs& discs, const double* h, double gap) {
+std::vector<NeighbourPair<2>> brute_force(const Discs& discs, const double* h, double gap) {
   const std::size_t n = discs.radius.size();
-  std::vector<NeighbourPair> pairs;
+  std::vector<NeighbourPair<2>> pairs;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i; j < n; ++j) {
       const double dx = discs.position[j] - discs.position[i];
@@ -67,8 +69,8 @@ std::vector<NeighbourPair> brute_force(const Discs& discs, const double* h, doub
 }
 
 void expect_as_brute_force(const Discs& discs, const double* cell, double gap) {
-  NeighbourSearch search;
-  std::vector<NeighbourPair> pairs;
+  NeighbourSearch<2> search;
+  std::vector<NeighbourPair<2>> pairs;
   search.find(discs.radius.size(), discs.position.data(), discs.radius.data(), cell, gap, pairs);
   EXPECT_EQ(pairs, brute_force(discs, cell, gap));
 }
@@ -137,8 +139,8 @@ TEST(neighbours, of_very_unequal_discs_are_found) {
 TEST(neighbours, of_one_large_disc_among_many_are_found_as_fast_as_without_it) {
   std::mt19937_64 rng(7);
   const auto seconds_of = [](const Discs& discs) {
-    NeighbourSearch search;
-    std::vector<NeighbourPair> pairs;
+    NeighbourSearch<2> search;
+    std::vector<NeighbourPair<2>> pairs;
     double best = 1e300;
     for (int repeat = 0; repeat < 5; ++repeat) {
       const auto start = std::clock();
@@ -156,8 +158,8 @@ TEST(neighbours, of_one_large_disc_among_many_are_found_as_fast_as_without_it) {
 
 TEST(neighbours, are_the_same_when_the_search_is_reused) {
   std::mt19937_64 rng(6);
-  NeighbourSearch search;
-  std::vector<NeighbourPair> pairs;
+  NeighbourSearch<2> search;
+  std::vector<NeighbourPair<2>> pairs;
   for (const std::size_t n : {100, 3, 250, 1}) {
     const Discs discs = random_discs(n, sheared, 0.1, 2, rng);
     search.find(n, discs.position.data(), discs.radius.data(), sheared.data(), 0.02, pairs);
@@ -166,8 +168,8 @@ TEST(neighbours, are_the_same_when_the_search_is_reused) {
 }
 
 TEST(neighbours, refuse_what_has_no_answer) {
-  NeighbourSearch search;
-  std::vector<NeighbourPair> pairs;
+  NeighbourSearch<2> search;
+  std::vector<NeighbourPair<2>> pairs;
   const auto find = [&](Discs discs, const double* cell) {
     search.find(discs.radius.size(), discs.position.data(), discs.radius.data(), cell, 0, pairs);
   };
@@ -179,6 +181,161 @@ TEST(neighbours, refuse_what_has_no_answer) {
   EXPECT_THROW(find({{0, 40000, 0, 0}, {0.1, 0.1}}, square.data()), Error);
   EXPECT_THROW(find({{0, 1, 0, 0}, {0.1, 0.1}}, flat), Error);
   EXPECT_NO_THROW(find({{}, {}}, square.data()));
+}
+
+struct Spheres {
+  std::vector<double> position, radius;
+};
+
+using Cell3 = std::array<double, 9>;
+
+Eigen::Matrix3d matrix_of(const Cell3& h) {
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(h.data());
+}
+
+// n spheres in the cell, wrapped `far` cells away at random.
+Spheres random_spheres(std::size_t n, const Cell3& h, double radius_max, int far,
+                       std::mt19937_64& rng) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::uniform_int_distribution<int> cells(-far, far);
+  Spheres spheres{std::vector<double>(3 * n), std::vector<double>(n)};
+  for (std::size_t p = 0; p < n; ++p) {
+    Eigen::Vector3d s;
+    for (double& value : s) value = unit(rng) + cells(rng);
+    const Eigen::Vector3d x = matrix_of(h) * s;
+    for (std::size_t k = 0; k < 3; ++k) {
+      spheres.position[k * n + p] = x[static_cast<Eigen::Index>(k)];
+    }
+    spheres.radius[p] = radius_max * (0.4 + 0.6 * unit(rng));
+  }
+  return spheres;
+}
+
+Eigen::Vector3d place(const Spheres& spheres, std::size_t p) {
+  const std::size_t n = spheres.radius.size();
+  return {spheres.position[p], spheres.position[n + p], spheres.position[2 * n + p]};
+}
+
+// As that of discs; in the order (i, j, shift).
+std::vector<NeighbourPair<3>> brute_force(const Spheres& spheres, const Cell3* h, double gap) {
+  const std::size_t n = spheres.radius.size();
+  const Eigen::Matrix3d cell = h != nullptr ? matrix_of(*h) : Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d inverse = cell.inverse();
+  std::vector<NeighbourPair<3>> pairs;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i; j < n; ++j) {
+      const Eigen::Vector3d apart = place(spheres, j) - place(spheres, i);
+      const double limit = spheres.radius[i] + spheres.radius[j] + gap;
+      NeighbourPair<3> pair{static_cast<int>(i), static_cast<int>(j), {}};
+      if (h == nullptr) {
+        if (i != j && apart.norm() < limit) pairs.push_back(pair);
+        continue;
+      }
+      const Eigen::Vector3d centre = -inverse * apart;
+      const Eigen::Vector3d reach = (limit * inverse.rowwise().norm()).array() + 1;
+      const Eigen::Vector3d first = (centre - reach).array().floor();
+      const Eigen::Vector3d last = centre + reach;
+      for (double a = first[0]; a <= last[0]; ++a)
+        for (double b = first[1]; b <= last[1]; ++b)
+          for (double c = first[2]; c <= last[2]; ++c) {
+            pair.shift = {static_cast<std::int16_t>(a), static_cast<std::int16_t>(b),
+                          static_cast<std::int16_t>(c)};
+            if (i == j && !(pair.shift > decltype(pair.shift){})) continue;
+            if ((apart + cell * Eigen::Vector3d(a, b, c)).norm() < limit) pairs.push_back(pair);
+          }
+    }
+  return pairs;
+}
+
+void expect_as_brute_force(const Spheres& spheres, const Cell3* cell, double gap) {
+  NeighbourSearch<3> search;
+  std::vector<NeighbourPair<3>> pairs;
+  search.find(spheres.radius.size(), spheres.position.data(), spheres.radius.data(),
+              cell != nullptr ? cell->data() : nullptr, gap, pairs);
+  EXPECT_EQ(pairs, brute_force(spheres, cell, gap));
+}
+
+const Cell3 cube = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+const Cell3 sheared_cube = {1, 2.3, -0.7, 0, 0.9, 1.6, 0, 0, 1.2};
+const Cell3 oblique = {1.1, -0.3, 0.4, -1.2, 1.4, 0.2, 0.3, 0.8, 1.3};
+const Cell3 mirrored = {-0.2, -1.1, 0.1, 1.3, -0.1, 0.2, 0.1, 0.3, -1};
+
+TEST(neighbours, of_spheres_agree_with_brute_force_in_any_cell) {
+  std::mt19937_64 rng(8);
+  for (const auto& cell : {cube, sheared_cube, oblique, mirrored})
+    for (const std::size_t n : {1, 2, 7, 40, 200})
+      for (const double gap : {0.0, 0.03, 0.4})
+        expect_as_brute_force(random_spheres(n, cell, 0.12, 0, rng), &cell, gap);
+}
+
+TEST(neighbours, of_a_cell_smaller_than_a_sphere_come_with_all_images) {
+  std::mt19937_64 rng(9);
+  for (const auto& cell : {cube, sheared_cube, oblique, mirrored})
+    for (const std::size_t n : {1, 2, 3})
+      for (const double radius : {0.3, 0.8, 2.1})
+        expect_as_brute_force(random_spheres(n, cell, radius, 0, rng), &cell, 0.1);
+}
+
+TEST(neighbours, of_spheres_are_found_from_unwrapped_positions) {
+  std::mt19937_64 rng(10);
+  for (const auto& cell : {cube, sheared_cube, oblique, mirrored})
+    for (const int far : {1, 5, 200})
+      expect_as_brute_force(random_spheres(60, cell, 0.15, far, rng), &cell, 0.02);
+}
+
+TEST(neighbours, of_spheres_without_a_cell_have_no_images) {
+  std::mt19937_64 rng(11);
+  for (const std::size_t n : {1, 2, 5, 200})
+    expect_as_brute_force(random_spheres(n, oblique, 0.15, 1, rng), nullptr, 0.05);
+}
+
+TEST(neighbours, of_very_unequal_spheres_are_found) {
+  std::mt19937_64 rng(12);
+  for (const auto& cell : {cube, sheared_cube, oblique, mirrored}) {
+    Spheres steps = random_spheres(150, cell, 0.02, 1, rng);
+    steps.radius[3] = 0.5;  // alone, a few, and some between them and the rest
+    for (const std::size_t p : {40, 41, 149}) steps.radius[p] = 0.2;
+    for (std::size_t p = 100; p < 120; ++p) steps.radius[p] = 0.06;
+    for (const double gap : {0.0, 0.02}) {
+      expect_as_brute_force(steps, &cell, gap);
+      expect_as_brute_force(steps, nullptr, gap);
+    }
+  }
+}
+
+TEST(neighbours, of_spheres_come_in_order_each_once) {
+  std::mt19937_64 rng(13);
+  NeighbourSearch<3> search;  // of one packing after the other
+  std::vector<NeighbourPair<3>> pairs;
+  for (const auto& cell : {cube, sheared_cube, oblique, mirrored})
+    for (const auto& [n, radius] : {std::pair{2, 1.5}, std::pair{90, 0.2}, std::pair{30, 0.5}}) {
+      const Spheres spheres = random_spheres(static_cast<std::size_t>(n), cell, radius, 3, rng);
+      search.find(spheres.radius.size(), spheres.position.data(), spheres.radius.data(),
+                  cell.data(), 0.02, pairs);
+      ASSERT_GT(pairs.size(), spheres.radius.size());
+      for (std::size_t c = 0; c < pairs.size(); ++c) {
+        EXPECT_LE(pairs[c].i, pairs[c].j);
+        if (c == 0) continue;
+        EXPECT_LT(key_of(pairs[c - 1]), key_of(pairs[c]));
+      }
+      EXPECT_EQ(pairs, brute_force(spheres, &cell, 0.02));
+    }
+}
+
+TEST(neighbours, of_spheres_refuse_what_has_no_answer) {
+  NeighbourSearch<3> search;
+  std::vector<NeighbourPair<3>> pairs;
+  const auto find = [&](const Spheres& spheres, const Cell3& cell) {
+    search.find(spheres.radius.size(), spheres.position.data(), spheres.radius.data(), cell.data(),
+                0, pairs);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Cell3 flat = {1, 0, 1, 0, 1, 1, 0, 0, 0};
+  EXPECT_THROW(find({{0, 0, 0, 0, 0, nan}, {0.1, 0.1}}, cube), Error);
+  EXPECT_THROW(find({{0, 0, 0, 0, 0, 1e300}, {0.1, 0.1}}, cube), Error);
+  EXPECT_THROW(find({{0, 0, 0, 0, 0, 600}, {0.1, 0.1}}, cube), Error);
+  EXPECT_THROW(find({{0, 0, 0, 0, 0, 1}, {0.1, 0.1}}, flat), Error);
+  EXPECT_NO_THROW(find({{}, {}}, cube));
 }
 
 }  // namespace

@@ -33,9 +33,9 @@ ContactLaw soft_law() {
 }
 
 std::size_t touching(const Packing& packing) {
-  std::vector<NeighbourPair> pairs;
-  NeighbourSearch().find(packing.size(), packing.position.data(), packing.radius.data(),
-                         packing.cell.data(), 0, pairs);
+  std::vector<NeighbourPair<2>> pairs;
+  NeighbourSearch<2>().find(packing.size(), packing.position.data(), packing.radius.data(),
+                            packing.cell.data(), 0, pairs);
   return pairs.size();
 }
 
@@ -51,7 +51,7 @@ TEST(regular, every_disc_touches_four_or_six) {
 // corner discs are the corners of the frame.
 TEST(regular, square_frames_are_the_published_ones) {
   for (const std::size_t side : {5, 10, 15}) {
-    const auto material = make_material(test::describe(
+    const auto material = test::make_material(test::describe(
         consolidate(published(GeneratorKind::square, side - 1, side - 1), soft_law()), soft_law(),
         BoundaryType::frame_p));
     const Packing& packing = material->packing;
@@ -75,7 +75,7 @@ TEST(regular, square_frames_are_the_published_ones) {
 }
 
 TEST(regular, hexagonal_frames_close) {
-  const auto material = make_material(
+  const auto material = test::make_material(
       test::describe(consolidate(published(GeneratorKind::hexagonal, 5, 4), soft_law()), soft_law(),
                      BoundaryType::frame_p));
   EXPECT_EQ(material->packing.size(), 30U);
@@ -88,7 +88,7 @@ TEST(regular, stress_at_rest_is_the_pressure_wanted) {
       options.overlap.reset();
       options.pressure = pressure;
       const auto material =
-          make_material(test::describe(consolidate(options, soft_law()), soft_law()));
+          test::make_material(test::describe(consolidate(options, soft_law()), soft_law()));
       const auto& stress = material->initial.stress;
       EXPECT_NEAR(stress[0] / pressure, -1, 1e-9);
       EXPECT_NEAR(stress[3] / pressure, -1, 1e-9);

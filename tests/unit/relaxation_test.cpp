@@ -37,13 +37,14 @@ const std::vector<Named>& ways_of_committed_history() {
 
 const std::vector<Named>& ways_of_advancing_history() {
   static RelaxationMemory memory;
+  static ReferenceMemory reference;
   static const std::vector<Named> ways{
       {"advancing",
        [](Increment& increment, double tolerance) {
          return relax(increment, tolerance, step_limit, History::advancing, memory);
        }},
       {"published", [](Increment& increment, double tolerance) {
-         return relax_published(increment, tolerance, PublishedOptions{}, {}, memory);
+         return relax_published(increment, tolerance, PublishedOptions{}, {}, reference);
        }}};
   return ways;
 }

@@ -15,7 +15,7 @@ struct Sheared {
   Problem problem;
   Increment increment;
   Stiffness stiffness;
-  RollingMechanisms<2> mechanisms;
+  RollingMechanisms mechanisms;
 
   explicit Sheared(const std::vector<double>& radii)
       : state(make_material(describe(disc_row(radii, overlap), rough_law()))),
@@ -141,7 +141,7 @@ TEST(mechanisms, are_none_where_discs_keep_their_orientation_or_contacts_carry_m
        {std::pair{rough_law(), true}, std::pair{hertz_law(), true},
         std::pair{compressive_law(), false}, std::pair{bonded_law(1e6), false}}) {
     const State state(make_material(describe(packing, law)));
-    EXPECT_EQ(RollingMechanisms<2>::possible(state.material().problem()), possible);
+    EXPECT_EQ(RollingMechanisms::possible(state.material().problem()), possible);
   }
 }
 

@@ -105,8 +105,8 @@ TEST(stiffness, solves_four_as_one_by_one) {
     const auto b = increment.unknowns() / nodes;
     std::vector<double> right(increment.unknowns());
     std::vector<double> x(right.size());
-    std::vector<Quad> four(right.size());
-    std::vector<Quad> solution(right.size());
+    std::vector<Together<4>> four(right.size());
+    std::vector<Together<4>> solution(right.size());
     const auto right_side = [&](std::size_t lane) {
       const auto motion = some_motion(increment, static_cast<double>(1 + lane));
       for (std::size_t k = 0; k < right.size(); ++k) right[k] = increment.mass[k] * motion[k];
@@ -118,7 +118,7 @@ TEST(stiffness, solves_four_as_one_by_one) {
       }
     }
     stiffness.assemble(increment, 1e-3);
-    ASSERT_TRUE(stiffness.solve_four(increment, four, solution));
+    ASSERT_TRUE(stiffness.solve_together(increment, four, solution));
     stiffness.factorise(increment);
     for (std::size_t l = 0; l < 4; ++l) {
       right_side(l);

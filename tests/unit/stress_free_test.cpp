@@ -40,7 +40,7 @@ void expect_free(State& state, const Tensor& F) {
     EXPECT_EQ(at.report.tangent_exact, kind == TangentKind::exact ? 1 : 0);
     EXPECT_STRNE(at.report.message, "");
     EXPECT_TRUE(state.current().contacts.empty());
-    EXPECT_EQ(state.current().stress, (std::array<double, 9>{}));
+    EXPECT_EQ(state.current().stress, Tensor{});
   }
 }
 

@@ -1,5 +1,6 @@
 // Leaps along the slow modes of a relaxation, where the answer is known: springs to the ground.
 #include "equilibrium/subspace_extrapolation.hpp"
+#include "plane.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,6 +6,7 @@
 #include "homogenise/measures.hpp"
 #include "material/material.hpp"
 #include "material/packing_file.hpp"
+#include "plane.hpp"
 #include "state/state.hpp"
 
 #include <grainlaw/grainlaw.h>
@@ -220,7 +221,7 @@ inline std::vector<BearingContact> bearing_contacts(const State& state) {
   for (const auto& view : views) {
     if (view.normal_force < least * mean) continue;
     const double limit = state.material().law.friction * view.normal_force;
-    const bool sliding = std::abs(view.tangential_force) > (1 - rounding) * limit;
+    const bool sliding = std::abs(view.tangential_force[0]) > (1 - rounding) * limit;
     result.emplace_back(view.i, view.j, view.shift, sliding);
   }
   return result;

@@ -27,7 +27,7 @@ inline Statuses statuses(const State& state) {
         material.law.common_radius(material.packing.radius[static_cast<std::size_t>(view.i)],
                                    material.packing.radius[static_cast<std::size_t>(view.j)]);
     const double most = material.law.rolling.friction * r * view.normal_force;
-    result.rolling.push_back(!view.bonded && std::abs(view.moment) > (1 - rounding) * most);
+    result.rolling.push_back(!view.bonded && std::abs(view.moment[0]) > (1 - rounding) * most);
   }
   return result;
 }

@@ -121,7 +121,7 @@ void WaveMotion::keep_list() {
     const double moment = list_.start_moment[0].empty() ? 0 : list_.start_moment[0][c];
     if (!bonded && list_.start_force[0][c] == 0 && moment == 0) continue;
     history_.push_back(
-        {list_.i[c], list_.j[c], {}, false, bonded, list_.start_force[0][c] / weight});
+        {list_.i[c], list_.j[c], {}, false, bonded, {list_.start_force[0][c] / weight}});
     if (law_.moments()) moments_.push_back(moment / weight);
     if (keeps_gaps) gaps_.push_back(list_.rest_of(c) - list_.reach[c]);
   }
