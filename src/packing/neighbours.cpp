@@ -188,7 +188,7 @@ void NeighbourSearch<D>::fill_bins(const Grid& grid, std::size_t n, const double
 template <int D>
 template <class Visit>
 void NeighbourSearch<D>::for_runs(const Grid& grid, const Bin& centre, const Bin& reach,
-                                  Visit&& visit) const {
+                                  Visit&& visit) {
   Bin first{}, last{};
   for (std::size_t k = 1; k < dim; ++k) {
     first[k] = centre[k] - reach[k];
@@ -199,6 +199,7 @@ void NeighbourSearch<D>::for_runs(const Grid& grid, const Bin& centre, const Bin
     const std::uint32_t begin = bin_end_[grid.bin(at)];
     at[0] = centre[0] + reach[0];
     const std::uint32_t end = bin_end_[grid.bin(at) + 1];
+    candidates_ += end - begin;
     for (std::uint32_t e = begin; e < end; ++e) visit(entry_[e]);
   });
 }
@@ -208,6 +209,7 @@ void NeighbourSearch<D>::find(std::size_t n, const double* position, const doubl
                               const double* cell, double gap,
                               std::vector<NeighbourPair<D>>& pairs) {
   pairs.clear();
+  candidates_ = 0;
   if (n == 0) return;
   const double largest = *std::max_element(radius, radius + n);
   const double mean = std::accumulate(radius, radius + n, 0.0) / static_cast<double>(n);
@@ -280,6 +282,7 @@ void NeighbourSearch<D>::add_larger(const Grid& grid, std::size_t n, const doubl
   if (among_large_.empty()) among_large_.resize(1);
   among_large_.front().find(large_.size(), large_position_.data(), large_radius_.data(), cell, gap,
                             large_pairs_);
+  candidates_ += among_large_.front().candidates();
   for (const NeighbourPair<D>& pair : large_pairs_)
     pairs.push_back({large_[static_cast<std::size_t>(pair.i)],
                      large_[static_cast<std::size_t>(pair.j)], pair.shift});

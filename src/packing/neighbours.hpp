@@ -46,6 +46,9 @@ class NeighbourSearch {
   void find(std::size_t n, const double* position, const double* radius, const double* cell,
             double gap, std::vector<NeighbourPair<D>>& pairs);
 
+  // Distances that the last search looked at: its work.
+  [[nodiscard]] std::size_t candidates() const { return candidates_; }
+
  private:
   static constexpr std::size_t dim = D;
   using Bin = std::array<std::int32_t, dim>;
@@ -57,7 +60,7 @@ class NeighbourSearch {
   void add_larger(const Grid& grid, std::size_t n, const double* position, const double* radius,
                   const double* cell, double gap, std::vector<NeighbourPair<D>>& pairs);
   template <class Visit>
-  void for_runs(const Grid& grid, const Bin& centre, const Bin& reach, Visit&& visit) const;
+  void for_runs(const Grid& grid, const Bin& centre, const Bin& reach, Visit&& visit);
 
   // A particle or an image of one. The key orders by (particle, shift) as one integer.
   struct Entry {
@@ -74,6 +77,7 @@ class NeighbourSearch {
   std::vector<std::uint32_t> bin_end_;
   std::vector<Entry> entry_;
   std::vector<std::uint64_t> hit_;
+  std::size_t candidates_ = 0;
   std::vector<std::int32_t> large_;  // particles that are not in bins
   std::vector<double> large_position_, large_radius_;
   std::vector<NeighbourPair<D>> large_pairs_;

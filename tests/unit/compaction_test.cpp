@@ -66,7 +66,7 @@ Summary summary(const Packing& packing) {
 }
 
 TEST(compaction, reaches_the_pressure_at_rest) {
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
     GeneratorOptions options = small();
     options.seed = seed;
     const Packing packing = consolidate(options, law());

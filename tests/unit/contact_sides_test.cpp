@@ -94,7 +94,7 @@ std::vector<ContactLaw> laws() {
 const std::vector<Tensor> deformations{{1.0004, 0, 0, 0.999}, {1, 3e-3, 1e-3, 1}, {1, 0.4, 0, 1}};
 
 TEST(contact_sides, carry_the_forces_of_the_law_at_their_place) {
-  for (const std::size_t count : {2, 3, 21, 80}) {  // of the last group of eight a part, too
+  for (const std::size_t count : {2U, 3U, 21U, 80U}) {  // of the last group of eight a part, too
     for (const auto& law : laws()) {
       for (const Tensor& F : deformations) {
         Scene scene(small_packing(count), law, F);

@@ -319,9 +319,9 @@ TEST(frame, of_regular_packings_is_found) {
 }
 
 TEST(frame, of_generated_packings_is_closed_and_exact) {
-  for (const std::size_t count : {10, 40, 100})
+  for (const std::size_t count : {10U, 40U, 100U})
     for (const double friction : {0.0, 0.5})
-      for (const std::uint64_t seed : {1, 2}) {
+      for (const std::uint64_t seed : {1U, 2U}) {
         const Packing periodic = consolidated(count, friction, seed);
         const Packing cut = cut_frame(periodic);
         expect_frame_of(periodic, cut);

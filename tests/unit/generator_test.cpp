@@ -14,7 +14,7 @@ namespace grainlaw {
 namespace {
 
 TEST(generator, scatters_discs_that_do_not_touch) {
-  for (const std::size_t count : {1, 2, 3, 10, 400, 3000}) {
+  for (const std::size_t count : {1U, 2U, 3U, 10U, 400U, 3000U}) {
     GeneratorOptions options;
     options.count = count;
     options.seed = count;

@@ -50,7 +50,7 @@ TEST(law_state, energy_balances_over_a_cycle_to_first_order_of_the_increment) {
     double coarse = 0;
     double fine = 0;
     double moved = 0;
-    for (const std::uint64_t seed : {1, 2}) {
+    for (const std::uint64_t seed : {1U, 2U}) {
       const auto material = make_material(describe_law(small_packing(80, seed), law));
       coarse += std::abs(go_round(material, 20).error);
       const Balance many = go_round(material, 100);

@@ -92,7 +92,7 @@ TEST(loose_tolerance, ends_where_a_packing_does_not_settle_and_changes_nothing_e
 TEST(loose_tolerance, what_ended_loosely_is_sought_for_less_from_there) {
   long first_steps = 0, steps = 0;
   int ended_loosely = 0;
-  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
     auto description = fluttering(seed);
     description.solver.loose_tolerance = loose;
     description.solver.start = Start::trial;
@@ -118,7 +118,7 @@ TEST(loose_tolerance, what_ended_loosely_is_sought_for_less_from_there) {
 // A tolerance that flutter seldom meets by itself.
 TEST(loose_tolerance, what_ended_by_advancing_history_is_advanced_first_from_there) {
   int advanced = 0;
-  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
     auto description = fluttering(seed);
     description.solver.loose_tolerance = 1e-4;
     description.solver.start = Start::trial;

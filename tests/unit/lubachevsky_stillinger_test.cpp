@@ -38,7 +38,7 @@ std::size_t pairs_within(const Packing& packing, double gap) {
 }
 
 TEST(lubachevsky_stillinger, jams_near_random_close_packing_without_overlaps) {
-  for (const std::uint64_t seed : {1, 2}) {
+  for (const std::uint64_t seed : {1U, 2U}) {
     const Packing packing = grow(options(100, seed));
     EXPECT_EQ(pairs_within(packing, 0), 0U);
     EXPECT_NEAR(volume_fraction(packing), 0.843, 0.015);
@@ -59,7 +59,7 @@ TEST(lubachevsky_stillinger, ends_at_the_volume_fraction_wanted) {
 }
 
 TEST(lubachevsky_stillinger, grows_few_discs_and_very_different_ones) {
-  for (const std::size_t count : {2, 3, 4, 7, 12}) {
+  for (const std::size_t count : {2U, 3U, 4U, 7U, 12U}) {
     const Packing packing = grow(options(count));
     EXPECT_EQ(pairs_within(packing, 0), 0U) << count;
     EXPECT_GT(volume_fraction(packing), 0.55) << count;

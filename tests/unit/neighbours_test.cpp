@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <random>
 #include <utility>
@@ -83,7 +82,7 @@ const std::array<double, 4> rotated = {-0.2, -1.1, 1.3, -0.1};
 TEST(neighbours, agree_with_brute_force_in_any_cell) {
   std::mt19937_64 rng(1);
   for (const auto& cell : {square, sheared, sheared_back, rotated})
-    for (const std::size_t n : {1, 2, 7, 40, 300})
+    for (const std::size_t n : {1U, 2U, 7U, 40U, 300U})
       for (const double gap : {0.0, 0.03, 0.4})
         expect_as_brute_force(random_discs(n, cell, 0.06, 0, rng), cell.data(), gap);
 }
@@ -91,7 +90,7 @@ TEST(neighbours, agree_with_brute_force_in_any_cell) {
 TEST(neighbours, of_a_cell_smaller_than_a_particle_come_with_all_images) {
   std::mt19937_64 rng(2);
   for (const auto& cell : {square, sheared, sheared_back, rotated})
-    for (const std::size_t n : {1, 2, 3})
+    for (const std::size_t n : {1U, 2U, 3U})
       for (const double radius : {0.3, 0.8, 2.1})
         expect_as_brute_force(random_discs(n, cell, radius, 0, rng), cell.data(), 0.1);
 }
@@ -105,7 +104,7 @@ TEST(neighbours, are_found_from_unwrapped_positions) {
 
 TEST(neighbours, without_a_cell_have_no_images) {
   std::mt19937_64 rng(4);
-  for (const std::size_t n : {1, 2, 5, 200})
+  for (const std::size_t n : {1U, 2U, 5U, 200U})
     expect_as_brute_force(random_discs(n, sheared, 0.07, 1, rng), nullptr, 0.05);
 }
 
@@ -126,7 +125,7 @@ TEST(neighbours, of_very_unequal_discs_are_found) {
   for (const auto& cell : {square, sheared, sheared_back, rotated}) {
     Discs steps = random_discs(200, cell, 0.01, 3, rng);
     steps.radius[3] = 0.3;  // alone, a few, and some between them and the rest
-    for (const std::size_t p : {40, 41, 199}) steps.radius[p] = 0.1;
+    for (const std::size_t p : {40U, 41U, 199U}) steps.radius[p] = 0.1;
     for (std::size_t p = 100; p < 130; ++p) steps.radius[p] = 0.03;
     for (const double gap : {0.0, 0.02}) {
       expect_as_brute_force(steps, cell.data(), gap);
@@ -136,31 +135,27 @@ TEST(neighbours, of_very_unequal_discs_are_found) {
 }
 
 // One disc of twenty radii among four thousand: no more than a few candidates for each of the rest.
-TEST(neighbours, of_one_large_disc_among_many_are_found_as_fast_as_without_it) {
+TEST(neighbours, of_one_large_disc_among_many_take_little_more_work_than_without_it) {
   std::mt19937_64 rng(7);
-  const auto seconds_of = [](const Discs& discs) {
-    NeighbourSearch<2> search;
-    std::vector<NeighbourPair<2>> pairs;
-    double best = 1e300;
-    for (int repeat = 0; repeat < 5; ++repeat) {
-      const auto start = std::clock();
-      search.find(discs.radius.size(), discs.position.data(), discs.radius.data(), square.data(),
-                  1e-3, pairs);
-      best = std::min(best, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
-    }
-    return best;
+  NeighbourSearch<2> search;
+  std::vector<NeighbourPair<2>> pairs;
+  const auto candidates_of = [&](const Discs& discs) {
+    search.find(discs.radius.size(), discs.position.data(), discs.radius.data(), square.data(),
+                1e-3, pairs);
+    return search.candidates();
   };
   Discs discs = random_discs(4000, square, 0.01, 0, rng);
-  const double without = seconds_of(discs);
+  const std::size_t without = candidates_of(discs);
+  EXPECT_GE(without, 2 * pairs.size());  // each pair is met from both sides
   discs.radius[17] = 0.2;
-  EXPECT_LT(seconds_of(discs), 10 * without + 1e-3);
+  EXPECT_LT(candidates_of(discs), 3 * without);
 }
 
 TEST(neighbours, are_the_same_when_the_search_is_reused) {
   std::mt19937_64 rng(6);
   NeighbourSearch<2> search;
   std::vector<NeighbourPair<2>> pairs;
-  for (const std::size_t n : {100, 3, 250, 1}) {
+  for (const std::size_t n : {100U, 3U, 250U, 1U}) {
     const Discs discs = random_discs(n, sheared, 0.1, 2, rng);
     search.find(n, discs.position.data(), discs.radius.data(), sheared.data(), 0.02, pairs);
     EXPECT_EQ(pairs, brute_force(discs, sheared.data(), 0.02));

@@ -40,8 +40,8 @@ std::size_t touching(const Packing& packing) {
 }
 
 TEST(regular, every_disc_touches_four_or_six) {
-  for (const std::size_t columns : {2, 3, 4, 9})
-    for (const std::size_t rows : {2, 4, 8}) {
+  for (const std::size_t columns : {2U, 3U, 4U, 9U})
+    for (const std::size_t rows : {2U, 4U, 8U}) {
       EXPECT_EQ(touching(square_lattice(columns, rows, 1.02, 2)), 2 * columns * rows);
       EXPECT_EQ(touching(hexagonal_lattice(columns, rows, 1.02, 2)), 3 * columns * rows);
     }
@@ -50,7 +50,7 @@ TEST(regular, every_disc_touches_four_or_six) {
 // Liu, Bosco & Suiker (2017), section 4.1: 25, 100, 225 discs, V = 64, 324, 784 mm2, and the four
 // corner discs are the corners of the frame.
 TEST(regular, square_frames_are_the_published_ones) {
-  for (const std::size_t side : {5, 10, 15}) {
+  for (const std::size_t side : {5U, 10U, 15U}) {
     const auto material = test::make_material(test::describe(
         consolidate(published(GeneratorKind::square, side - 1, side - 1), soft_law()), soft_law(),
         BoundaryType::frame_p));

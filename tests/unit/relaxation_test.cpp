@@ -195,7 +195,7 @@ double energy_error(std::uint64_t seed, int increments) {
 // The sum over some packings: in a single one the error may change sign as increments shrink.
 double energy_error(int increments) {
   double sum = 0;
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const double error = std::abs(energy_error(seed, increments));
     EXPECT_LT(error, 0.02);
     sum += error;

@@ -262,7 +262,7 @@ Return touch_again(std::uint64_t seed, double force_floor) {
 
 TEST(stress_free, force_floor_spares_the_search_for_forces_that_fade) {
   long with = 0, without = 0;
-  for (const std::uint64_t seed : {1, 2}) {
+  for (const std::uint64_t seed : {1U, 2U}) {
     const Return found = touch_again(seed, 0);
     const Return soon = touch_again(seed, 1e-2);
     EXPECT_NEAR(soon.pressure, found.pressure, 0.1 * found.pressure);
@@ -296,7 +296,7 @@ Evaluation advance_in_halves(State& state, const Tensor& F, int& refused) {
 TEST(stress_free, forces_that_fade_without_end_count_for_nothing) {
   int refused = 0;
   int faded = 0;
-  for (const std::uint64_t seed : {43, 50}) {
+  for (const std::uint64_t seed : {43U, 50U}) {
     GeneratorOptions options;
     options.count = 200;
     options.seed = seed;

@@ -58,7 +58,7 @@ TEST(tangent, where_rattlers_come_to_bear_rounding_of_F_moves_the_stress_by_roun
   constexpr double rounding = 1e-14;
   int in_parts = 0;
   int rough = 0;
-  for (const std::uint64_t seed : {1, 2, 4, 5}) {
+  for (const std::uint64_t seed : {1U, 2U, 4U, 5U}) {
     State state(make_material(
         describe(small_packing(100, seed), rough_law(), BoundaryType::periodic_cell, 1e-11)));
     Tensor F = identity;
