@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-using namespace grainlaw;
+using namespace grainlaw::core;
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include "api/guard.hpp"
 
-namespace grainlaw::api {
+namespace grainlaw::core::api {
 namespace {
 
 // What a factorisation costs in relaxation steps: some tens of them with hundreds of particles.
@@ -47,4 +47,4 @@ grainlaw_status evaluate_point(IntegrationPoint& point, const double* F, unsigne
   return status;
 }
 
-}  // namespace grainlaw::api
+}  // namespace grainlaw::core::api

@@ -5,7 +5,7 @@
 
 #include <grainlaw/grainlaw.h>
 
-namespace grainlaw::api {
+namespace grainlaw::core::api {
 
 // None or one known bit of GRAINLAW_WANT_*.
 [[nodiscard]] bool known_want(unsigned want);
@@ -16,4 +16,4 @@ namespace grainlaw::api {
 grainlaw_status evaluate_point(IntegrationPoint& point, const double* F, unsigned want, double* P,
                                double* A, grainlaw_report& report) noexcept;
 
-}  // namespace grainlaw::api
+}  // namespace grainlaw::core::api

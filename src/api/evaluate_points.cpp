@@ -3,7 +3,7 @@
 #include "api/evaluate_point.hpp"
 #include "api/guard.hpp"
 
-namespace grainlaw::api {
+namespace grainlaw::core::api {
 
 grainlaw_status check(const PointArrays& arrays, std::size_t n) {
   if (n == 0) return GRAINLAW_OK;
@@ -30,4 +30,4 @@ Summary evaluate_points(PointSpan points, std::span<std::size_t> order, const Po
   return evaluate_all(points, order, std::ref(evaluate), threads);
 }
 
-}  // namespace grainlaw::api
+}  // namespace grainlaw::core::api

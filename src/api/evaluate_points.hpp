@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <span>
 
-namespace grainlaw::api {
+namespace grainlaw::core::api {
 
 // As in grainlaw_points_evaluate: all but F may be null.
 struct PointArrays {
@@ -28,4 +28,4 @@ struct PointArrays {
 Summary evaluate_points(PointSpan points, std::span<std::size_t> order, const PointArrays& arrays,
                         int threads) noexcept;
 
-}  // namespace grainlaw::api
+}  // namespace grainlaw::core::api

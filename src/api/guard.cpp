@@ -7,7 +7,7 @@
 #include <exception>
 #include <new>
 
-namespace grainlaw::api {
+namespace grainlaw::core::api {
 
 void MessageBuffer::write(std::string_view message) const noexcept {
   if (text == nullptr || size == 0) return;
@@ -33,4 +33,4 @@ grainlaw_status translate_exception(const MessageBuffer& message) noexcept {
   return GRAINLAW_INTERNAL_FAULT;
 }
 
-}  // namespace grainlaw::api
+}  // namespace grainlaw::core::api

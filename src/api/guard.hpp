@@ -10,7 +10,7 @@
 #include <string_view>
 #include <type_traits>
 
-namespace grainlaw::api {
+namespace grainlaw::core::api {
 
 // A caller's buffer for one line of text; may be absent. Text is truncated, and always terminated.
 struct MessageBuffer {
@@ -68,4 +68,4 @@ grainlaw_status guarded(Body&& body, const MessageBuffer& message = {}) noexcept
   }
 }
 
-}  // namespace grainlaw::api
+}  // namespace grainlaw::core::api

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace grainlaw::api {
+namespace grainlaw::core::api {
 
 // Its address tells this copy of the library from others in the process, whose handles may be laid
 // out in another way.
@@ -34,37 +34,37 @@ class Magic {
   std::uint64_t word_ = live();
 };
 
-}  // namespace grainlaw::api
+}  // namespace grainlaw::core::api
 
 struct grainlaw_material {
-  explicit grainlaw_material(grainlaw::AnyMaterial shared) : material(std::move(shared)) {}
+  explicit grainlaw_material(grainlaw::core::AnyMaterial shared) : material(std::move(shared)) {}
 
-  grainlaw::api::Magic<0x6c61'6972'6574'616dULL> magic;
-  grainlaw::AnyMaterial material;
+  grainlaw::core::api::Magic<0x6c61'6972'6574'616dULL> magic;
+  grainlaw::core::AnyMaterial material;
 };
 
 struct grainlaw_state {
-  explicit grainlaw_state(grainlaw::AnyState initial, long cost = 0, bool in_set = false)
+  explicit grainlaw_state(grainlaw::core::AnyState initial, long cost = 0, bool in_set = false)
       : point{std::move(initial), cost}, of_set(in_set) {}
 
-  grainlaw::api::Magic<0x6574'6174'735f'6c67ULL> magic;
-  grainlaw::IntegrationPoint point;
+  grainlaw::core::api::Magic<0x6574'6174'735f'6c67ULL> magic;
+  grainlaw::core::IntegrationPoint point;
   bool of_set;  // a set owns it
 };
 
 struct grainlaw_points {
   explicit grainlaw_points(std::size_t n) : order(n) { points.reserve(n); }
-  void add(grainlaw::AnyState initial, long cost = 0) {
+  void add(grainlaw::core::AnyState initial, long cost = 0) {
     points.push_back(&states.emplace_back(std::move(initial), cost, true).point);
   }
 
-  grainlaw::api::Magic<0x7374'6e69'6f70'6c67ULL> magic;
+  grainlaw::core::api::Magic<0x7374'6e69'6f70'6c67ULL> magic;
   std::deque<grainlaw_state> states;  // stay where they are: hosts borrow them
-  std::vector<grainlaw::IntegrationPoint*> points;
+  std::vector<grainlaw::core::IntegrationPoint*> points;
   std::vector<std::size_t> order;  // room for the next evaluation
 };
 
-namespace grainlaw::api {
+namespace grainlaw::core::api {
 
 // OK, NULL_POINTER or BAD_HANDLE.
 template <class Handle>
@@ -79,4 +79,4 @@ inline grainlaw_status check_owned(const grainlaw_state* handle) {
   return status == GRAINLAW_OK && handle->of_set ? GRAINLAW_BAD_HANDLE : status;
 }
 
-}  // namespace grainlaw::api
+}  // namespace grainlaw::core::api

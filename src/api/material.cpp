@@ -5,7 +5,7 @@
 
 #include <grainlaw/grainlaw.h>
 
-using namespace grainlaw;
+using namespace grainlaw::core;
 
 namespace {
 

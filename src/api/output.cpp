@@ -4,7 +4,7 @@
 
 #include <grainlaw/grainlaw.h>
 
-using namespace grainlaw;
+using namespace grainlaw::core;
 
 grainlaw_status grainlaw_state_write_vtk(const grainlaw_state* handle, const char* path) {
   if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;

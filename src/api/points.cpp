@@ -17,7 +17,7 @@
 #include <new>
 #include <vector>
 
-using namespace grainlaw;
+using namespace grainlaw::core;
 
 namespace {
 

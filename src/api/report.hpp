@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstring>
 
-namespace grainlaw::api {
+namespace grainlaw::core::api {
 
 // The fields of version 0.1. Later versions only append, so a caller of any version in between is
 // told by its size; a larger size belongs to a newer header than this library knows.
@@ -63,4 +63,4 @@ class Reports {
   std::size_t stride_;
 };
 
-}  // namespace grainlaw::api
+}  // namespace grainlaw::core::api

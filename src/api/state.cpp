@@ -9,7 +9,7 @@
 
 #include <cstddef>
 
-using namespace grainlaw;
+using namespace grainlaw::core;
 
 grainlaw_status grainlaw_state_create(const grainlaw_material* handle, grainlaw_state** out) {
   if (out == nullptr) return GRAINLAW_NULL_POINTER;

@@ -8,7 +8,7 @@
 
 #include <string_view>
 
-namespace grainlaw::tuned {
+namespace grainlaw::core::tuned {
 
 template <class Number>
 constexpr Number chosen([[maybe_unused]] std::string_view name, Number value) {
@@ -190,4 +190,4 @@ GRAINLAW_TUNED(double, fading, 1e-2);
 
 #undef GRAINLAW_TUNED
 
-}  // namespace grainlaw::tuned
+}  // namespace grainlaw::core::tuned

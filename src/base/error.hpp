@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 struct Error : std::runtime_error {
   Error(grainlaw_status code, const std::string& message)
@@ -14,4 +14,4 @@ struct Error : std::runtime_error {
   grainlaw_status status;
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Resize, and when the vector has to grow leave room for one part in so many: a thread's memory has
 // plenty, a state's, of which there are many, as much as its contacts vary.
@@ -36,4 +36,4 @@ void keep_room(Vector& vector) {
   }
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

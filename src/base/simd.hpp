@@ -39,7 +39,7 @@
 #define GRAINLAW_INLINE inline __attribute__((always_inline))
 #define GRAINLAW_INLINED __attribute__((always_inline))  // of a lambda
 
-namespace grainlaw::simd {
+namespace grainlaw::core::simd {
 
 // Tests ask for the lanes of narrower registers in GRAINLAW_LANES; the sums keep their bits.
 inline const int most_lanes = [] {
@@ -196,4 +196,4 @@ struct CacheLineAllocator {
 template <class Value>
 using Column = std::vector<Value, CacheLineAllocator<Value>>;
 
-}  // namespace grainlaw::simd
+}  // namespace grainlaw::core::simd

@@ -5,13 +5,14 @@
 #include <cmath>
 #include <numeric>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <int D>
 BoundarySpace<D> make_cell_space(const Packing& packing, const BoundaryOptions& options) {
   BoundarySpace<D> space;
   space.options = options;
-  space.reference_volume = std::abs(determinant<D>(packing.cell.data())) * (D == 2 ? packing.thickness : 1);
+  space.reference_volume =
+      std::abs(determinant<D>(packing.cell.data())) * (D == 2 ? packing.thickness : 1);
   const auto n = packing.size();
   space.nodes = space.sources = n;
   space.node.resize(n);
@@ -36,4 +37,4 @@ template struct BoundarySpace<3>;
 template BoundarySpace<2> make_cell_space<2>(const Packing&, const BoundaryOptions&);
 template BoundarySpace<3> make_cell_space<3>(const Packing&, const BoundaryOptions&);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

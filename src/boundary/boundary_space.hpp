@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Bits of BoundarySpace::fixed: one for each component of translation, then of rotation.
 constexpr unsigned char fixed_bit(std::size_t component) {
@@ -91,4 +91,4 @@ struct BoundarySpace {
 template <int D>
 BoundarySpace<D> make_cell_space(const Packing& packing, const BoundaryOptions& options = {});
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

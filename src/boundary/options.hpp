@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 enum class BoundaryType { periodic_cell, frame_p, frame_d, frame_t, mixed };
 enum class BoundaryMethod { direct, servo };
@@ -70,4 +70,4 @@ inline Sides sides_of(const BoundaryOptions& options) {
   return sides;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <span>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Sum the forces of all contacts onto the nodes (overwritten): fn = kn overlap, ft =
 // clamp(start_force - kt du, +-friction fn), both zero in tension; du = d (turning of the branch -
@@ -50,4 +50,4 @@ template <int D>
 ContactTotals sum_stiffnesses(std::span<const ParticleRecord<D>> particles, const ContactLaw& law,
                               ContactList<D>& list, std::span<StiffnessRecord<D>> nodes);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

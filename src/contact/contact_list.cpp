@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <int D>
 void ContactList<D>::resize(std::size_t contacts, bool weighted, double radius,
@@ -156,4 +156,4 @@ void build_contacts(std::span<const NeighbourPair<D>> pairs, std::span<const dou
 GRAINLAW_FOR(2)
 GRAINLAW_FOR(3)
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Contact c joins i[c] and j[c]; its branch is x_j - x_i + cell * shift. Stiffness and committed
 // tangential force carry the contact's weight (1 for a cell, 1/copies on a frame). A Hertz-Mindlin
@@ -86,4 +86,4 @@ void build_contacts(std::span<const NeighbourPair<D>> pairs, std::span<const dou
                     const ContactLaw& law, const Tensor<D>& cell, const HistoryStart<D>& start,
                     ContactList<D>& list);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -91,4 +91,4 @@ void ContactSums<D>::add_up(std::span<const StiffnessRecord<D>> values,
 template class ContactSums<2>;
 template class ContactSums<3>;
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

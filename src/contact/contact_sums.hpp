@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <int D>
 class ContactSums {
@@ -70,4 +70,4 @@ class ContactSums {
   std::vector<std::uint32_t> as_i_, as_j_, begin_, kinds_;
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace grainlaw::disc_loops {
+namespace grainlaw::core::disc_loops {
 
 using namespace simd;
 
@@ -144,4 +144,4 @@ struct GroupSum {
   }
 };
 
-}  // namespace grainlaw::disc_loops
+}  // namespace grainlaw::core::disc_loops

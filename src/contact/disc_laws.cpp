@@ -2,7 +2,7 @@
 
 #include "contact/contact_forces.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -72,4 +72,4 @@ ContactTotals sum_stiffnesses<2>(std::span<const ParticleRecord<2>> particles,
   return totals;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

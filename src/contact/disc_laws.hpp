@@ -4,7 +4,7 @@
 #include "contact/disc_loops.hpp"
 #include "contact/disc_stiffness_loop.hpp"
 
-namespace grainlaw::disc_loops {
+namespace grainlaw::core::disc_loops {
 
 struct Law {
   LoopResult (*near)(const Loop&);  // branches have turned little
@@ -30,4 +30,4 @@ extern const Law hertz_smooth, hertz_locked, hertz, hertz_rolling;
   GRAINLAW_LOOP(ContactTotals, name##_stiffnesses, stiffness_loop, name##_law)   \
   constexpr Law name##_loops{name##_near, name##_near, name##_near, name##_stiffnesses};
 
-}  // namespace grainlaw::disc_loops
+}  // namespace grainlaw::core::disc_loops

@@ -1,7 +1,7 @@
 // Discs with Hertz-Mindlin contacts.
 #include "contact/disc_laws.hpp"
 
-namespace grainlaw::disc_loops {
+namespace grainlaw::core::disc_loops {
 
 namespace {
 
@@ -16,4 +16,4 @@ GRAINLAW_DISC_LAW(hertz_rolling, Kinematics::rotating, true, false, true)
 const Law hertz_smooth = hertz_smooth_loops, hertz_locked = hertz_locked_loops, hertz = hertz_loops,
           hertz_rolling = hertz_rolling_loops;
 
-}  // namespace grainlaw::disc_loops
+}  // namespace grainlaw::core::disc_loops

@@ -1,7 +1,7 @@
 // Discs with linear springs.
 #include "contact/disc_laws.hpp"
 
-namespace grainlaw::disc_loops {
+namespace grainlaw::core::disc_loops {
 
 namespace {
 
@@ -18,4 +18,4 @@ GRAINLAW_DISC_LAW(bonded, Kinematics::rotating, false, true, true)
 const Law smooth = smooth_loops, locked = locked_loops, rotating = rotating_loops,
           rolling = rolling_loops, bonded_locked = bonded_locked_loops, bonded = bonded_loops;
 
-}  // namespace grainlaw::disc_loops
+}  // namespace grainlaw::core::disc_loops

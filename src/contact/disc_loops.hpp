@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace grainlaw::disc_loops {
+namespace grainlaw::core::disc_loops {
 
 using namespace simd;
 
@@ -277,4 +277,4 @@ GRAINLAW_INLINE LoopResult contact_loop(const Loop& loop) {
 #define GRAINLAW_LOOP(Result, name, loop_of, ...) \
   GRAINLAW_BY_LANES(Result, name, loop_of, (const Loop& loop), (loop)__VA_OPT__(, ) __VA_ARGS__)
 
-}  // namespace grainlaw::disc_loops
+}  // namespace grainlaw::core::disc_loops

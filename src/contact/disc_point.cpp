@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 ContactMoment<2> contact_moment(const ContactList<2>& list, std::size_t c,
                                 const ContactPoint<2>& point, std::span<const double> coordinates,
@@ -43,4 +43,4 @@ double stored_energy(const ContactList<2>& list, std::span<const double> coordin
   return energy;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -13,7 +13,7 @@
 #include <limits>
 #include <span>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // One contact of discs seen from its own frame: normal n, tangent t = (-n_y, n_x), distance, forces,
 // and the tangential displacement divided by the distance.
@@ -144,4 +144,4 @@ ContactMoment<2> contact_moment(const ContactList<2>& list, std::size_t c,
 double stored_energy(const ContactList<2>& list, std::span<const double> coordinates,
                      std::size_t particles, const ContactLaw& law);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <span>
 
-namespace grainlaw::disc_sides {
+namespace grainlaw::core::disc_sides {
 
 using namespace simd;
 using disc_loops::Columns;
@@ -174,4 +174,4 @@ GRAINLAW_INLINE ContactSides<2>::Measured step_loop(const Loop& loop) {
   return {most(largest_force), power.total(), next_power.total(), inertia.total()};
 }
 
-}  // namespace grainlaw::disc_sides
+}  // namespace grainlaw::core::disc_sides

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -192,4 +192,4 @@ void ContactSides<2>::move(std::span<ParticleRecord<2>> particles) const {
   }
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Every particle is a node of its own. At a place, set by look(), with the moves u from it:
 //   fn = max(kn (overlap - n.u), 0), ft = clamp(trial - kt (t.u - s w), +-friction fn)
@@ -96,4 +96,4 @@ class ContactSides<2> {
   std::vector<std::uint32_t> slot_;  // of a particle: which node it is
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

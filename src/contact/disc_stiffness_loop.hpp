@@ -3,7 +3,7 @@
 
 #include "contact/disc_loops.hpp"
 
-namespace grainlaw::disc_loops {
+namespace grainlaw::core::disc_loops {
 
 // Records (kn, kn, kt d^2 / (R_i + R_j), kr or 1) of the touching contacts.
 template <std::size_t width, Features law>
@@ -53,4 +53,4 @@ GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
           static_cast<int>(touching.total())};
 }
 
-}  // namespace grainlaw::disc_loops
+}  // namespace grainlaw::core::disc_loops

@@ -3,7 +3,7 @@
 
 #include "base/simd.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Up to this sine the series of an angle is exact to round-off: 11 degrees, more than touching
 // contacts usually turn by in an increment of a host's size.
@@ -45,4 +45,4 @@ GRAINLAW_INLINE Vector far_turn(const Vector& distance, const Vector& dot, const
   return 8 * arc_tangent(quarter / (1 + simd::square_root(1 + quarter * quarter)));
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

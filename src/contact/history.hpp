@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Branch l = x_j - x_i + F H0 shift.
 template <int D>
@@ -20,4 +20,4 @@ struct ContactHistory {
   std::array<double, Dimension<D>::tangents> tangential_force{};
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // compressive  fn = kn overlap, nothing else (bond-elastic's counterpart in Liu's thesis, eq. 4.7)
 // frictional   Liu, Bosco & Suiker (2017) eq. 6
@@ -94,4 +94,4 @@ struct ContactLaw {
   [[nodiscard]] bool plain() const { return !hertzian() && !bonds() && !moments(); }
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -1,7 +1,7 @@
 // How the loops over contacts see particles and nodes: whole vector registers each.
 #pragma once
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <int D>
 struct ParticleRecord;
@@ -92,4 +92,4 @@ inline constexpr ForceRecord<2> opposite<2>{-1, -1, 1, -1};
 template <>
 inline constexpr ForceRecord<3> opposite<3>{-1, -1, -1, 1, 1, 1, {}};
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -3,7 +3,7 @@
 
 #include "contact/disc_columns.hpp"
 
-namespace grainlaw::sphere_loops {
+namespace grainlaw::core::sphere_loops {
 
 using namespace simd;
 using disc_loops::GroupSum;
@@ -74,4 +74,4 @@ GRAINLAW_INLINE void put_records(const Triple<width>& a, const Triple<width>& b,
                                  [to](std::size_t k) { return to + 8 * k + 4; });
 }
 
-}  // namespace grainlaw::sphere_loops
+}  // namespace grainlaw::core::sphere_loops

@@ -1,7 +1,7 @@
 #include "contact/contact_forces.hpp"
 #include "contact/sphere_loops.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -66,4 +66,4 @@ ContactTotals sum_stiffnesses<3>(std::span<const ParticleRecord<3>> particles,
   return totals;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

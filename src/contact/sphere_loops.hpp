@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace grainlaw::sphere_loops {
+namespace grainlaw::core::sphere_loops {
 
 struct Loop {
   const ParticleRecord<3>* particles;
@@ -150,4 +150,4 @@ GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
 #define GRAINLAW_SPHERE_LOOP(Result, name, loop_of, ...) \
   GRAINLAW_BY_LANES(Result, name, loop_of, (const Loop& loop), (loop)__VA_OPT__(, ) __VA_ARGS__)
 
-}  // namespace grainlaw::sphere_loops
+}  // namespace grainlaw::core::sphere_loops

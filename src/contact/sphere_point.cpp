@@ -1,6 +1,6 @@
 #include "contact/sphere_point.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 double stored_energy(const ContactList<3>& list, std::span<const double> coordinates,
                      std::size_t particles, const ContactLaw& law) {
@@ -17,4 +17,4 @@ double stored_energy(const ContactList<3>& list, std::span<const double> coordin
   return energy;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

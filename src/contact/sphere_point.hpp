@@ -9,7 +9,7 @@
 #include <limits>
 #include <span>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 using Matrix3 = Tensor<3>;
 
@@ -262,4 +262,4 @@ inline ContactMoment<3> contact_moment(const ContactList<3>& /*list*/, std::size
 double stored_energy(const ContactList<3>& list, std::span<const double> coordinates,
                      std::size_t particles, const ContactLaw& law);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

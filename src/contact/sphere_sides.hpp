@@ -3,7 +3,7 @@
 
 #include "contact/disc_sides.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <>
 class ContactSides<3> {
@@ -12,4 +12,4 @@ class ContactSides<3> {
   using Measured = ContactSides<2>::Measured;
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

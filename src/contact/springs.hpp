@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 enum class ContactStatus : char { open, sticking, sliding, bonded };
 
@@ -35,4 +35,4 @@ struct ContactPoint;
 template <int D>
 struct ContactMoment;
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -1,6 +1,6 @@
 #include "equilibrium/node_step.hpp"
 
-namespace grainlaw::node_step {
+namespace grainlaw::core::node_step {
 
 using OfDiscs = ContactSides<2>::Measured;
 
@@ -19,4 +19,4 @@ GRAINLAW_CLONES OfDiscs gather_and_step(const Nodes& nodes, const ContactList<2>
   return step.measured<OfDiscs>();
 }
 
-}  // namespace grainlaw::node_step
+}  // namespace grainlaw::core::node_step

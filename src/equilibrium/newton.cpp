@@ -4,7 +4,7 @@
 #include <cmath>
 #include "base/constants.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -287,4 +287,4 @@ template bool pseudo_transient_newton(Increment<2>&, double, int, NewtonMemory<2
 template bool pseudo_transient_newton(Increment<3>&, double, int, NewtonMemory<3>&,
                                       RelaxationMemory<3>*);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -12,7 +12,7 @@
 
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <int D>
 struct NewtonMemory {
@@ -36,4 +36,4 @@ template <int D>
 bool pseudo_transient_newton(Increment<D>& increment, double tolerance, int max_factorisations,
                              NewtonMemory<D>& memory, RelaxationMemory<D>* relaxation = nullptr);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <span>
 
-namespace grainlaw::node_step {
+namespace grainlaw::core::node_step {
 
 using namespace simd;
 
@@ -66,4 +66,4 @@ ContactSides<3>::Measured step_all(const Nodes& nodes, std::span<const ForceReco
 ContactSides<3>::Measured gather_and_step(const Nodes& nodes, const ContactList<3>& contacts,
                                           double keep, double gain);
 
-}  // namespace grainlaw::node_step
+}  // namespace grainlaw::core::node_step

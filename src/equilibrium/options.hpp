@@ -3,7 +3,7 @@
 
 #include "reference/local_damping.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 enum class Start { committed, trial };
 // chain: friction by return mapping, relaxation then Newton (the default).
@@ -28,4 +28,4 @@ struct SolverOptions {
   PublishedOptions published;
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -273,4 +273,4 @@ template class Relaxation<3>;
 template bool relax(Increment<2>&, double, long, History, RelaxationMemory<2>&, double, bool);
 template bool relax(Increment<3>&, double, long, History, RelaxationMemory<3>&, double, bool);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 enum class History { committed, advancing };
 
@@ -82,4 +82,4 @@ template <int D>
 bool relax(Increment<D>& increment, double tolerance, long max_steps, History history,
            RelaxationMemory<D>& memory, double least_force = 0, bool may_extrapolate = true);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

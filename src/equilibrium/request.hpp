@@ -11,7 +11,7 @@
 
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // All memory of one solving thread.
 template <int D>
@@ -52,4 +52,4 @@ struct Outcome {
   double step_ratio = 1;
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

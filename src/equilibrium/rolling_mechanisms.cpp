@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 bool RollingMechanisms<2>::possible(const Problem<2>& problem) {
   return problem.law->rotating() && !problem.law->moments() && problem.space->identity;
@@ -194,4 +194,4 @@ bool RollingMechanisms<2>::turn(Increment<2>& increment, double least) {
   return true;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // A cluster of discs that stick to each other alone, in even cycles or none, while they slide on
 // all others, can turn without that any force changes: its stiffness against that is zero. Most are in
@@ -73,4 +73,4 @@ class RollingMechanisms<2> {
   std::vector<Kink> kinks_;
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -4,7 +4,7 @@
 
 #include "equilibrium/rolling_mechanisms.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <>
 class RollingMechanisms<3> {
@@ -17,4 +17,4 @@ class RollingMechanisms<3> {
   bool turn(Increment<3>& /*increment*/, double /*least*/) { return false; }
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

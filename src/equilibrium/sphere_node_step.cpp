@@ -1,6 +1,6 @@
 #include "equilibrium/node_step.hpp"
 
-namespace grainlaw::node_step {
+namespace grainlaw::core::node_step {
 
 namespace {
 
@@ -34,4 +34,4 @@ GRAINLAW_CLONES OfSpheres gather_and_step(const Nodes& nodes, const ContactList<
   return step.measured<OfSpheres>();
 }
 
-}  // namespace grainlaw::node_step
+}  // namespace grainlaw::core::node_step

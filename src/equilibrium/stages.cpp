@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -282,4 +282,4 @@ bool solve_whole(Request<D> request, Workspace<D>& w, Outcome& outcome) {
 GRAINLAW_FOR(2)
 GRAINLAW_FOR(3)
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <span>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Sub-increments in turn, each by rounds of relaxation and pseudo-transient Newton; bonds that are
 // beyond their strength break at the end of each.
@@ -55,4 +55,4 @@ struct Effort {
 template <int D>
 const Effort& effort_of(const Request<D>& request);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

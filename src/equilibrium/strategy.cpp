@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -182,4 +182,4 @@ Outcome solve(const Request<D>& request, Workspace<D>& workspace) {
 template Outcome solve(const Request<2>&, Workspace<2>&);
 template Outcome solve(const Request<3>&, Workspace<3>&);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

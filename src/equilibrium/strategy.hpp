@@ -4,10 +4,10 @@
 
 #include "equilibrium/request.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // On success workspace.increment holds the equilibrium, its history not yet advanced.
 template <int D>
 Outcome solve(const Request<D>& request, Workspace<D>& workspace);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -154,4 +154,4 @@ bool SubspaceExtrapolation<D>::extrapolate(std::span<ParticleRecord<D>> records,
 template class SubspaceExtrapolation<2>;
 template class SubspaceExtrapolation<3>;
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

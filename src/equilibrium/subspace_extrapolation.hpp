@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Spanned by so many of the last moves.
 inline constexpr std::size_t moves_seen = 3;
@@ -49,4 +49,4 @@ class SubspaceExtrapolation {
   std::size_t seen_ = 0;
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

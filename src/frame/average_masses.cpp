@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -84,4 +84,4 @@ void AverageMasses::hold(const BoundarySpace<2>& space, std::size_t nodes,
   }
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

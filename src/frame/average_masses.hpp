@@ -8,7 +8,7 @@
 #include <array>
 #include <span>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 class AverageMasses {
  public:
@@ -26,4 +26,4 @@ class AverageMasses {
   std::array<std::array<double, 3>, 2> inverse_{};  // of sum row row / m: xx, xy, yy
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

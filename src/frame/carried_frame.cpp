@@ -2,7 +2,7 @@
 
 #include "frame/frame.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -25,4 +25,4 @@ void carry_frame(const BoundarySpace<2>& space, const Tensor<2>& F, Packing& pac
   complete_frame(packing);
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -165,4 +165,4 @@ double polygon_area(const Packing& packing) {
   return determinant<2>(packing.frame->deformation) * signed_area(polygon);
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

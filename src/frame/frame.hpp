@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Cut a periodic packing along two closed chains of near-contacts, from a particle O to its image
 // O + L1 and on to O + L2, each copied to the opposite side (Liu, Bosco & Suiker 2017, section 2.1,
@@ -55,4 +55,4 @@ inline int contact_copies(const Frame& frame, int i, int j, bool across = true, 
 // the frame's reference [m2].
 double polygon_area(const Packing& packing);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -8,7 +8,7 @@
 #include <queue>
 #include <utility>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -127,4 +127,4 @@ std::optional<Chain> ChainGraph::shortest(int origin, int direction,
   return chain;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // An image of a particle: so many lattice vectors from its place in the cell.
 struct Site {
@@ -56,4 +56,4 @@ class ChainGraph {
   std::vector<std::size_t> touched_;
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

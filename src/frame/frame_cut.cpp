@@ -12,7 +12,7 @@
 #include <tuple>
 #include <utility>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -230,4 +230,4 @@ Packing cut_frame(const Packing& periodic, double largest_gap) {
               "no closed frame of near-contacts fits this packing; it is too loose or too small");
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

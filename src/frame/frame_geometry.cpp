@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -58,4 +58,4 @@ bool is_inside(const std::vector<Point>& polygon, const Point& point) {
   return inside;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

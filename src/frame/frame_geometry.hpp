@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 using Point = std::array<double, 2>;
 
@@ -21,4 +21,4 @@ bool is_simple(const std::vector<Point>& polygon);
 // Whether a point lies inside; of points on a side nothing is promised.
 bool is_inside(const std::vector<Point>& polygon, const Point& point);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <utility>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -98,4 +98,4 @@ void build_frame(const std::string& path, const FrameRows& rows, const ParticleI
   }
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -8,7 +8,7 @@
 #include <string>
 #include <unordered_map>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 using ParticleIds = std::unordered_map<std::int64_t, int>;  // id -> particle
 
@@ -23,4 +23,4 @@ struct FrameRows {
 void build_frame(const std::string& path, const FrameRows& rows, const ParticleIds& ids,
                  Frame frame, Packing& packing);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

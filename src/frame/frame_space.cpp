@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -70,4 +70,4 @@ void weigh_copies(const BoundarySpace<2>& space, const Packing& packing,
   }
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Of any packing: a periodic cell, or a frame by its sides. A corner belongs to two sides and follows
 // the stricter rule. Throws Error (BAD_PACKING) when a frame condition lacks its frame, when opposite
@@ -19,4 +19,4 @@ BoundarySpace<2> make_boundary_space(const Packing& packing, const BoundaryOptio
 void weigh_copies(const BoundarySpace<2>& space, const Packing& packing,
                   std::span<const NeighbourPair<2>> pairs, std::vector<double>& weights);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 void straighten(const Packing& packing, std::size_t side, BoundarySpace<2>& space) {
   const Frame& frame = *packing.frame;
@@ -41,4 +41,4 @@ void straighten(const Packing& packing, std::size_t side, BoundarySpace<2>& spac
   }
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -6,10 +6,10 @@
 
 #include <cstddef>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // The discs of a row take part in F as if they lay on the line between the corners, shifted so
 // that the area within stays the same.
 void straighten(const Packing& packing, std::size_t side, BoundarySpace<2>& space);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

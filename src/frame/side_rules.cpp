@@ -11,7 +11,7 @@
 #include <numeric>
 #include <string>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -268,4 +268,4 @@ void space_of_sides(const Packing& packing, const Sides& sides, BoundarySpace<2>
   Builder(packing, sides, space).build();
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

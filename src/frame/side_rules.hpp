@@ -4,10 +4,10 @@
 
 #include "boundary/boundary_space.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Fills what the rules decide; reads what of F is found. Throws Error (BAD_PACKING) as
 // make_boundary_space() does.
 void space_of_sides(const Packing& packing, const Sides& sides, BoundarySpace<2>& space);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -74,4 +74,4 @@ void consolidate_anisotropically(StressControl& control, StressTarget target, do
                           anisotropy, lowest, highest));
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -3,7 +3,7 @@
 
 #include "generate/stress_control.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Finds the deviatoric stress under which the contact normals have the wanted anisotropy
 // A = largest / smallest eigenvalue of the fabric - 1 (Liu, Bosco & Suiker 2019, eq. 38), major along
@@ -15,4 +15,4 @@ namespace grainlaw {
 void consolidate_anisotropically(StressControl& control, StressTarget target, double anisotropy,
                                  double direction);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -211,4 +211,4 @@ Packing consolidate(const GeneratorOptions& options, const ContactLaw& law) {
   return regular ? make_regular(options, law) : make_random(options, law);
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -5,7 +5,7 @@
 #include "generate/generator.hpp"
 #include "packing/packing.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Random packings: discs are scattered, or grown until they jam, and compressed; stiff ones, kn / (p t)
 // above 1e3, are compressed to where it is 1e3 and expanded again in equilibrium. A wanted anisotropy
@@ -19,4 +19,4 @@ namespace grainlaw {
 // would press discs into one another; NOT_CONVERGED.
 Packing consolidate(const GeneratorOptions& options, const ContactLaw& law);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -13,7 +13,7 @@
 #include <array>
 #include <cmath>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -208,4 +208,4 @@ Configuration<2> compress(const Packing& loose, const GeneratorOptions& options,
   return Compression(loose, options, law).run();
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -6,7 +6,7 @@
 #include "increment/configuration.hpp"
 #include "packing/packing.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // As the periodic servo of the reference packings does (Guo & Zhao 2014; YADE's PeriTriaxController,
 // slow), quasi-statically: both stretches shrink in small steps, the particles relax, until the
@@ -19,4 +19,4 @@ namespace grainlaw {
 Configuration<2> compress(const Packing& loose, const GeneratorOptions& options,
                           const ContactLaw& law);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -257,4 +257,4 @@ void DiscGrowth::rescale() {
   for (std::size_t i = 0; i < discs_.size(); ++i) predict(i);
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 struct Disc {
   double x, y;    // at `time`, not wrapped
@@ -92,4 +92,4 @@ class DiscGrowth {
   double virial_ = 0;  // sum of kick x distance since then
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

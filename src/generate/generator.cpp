@@ -10,7 +10,7 @@
 #include <numeric>
 #include <random>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -136,4 +136,4 @@ Packing scatter(const GeneratorOptions& options) {
   return packing;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

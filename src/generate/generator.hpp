@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 enum class GeneratorKind { compaction, lubachevsky_stillinger, square, hexagonal };
 
@@ -60,4 +60,4 @@ std::vector<double> graded_radii(const GeneratorOptions& options, std::mt19937_6
 // out of range: count < 1, 0 < radius_min <= radius_max, thickness > 0, density > 0.
 Packing scatter(const GeneratorOptions& options);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -55,4 +55,4 @@ Packing grow(const GeneratorOptions& options) {
   return packing;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

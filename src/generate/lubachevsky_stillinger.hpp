@@ -4,7 +4,7 @@
 #include "generate/generator.hpp"
 #include "packing/packing.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Lubachevsky & Stillinger (1990), the algorithm of the collision-driven codes: discs start small at
 // random places with random velocities, all radii grow in proportion at a constant rate, collisions
@@ -15,4 +15,4 @@ namespace grainlaw {
 // options out of range, and when growth_end lies beyond the jamming.
 Packing grow(const GeneratorOptions& options);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

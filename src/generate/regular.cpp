@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -57,4 +57,4 @@ Packing hexagonal_lattice(std::size_t columns, std::size_t rows, double radius, 
                  0.5 * distance);
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

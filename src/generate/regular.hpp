@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Discs of `radius` in `rows` rows of `columns`, neighbours at `distance` [m]. Every disc touches 4
 // (square) or 6 (hexagonal) others. The cell is rectangular; of a hexagonal packing every second row
@@ -15,4 +15,4 @@ namespace grainlaw {
 Packing square_lattice(std::size_t columns, std::size_t rows, double radius, double distance);
 Packing hexagonal_lattice(std::size_t columns, std::size_t rows, double radius, double distance);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <utility>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -221,4 +221,4 @@ Packing packing_of(const Problem<2>& problem, const Configuration<2>& at) {
   return packing;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Cauchy stress sigma11 = -p (1 + q), sigma22 = -p (1 - q), sigma12 = -p r.
 struct StressTarget {
@@ -36,7 +36,7 @@ class StressControl {
   [[nodiscard]] double volume() const;    // det F
 
  private:
-  using Tensor = grainlaw::Tensor<2>;
+  using Tensor = grainlaw::core::Tensor<2>;
 
   [[nodiscard]] Tensor cauchy() const;
   [[nodiscard]] double misfit(const StressTarget& target) const;
@@ -56,4 +56,4 @@ class StressControl {
 // The packing as it stands in a configuration: its own reference from now on, with contact forces.
 Packing packing_of(const Problem<2>& problem, const Configuration<2>& at);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -246,4 +246,4 @@ template void measure(const Problem<2>&, const Configuration<2>&, grainlaw_measu
 template std::vector<ContactView<3>> contact_views(const Problem<3>&, const Configuration<3>&);
 template void measure(const Problem<3>&, const Configuration<3>&, grainlaw_measure, double*);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -9,7 +9,7 @@
 #include <array>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // One touching contact as it stands, for measures and output.
 template <int D>
@@ -48,4 +48,4 @@ template <int D>
 void measure(const Problem<D>& problem, const Configuration<D>& at, grainlaw_measure what,
              double* value);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -48,4 +48,4 @@ Vec<2> ContactView<2>::tangential_force_vector() const {
   return {-branch[1] * per_length, branch[0] * per_length};
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -5,7 +5,7 @@
 #include "increment/problem.hpp"
 #include "math/tensor.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Largest / smallest eigenvalue of the fabric - 1 (Liu, Bosco & Suiker 2019, eq. 38) [-].
 double anisotropy(const Tensor<2>& fabric);
@@ -16,4 +16,4 @@ double fabric_intensity(const Tensor<2>& fabric);
 // Inner particles of a frame outside the polygon of its boundary [-].
 double escaped_particles(const Problem<2>& problem, const Configuration<2>& at);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Largest / smallest eigenvalue of the fabric - 1 [-].
 inline double anisotropy(const Tensor<3>& fabric) {
@@ -26,4 +26,4 @@ inline double fabric_intensity(const Tensor<3>& fabric) {
   return 7.5 * std::sqrt(1.5 * squares);
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

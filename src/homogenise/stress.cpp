@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -171,4 +171,4 @@ template Tensor<3> piola_stress(const Increment<3>&);
 template Tensor4<2> elastic_tangent(const Increment<2>&);
 template Tensor4<3> elastic_tangent(const Increment<3>&);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -4,7 +4,7 @@
 #include "increment/increment.hpp"
 #include "tangent/sensitivity.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // P = -(1/V) sum_c f_c (x) F^-1 l_c, f_c on j, V at F = I, tension positive [Pa], row-major. At
 // equilibrium equal to (1/V) sum_q a_q (x) X_q of a frame (Liu, Bosco & Suiker 2017, eq. 23) and to
@@ -26,4 +26,4 @@ Tensor4<3> condensed_tangent(const Increment<3>& increment, const Sensitivity<3>
 template <int D>
 Tensor4<D> elastic_tangent(const Increment<D>& increment);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <int D>
 struct Configuration {
@@ -47,4 +47,4 @@ void append_unturned(std::size_t particles, std::vector<double>& coordinates) {
   coordinates.resize((D + Dimension<D>::turn_numbers) * particles, 0.0);
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

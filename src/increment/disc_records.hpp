@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <span>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Coordinates are component-major: x, y, and rotations where there are any (rotation not null).
 inline void load_records(const double* coordinates, bool rotating,
@@ -79,4 +79,4 @@ inline void put_masses(const MassRecord<2>* records, std::span<const double> rad
   }
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

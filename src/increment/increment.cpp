@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -170,13 +170,13 @@ void Increment<D>::place_fixed() {
 
 template <int D>
 void Increment<D>::load_records() {
-  grainlaw::load_records(coordinates.data(), problem->law->rotating(), std::span(records));
+  grainlaw::core::load_records(coordinates.data(), problem->law->rotating(), std::span(records));
 }
 
 template <int D>
 void Increment<D>::store_records() {
-  grainlaw::store_records(std::span<const ParticleRecord<D>>(records), problem->law->rotating(),
-                          coordinates.data());
+  grainlaw::core::store_records(std::span<const ParticleRecord<D>>(records),
+                                problem->law->rotating(), coordinates.data());
 }
 
 template <int D>
@@ -281,4 +281,4 @@ void Increment<D>::restart_turns() {
 template class Increment<2>;
 template class Increment<3>;
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <int D>
 class Increment {
@@ -225,4 +225,4 @@ class Increment {
   NeighbourSearch<D> search_;
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -220,4 +220,4 @@ void Increment<D>::export_to(const Configuration<D>& from, Configuration<D>& to)
 template class Increment<2>;
 template class Increment<3>;
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -4,7 +4,7 @@
 #include "increment/increment.hpp"
 #include "increment/records.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <int D>
 void Increment<D>::find_least_masses() {
@@ -81,4 +81,4 @@ double Increment<D>::mean_stiffness() const {
 template class Increment<2>;
 template class Increment<3>;
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

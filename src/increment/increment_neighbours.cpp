@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <int D>
 void Increment<D>::list_neighbours() {
@@ -68,4 +68,4 @@ bool Increment<D>::keep_neighbours() {
 template class Increment<2>;
 template class Increment<3>;
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

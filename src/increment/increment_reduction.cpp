@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <int D>
 void Increment<D>::reduce(std::span<ForceRecord<D>> residual) const {
@@ -99,4 +99,4 @@ bool Increment<D>::collapsed() {
 template class Increment<2>;
 template class Increment<3>;
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

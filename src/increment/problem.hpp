@@ -5,7 +5,7 @@
 #include "contact/law.hpp"
 #include "packing/packing.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Unless a material says otherwise, residuals are never relative to less than this part of the mean
 // force at F = I, so that a packing without stress does not pass as converged.
@@ -25,4 +25,4 @@ struct Problem {
   }
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

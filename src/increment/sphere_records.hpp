@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <span>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Coordinates are component-major: places, and Gibbs vectors of rotations where there are any.
 inline void load_records(const double* coordinates, bool rotating,
@@ -83,4 +83,4 @@ inline void put_masses(const MassRecord<3>* records, std::span<const double> rad
   }
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

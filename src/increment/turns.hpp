@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Rotations of particles p by factor x the spin of their node, both component-major.
 template <int D>
@@ -100,4 +100,4 @@ class Turned<3> {
   std::vector<Quaternion> turn_;
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -1,6 +1,6 @@
 #include "io/csv_records.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 bool CsvRecords::next(std::vector<std::string>& fields) {
   if (rest_.empty()) return false;
@@ -38,4 +38,4 @@ bool CsvRecords::next(std::vector<std::string>& fields) {
   return true;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

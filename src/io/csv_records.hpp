@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Fields in quotes may have commas, line breaks and doubled quotes in them.
 class CsvRecords {
@@ -27,4 +27,4 @@ class CsvRecords {
   bool open_ = false;
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -18,7 +18,7 @@
 #include <system_error>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Throws Error: FILE_ERROR when the file cannot be opened, BAD_PACKING for what is wrong in it.
 template <std::size_t columns>
@@ -140,4 +140,4 @@ class CsvTable {
   std::string header_;  // for messages
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -12,7 +12,7 @@
 #include <cstring>
 #include <new>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 void fail_file(const std::string& path, const char* what, int error) {
   if (error == ENOMEM) throw std::bad_alloc();
@@ -58,4 +58,4 @@ int Descriptor::close() {
   return result;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

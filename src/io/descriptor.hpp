@@ -8,7 +8,7 @@
 
 #include <sys/types.h>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Throws Error (FILE_ERROR) "path: cannot be WHAT: reason", or std::bad_alloc for a lack of memory.
 [[noreturn]] void fail_file(const std::string& path, const char* what, int error);
@@ -34,4 +34,4 @@ class Descriptor {
   int number_;
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -16,7 +16,7 @@
 #include <memory>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -169,4 +169,4 @@ void GrowingFile::append(std::string_view bytes) {
   length_ += bytes.size();
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Throws Error (FILE_ERROR) when the file cannot be read to its end.
 std::string read_text(const std::string& path);
@@ -53,4 +53,4 @@ class GrowingFile {
   std::uintmax_t length_ = 0;
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

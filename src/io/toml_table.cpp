@@ -10,7 +10,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace grainlaw {
+namespace grainlaw::core {
 namespace {
 
 template <class Accept>
@@ -200,4 +200,4 @@ std::string TomlTable::describe(const toml::node& node) {
   return found;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // What a value must be: a text for messages ("a number > 0"), and how to read it. read() gives
 // nothing when the value is something else.
@@ -139,4 +139,4 @@ class TomlTable {
   std::vector<std::string> asked_;  // in the order of asking, for the message
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -93,4 +93,4 @@ void write_vtk(const std::string& path, std::span<const double> position,
   write_text(path, fmt::to_string(text));
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // A contact as drawn: a line from the centre of particle i along the branch (to the image of j that
 // it touches).
@@ -30,4 +30,4 @@ void write_vtk(const std::string& path, std::span<const double> position,
                std::span<const double> radius, std::span<const double> rotation,
                std::span<const VtkContact> contacts);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <std::size_t width>
 class BlockLU {
@@ -37,4 +37,4 @@ class BlockLU {
   std::vector<Together<width>> work_together_;
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

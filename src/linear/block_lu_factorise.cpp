@@ -2,7 +2,7 @@
 #include "linear/block_lu.hpp"
 #include "linear/dense_pivots.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 using namespace dense;
 
@@ -180,4 +180,4 @@ bool BlockLU<width>::factorise(const BlockMatrix<width>& matrix, std::span<const
 template bool BlockLU<4>::factorise(const BlockMatrix<4>&, std::span<const Column>);
 template bool BlockLU<8>::factorise(const BlockMatrix<8>&, std::span<const Column>);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

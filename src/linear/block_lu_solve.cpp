@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 using dense::Pivot;
 using dense::Shape;
@@ -267,4 +267,4 @@ template void BlockLU<8>::solve(std::span<Column>);
 template void BlockLU<4>::solve_together(std::span<Together<4>>);
 template void BlockLU<8>::solve_together(std::span<Together<8>>);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

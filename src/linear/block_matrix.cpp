@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 using namespace simd;
 
@@ -115,4 +115,4 @@ void BlockMatrix<width>::residual_together(std::span<const Together<width>> b,
 template struct BlockMatrix<4>;
 template struct BlockMatrix<8>;
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

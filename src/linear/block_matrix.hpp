@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 using Edge = std::pair<std::int32_t, std::int32_t>;  // first < second
 
@@ -44,4 +44,4 @@ struct BlockMatrix {
                          std::span<Together<width>> r) const;
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Rows of a block of b x b, filled up to whole registers.
 constexpr std::size_t rows_of(std::size_t b) { return b <= 4 ? 4 : 8; }
@@ -22,4 +22,4 @@ struct alignas(width * sizeof(double)) Together {
   double lane[width] = {};
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

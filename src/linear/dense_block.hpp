@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace grainlaw::dense {
+namespace grainlaw::core::dense {
 
 // How a block is kept: as its inverse or, where that would lose digits, as triangular factors of its
 // rows in this order, with the upper one's diagonal inverted.
@@ -149,4 +149,4 @@ GRAINLAW_INLINE void divide_column(Value (&x)[b], const double* a, std::size_t s
   }
 }
 
-}  // namespace grainlaw::dense
+}  // namespace grainlaw::core::dense

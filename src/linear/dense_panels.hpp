@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace grainlaw::dense {
+namespace grainlaw::core::dense {
 
 // Rows come in groups of as many as the widest registers have lanes, the last filled up with zeros:
 // results do not depend on how many lanes there are.
@@ -128,4 +128,4 @@ GRAINLAW_INLINE void subtract_product(const Matrix& c, const Matrix& a, const Ma
   subtract_by<width, 1>(c, a, x, inner, rows, columns, j);
 }
 
-}  // namespace grainlaw::dense
+}  // namespace grainlaw::core::dense

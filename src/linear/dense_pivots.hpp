@@ -7,7 +7,7 @@
 
 #include <cstring>
 
-namespace grainlaw::dense {
+namespace grainlaw::core::dense {
 
 template <std::size_t width>
 using Bits = typename simd::Vector<width>::bits;
@@ -163,4 +163,4 @@ GRAINLAW_INLINE void solve_upper(const Matrix& x, const Matrix& upper, const Piv
   }
 }
 
-}  // namespace grainlaw::dense
+}  // namespace grainlaw::core::dense

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Multifrontal (Duff & Reid 1983) on a symmetric pattern: nodes that are eliminated one after the
 // other and see the same others make a front, a dense matrix, and what their elimination leaves is
@@ -94,4 +94,4 @@ class Elimination {
   void find_sources();
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

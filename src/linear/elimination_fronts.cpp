@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -172,4 +172,4 @@ void Elimination::find_sources() {
   });
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

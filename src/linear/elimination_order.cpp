@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -200,4 +200,4 @@ Elimination::View Elimination::view() {
           sources_.data(), values_.data(), pivots_.data(), runs_.data()};
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

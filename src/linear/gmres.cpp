@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 using namespace simd;
 
@@ -140,4 +140,4 @@ void Gmres<width>::add_correction(BlockLU<width>& lu, std::size_t count, std::sp
 template class Gmres<4>;
 template class Gmres<8>;
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

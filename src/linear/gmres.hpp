@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <std::size_t width>
 class Gmres {
@@ -42,4 +42,4 @@ class Gmres {
   std::array<double, directions + 1> right_{};  // of the least squares
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -120,4 +120,4 @@ BoundaryOptions read_boundary(TomlTable table) {
   return boundary;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

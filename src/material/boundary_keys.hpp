@@ -4,9 +4,9 @@
 #include "boundary/options.hpp"
 #include "io/toml_table.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Throws Error (BAD_MATERIAL) as TomlTable does.
 BoundaryOptions read_boundary(TomlTable table);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -1,6 +1,6 @@
 #include "material/contact_keys.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -71,4 +71,4 @@ ContactLaw read_contact(TomlTable table) {
   return law;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

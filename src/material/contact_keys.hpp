@@ -4,7 +4,7 @@
 #include "contact/law.hpp"
 #include "io/toml_table.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // law = "compressive"  young | kn
 //       "frictional"   young | kn, ratio, friction, rotation, [contact.rolling]
@@ -17,4 +17,4 @@ namespace grainlaw {
 // together.
 ContactLaw read_contact(TomlTable table);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -1,7 +1,7 @@
 // Contacts of discs as files have them.
 #include "material/given_contacts.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <>
 std::array<double, 1> given_force<2>(const Packing& packing, const InitialContact& contact) {
@@ -15,4 +15,4 @@ std::array<double, 1> given_moment<2>(const InitialContact& contact) {
   return {contact.moment};
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

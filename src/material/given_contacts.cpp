@@ -7,7 +7,7 @@
 #include <map>
 #include <tuple>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -109,4 +109,4 @@ double unloaded_force_scale(const Material<D>& material) {
 GRAINLAW_FOR(2)
 GRAINLAW_FOR(3)
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

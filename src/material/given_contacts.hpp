@@ -5,7 +5,7 @@
 #include "material/material.hpp"
 #include "packing/geometry.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // x_j - x_i + H shift in the packing as given [m].
 template <int D, class Pair>
@@ -52,4 +52,4 @@ double mean_overlap(const Material<D>& material);
 template <int D>
 double unloaded_force_scale(const Material<D>& material);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -78,4 +78,4 @@ template void load_to_stress(const BoundarySpace<2>&, const Request<2>&, Workspa
 template void load_to_stress(const BoundarySpace<3>&, const Request<3>&, Workspace<3>&,
                              Configuration<3>&);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -3,7 +3,7 @@
 
 #include "equilibrium/strategy.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Load from `at` (at F = I, with its stress) until the prescribed components of `space` are reached,
 // in steps that shrink where no equilibrium is found. Of the request everything but the start is
@@ -12,4 +12,4 @@ template <int D>
 void load_to_stress(const BoundarySpace<D>& space, const Request<D>& request,
                     Workspace<D>& workspace, Configuration<D>& at);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -18,7 +18,7 @@
 #include <cmath>
 #include <utility>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -258,4 +258,4 @@ std::shared_ptr<const Material<D>> make_material(MaterialDescription description
 template std::shared_ptr<const Material<2>> make_material(MaterialDescription);
 template std::shared_ptr<const Material<3>> make_material(MaterialDescription);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

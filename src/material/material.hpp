@@ -13,7 +13,7 @@
 #include <memory>
 #include <optional>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <int D>
 struct Material {
@@ -47,4 +47,4 @@ struct MaterialDescription {
 template <int D>
 std::shared_ptr<const Material<D>> make_material(MaterialDescription description);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <filesystem>
 
-namespace grainlaw {
+namespace grainlaw::core {
 namespace {
 
 bool prescribes_stress(const BoundaryOptions& boundary) {
@@ -150,4 +150,4 @@ MaterialDescription parse_material(std::string_view text, const std::string& bas
   return read_description(top, base_directory);
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Reads a material file and the packing it names; paths in it are relative to its directory. Throws
 // Error (FILE_ERROR, BAD_MATERIAL, BAD_PACKING); the message of BAD_MATERIAL is
@@ -18,4 +18,4 @@ namespace grainlaw {
                                                  const std::string& base_directory,
                                                  const std::string& name);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

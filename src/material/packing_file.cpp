@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -33,4 +33,4 @@ void write_packing(const std::string& prefix, const Packing& packing) {
                                           {texts.cell.path, texts.cell.text}}});
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -18,7 +18,7 @@
 
 #include <string>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 struct PackingPaths {
   std::string particles;
@@ -37,4 +37,4 @@ Packing read_packing(const PackingPaths& paths, int dimension = 2);
 // nothing then).
 void write_packing(const std::string& prefix, const Packing& packing);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <utility>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -103,4 +103,4 @@ void check_branches(const std::string& path, const std::vector<unsigned>& lines,
 GRAINLAW_FOR(2)
 GRAINLAW_FOR(3)
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

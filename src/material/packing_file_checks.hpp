@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // What contacts are ordered by.
 using ContactKey = std::array<int, 5>;
@@ -31,4 +31,4 @@ template <int D>
 void check_branches(const std::string& path, const std::vector<unsigned>& lines,
                     const Packing& packing);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

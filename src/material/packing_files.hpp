@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // One of the three files; without a path it is not there.
 struct PackingText {
@@ -21,4 +21,4 @@ struct PackingTexts {
 Packing read_plane_packing(const PackingTexts& texts);
 Packing read_space_packing(const PackingTexts& texts);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

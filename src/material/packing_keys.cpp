@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -67,4 +67,4 @@ GeneratorOptions read_generator(TomlTable& table) {
   return generator;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -4,10 +4,10 @@
 #include "generate/generator.hpp"
 #include "io/toml_table.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Every generator has its own keys; one of another generator counts as unknown. Throws Error
 // (BAD_MATERIAL). `density` and the thickness are read elsewhere.
 GeneratorOptions read_generator(TomlTable& table);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -110,4 +110,4 @@ std::string cell_text(const Packing& packing) {
   return header + "\n" + line + "\n";
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -6,10 +6,10 @@
 
 #include <string>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 std::string particles_text(const Packing& packing);
 std::string contacts_text(const Packing& packing);
 std::string cell_text(const Packing& packing);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -245,4 +245,4 @@ Packing read_plane_packing(const PackingTexts& texts) {
   return parse(texts.particles, texts.contacts, texts.cell);
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

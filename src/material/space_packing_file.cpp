@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -138,4 +138,4 @@ Packing read_space_packing(const PackingTexts& texts) {
   return packing;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -1,7 +1,7 @@
 // Contacts of spheres as files have them.
 #include "material/given_contacts.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <>
 std::array<double, 3> given_force<3>(const Packing& packing, const InitialContact& contact) {
@@ -21,4 +21,4 @@ std::array<double, 3> given_moment<3>(const InitialContact& /*contact*/) {
   return {};
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

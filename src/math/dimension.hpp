@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <int D>
 struct Dimension {
@@ -16,4 +16,4 @@ struct Dimension {
   static constexpr std::size_t lanes = D == 2 ? 4 : 8;     // doubles of a record
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

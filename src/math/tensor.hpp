@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <int D>
 inline constexpr std::size_t squared = static_cast<std::size_t>(D) * D;
@@ -157,4 +157,4 @@ double largest_singular_value(const Tensor<D>& a) {
   }
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

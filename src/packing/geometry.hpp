@@ -8,7 +8,7 @@
 #include <numbers>
 #include <span>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 inline double mean_radius(std::span<const double> radius) {
   double mean = 0;
@@ -73,4 +73,4 @@ Vec<D> vec_of(const Whole& numbers) {
   return result;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

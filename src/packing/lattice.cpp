@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -45,4 +45,4 @@ Basis reduced_basis(const Lattice& cell) {
   return {{a.x, b.x, a.y, b.y}, {a.count[0], b.count[0], a.count[1], b.count[1]}};
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

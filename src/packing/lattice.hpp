@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 using Lattice = std::array<double, 4>;  // H, 2x2 row-major: columns are the lattice vectors [m]
 
@@ -25,4 +25,4 @@ Basis reduced_basis(const Lattice& cell);
 // Longest vector [m].
 double longest_vector(const Lattice& cell);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

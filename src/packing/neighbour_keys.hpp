@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace grainlaw::neighbour {
+namespace grainlaw::core::neighbour {
 
 // Key of (particle, shift): particle in the upper half, then the shifts plus a bias, so that comparing
 // keys compares (particle, shift) and adding a shift is one addition.
@@ -57,4 +57,4 @@ void for_box(const std::array<std::int32_t, D>& first, const std::array<std::int
   }
 }
 
-}  // namespace grainlaw::neighbour
+}  // namespace grainlaw::core::neighbour

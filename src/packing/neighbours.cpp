@@ -9,7 +9,7 @@
 #include <numeric>
 #include <utility>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -296,4 +296,4 @@ void NeighbourSearch<D>::add_larger(const Grid& grid, std::size_t n, const doubl
 template class NeighbourSearch<2>;
 template class NeighbourSearch<3>;
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Branch x_j - x_i + H shift.
 template <int D>
@@ -84,4 +84,4 @@ class NeighbourSearch {
   std::vector<NeighbourSearch> among_large_;  // one, where there are any
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // A contact force that comes with a packing, so that it starts from its own equilibrium.
 // Branch l = x_j - x_i + H shift; the forces act on j. [N]
@@ -58,4 +58,4 @@ struct Packing {
   [[nodiscard]] std::size_t size() const { return radius.size(); }
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

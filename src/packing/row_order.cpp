@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numeric>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 std::vector<std::int32_t> row_order(const Packing& packing) {
   constexpr std::size_t small = 1024;  // records of 32 bytes fill 32 kB
@@ -36,4 +36,4 @@ std::vector<std::int32_t> row_order(const Packing& packing) {
   return order;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

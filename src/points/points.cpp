@@ -8,7 +8,7 @@
 #include <mutex>
 #include <numeric>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -70,4 +70,4 @@ void revert_all(PointSpan points) noexcept {
   for (IntegrationPoint* point : points) point->state.revert();
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -9,7 +9,7 @@
 #include <functional>
 #include <span>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 struct IntegrationPoint {
   AnyState state;
@@ -44,4 +44,4 @@ Summary evaluate_all(PointSpan points, std::span<std::size_t> order, const Evalu
 bool commit_all(PointSpan points) noexcept;
 void revert_all(PointSpan points) noexcept;
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

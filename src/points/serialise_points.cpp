@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -69,4 +69,4 @@ void load_points(PointSpan points, std::span<const std::byte> bytes) {
   for (std::size_t k = 0; k < points.size(); ++k) points[k]->state.restore(std::move(found[k]));
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Bytes that these points take.
 [[nodiscard]] std::size_t saved_size(PointSpan points);
@@ -19,4 +19,4 @@ void save_points(PointSpan points, std::span<std::byte> bytes);
 // bad_alloc, and then has changed nothing.
 void load_points(PointSpan points, std::span<const std::byte> bytes);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

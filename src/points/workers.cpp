@@ -16,7 +16,7 @@
 #include <system_error>
 #include <thread>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -155,4 +155,4 @@ void work_together(const std::function<void()>& work, int helpers) noexcept {
   while (job.inside > 0) pthread_cond_wait(&crew.left, crew.mutex.native_handle());
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 inline constexpr int most_threads = 1024;
 
@@ -16,4 +16,4 @@ int default_threads();
 // or the caller alone, do it all.
 void work_together(const std::function<void()>& work, int helpers) noexcept;
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -128,4 +128,4 @@ template bool relax_published(Increment<2>&, double, const PublishedOptions&,
 template bool relax_published(Increment<3>&, double, const PublishedOptions&,
                               std::span<const unsigned char>, ReferenceMemory&);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

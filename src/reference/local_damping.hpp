@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 struct PublishedOptions {
   double damping = 0.7;          // alpha = beta of Liu et al. (2017) eq. 10 [-]
@@ -30,4 +30,4 @@ template <int D>
 bool relax_published(Increment<D>& increment, double tolerance, const PublishedOptions& options,
                      std::span<const unsigned char> frozen, ReferenceMemory& memory);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

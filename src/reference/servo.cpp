@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -284,4 +284,4 @@ bool solve_servo(Increment<2>& increment, const PublishedOptions& options, doubl
   return Servo(increment, options, tolerance, memory).run();
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -4,9 +4,9 @@
 
 #include "reference/local_damping.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 bool solve_servo(Increment<2>& increment, const PublishedOptions& options, double tolerance,
                  ReferenceMemory& memory);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 struct ServoMemory {
   std::vector<unsigned char> frozen;  // bits of what the relaxations do not move, by nodes
@@ -17,4 +17,4 @@ struct ServoMemory {
   std::vector<std::size_t> particle;
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -63,7 +63,9 @@ bool AnyState::has_trial() const {
 
 std::size_t AnyState::saved_size() const {
   return std::visit(
-      [](const auto& state) { return grainlaw::saved_size(state.material(), state.committed()); },
+      [](const auto& state) {
+        return grainlaw::core::saved_size(state.material(), state.committed());
+      },
       state_);
 }
 
@@ -90,7 +92,7 @@ void AnyState::restore(AnyConfiguration committed) noexcept {
 void AnyState::measure(grainlaw_measure what, double* value) const {
   std::visit(
       [&](const auto& state) {
-        grainlaw::measure(state.material().problem(), state.current(), what, value);
+        grainlaw::core::measure(state.material().problem(), state.current(), what, value);
       },
       state_);
 }
@@ -98,7 +100,7 @@ void AnyState::measure(grainlaw_measure what, double* value) const {
 void AnyState::write_force_chains(const std::string& path) const {
   std::visit(
       [&](const auto& state) {
-        grainlaw::write_force_chains(path, state.material(), state.current());
+        grainlaw::core::write_force_chains(path, state.material(), state.current());
       },
       state_);
 }
@@ -106,9 +108,9 @@ void AnyState::write_force_chains(const std::string& path) const {
 void AnyState::write_packing(const std::string& prefix) const {
   std::visit(
       [&](const auto& state) {
-        grainlaw::write_packing(prefix, as_packing(state.material(), state.current()));
+        grainlaw::core::write_packing(prefix, as_packing(state.material(), state.current()));
       },
       state_);
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

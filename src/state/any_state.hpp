@@ -12,7 +12,7 @@
 #include <utility>
 #include <variant>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 using AnyMaterial =
     std::variant<std::shared_ptr<const Material<2>>, std::shared_ptr<const Material<3>>>;
@@ -55,4 +55,4 @@ class AnyState {
   std::variant<State<2>, State<3>> state_;
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

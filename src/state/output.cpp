@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -69,4 +69,4 @@ template void write_force_chains(const std::string&, const Material<3>&, const C
 template Packing as_packing(const Material<2>&, const Configuration<2>&);
 template Packing as_packing(const Material<3>&, const Configuration<3>&);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

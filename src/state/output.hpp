@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Particles and force chains as one VTK file. Throws Error (FILE_ERROR).
 template <int D>
@@ -16,4 +16,4 @@ void write_force_chains(const std::string& path, const Material<D>& material,
 template <int D>
 [[nodiscard]] Packing as_packing(const Material<D>& material, const Configuration<D>& at);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

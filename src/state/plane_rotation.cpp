@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <>
 SplitIncrement<2> split_rotation<2>(const Tensor<2>& F, const Tensor<2>& committed) {
@@ -49,4 +49,4 @@ Tensor4<2> rotate_tangent<2>(const SplitIncrement<2>& increment, const Tensor<2>
   return result;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

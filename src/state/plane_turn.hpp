@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Of discs a turn is one number, and they add up.
 inline void add_turn(const SplitIncrement<2>& increment, std::size_t particles,
@@ -21,4 +21,4 @@ inline void take_turn(const SplitIncrement<2>& increment, const Configuration<2>
   }
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

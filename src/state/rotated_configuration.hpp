@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // x -> R x
 template <int D>
@@ -30,4 +30,4 @@ void rotate_configuration(const SplitIncrement<D>& increment, const Tensor<D>& F
   configuration.deformation = F;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -7,7 +7,7 @@
 
 #include <array>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <int D>
 struct SplitIncrement {
@@ -41,4 +41,4 @@ template <int D>
 Tensor4<D> rotate_tangent(const SplitIncrement<D>& increment, const Tensor<D>& committed,
                           const Tensor<D>& p, const Tensor4<D>& tangent);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -40,4 +40,4 @@ void check_envelope(std::span<const std::byte> bytes, const SavedKind& kind) {
           "of another format version");
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -8,7 +8,7 @@
 #include <span>
 #include <type_traits>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // All begin with the letters and the version and end with an XXH3 of everything before, so that
 // damage and another version are told apart.
@@ -82,4 +82,4 @@ class ByteReader {
 // Throws Error (BAD_BYTES, WRONG_VERSION) unless bytes, any of any length, are whole and of a kind.
 void check_envelope(std::span<const std::byte> bytes, const SavedKind& kind);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

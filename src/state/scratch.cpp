@@ -6,7 +6,7 @@
 #include <new>
 #include <utility>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -71,4 +71,4 @@ template Workspace<3>& workspace();
 template void drop_workspace<2>() noexcept;
 template void drop_workspace<3>() noexcept;
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

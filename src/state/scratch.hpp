@@ -3,7 +3,7 @@
 
 #include "equilibrium/strategy.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Of the calling thread: made by its first evaluation, reused by the next, gone with the thread.
 // Throws bad_alloc.
@@ -14,4 +14,4 @@ Workspace<D>& workspace();
 template <int D>
 void drop_workspace() noexcept;
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

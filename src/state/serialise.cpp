@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <string>
 
-namespace grainlaw {
+namespace grainlaw::core {
 namespace {
 
 constexpr SavedKind kind{"saved state", {'G', 'R', 'A', 'I', 'N', 'L', 'A', 'W'}, 2};
@@ -141,4 +141,4 @@ Configuration<D> load_configuration(const Material<D>& material, std::span<const
 GRAINLAW_FOR(2)
 GRAINLAW_FOR(3)
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

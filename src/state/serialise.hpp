@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <span>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Bytes that a configuration of this material takes.
 template <int D>
@@ -24,4 +24,4 @@ template <int D>
 [[nodiscard]] Configuration<D> load_configuration(const Material<D>& material,
                                                   std::span<const std::byte> bytes);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -76,4 +76,4 @@ Tensor4<3> rotate_tangent<3>(const SplitIncrement<3>& increment, const Tensor<3>
   return result;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

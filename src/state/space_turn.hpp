@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Of a rotation matrix; the largest of its numbers first, so that none is lost.
 inline Quaternion quaternion_of(const Matrix3& r) {
@@ -63,4 +63,4 @@ inline void take_turn(const SplitIncrement<3>& increment, const Configuration<3>
   }
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

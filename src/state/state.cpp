@@ -12,7 +12,7 @@
 #include <cstring>
 #include <utility>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -198,7 +198,7 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
   const Tensor<D>& committed = committed_.deformation;
   const Tensor<D> F = effective(given);
   const bool bound_to_axes = material.space.bound_to_axes();
-  const auto split = grainlaw::split<D>(material.space, F, committed);
+  const auto split = grainlaw::core::split<D>(material.space, F, committed);
   const bool had_trial = std::exchange(has_trial_, false);
   if (too_far(split)) {
     report.step_ratio = 0.1;
@@ -276,4 +276,4 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
 template class State<2>;
 template class State<3>;
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -8,7 +8,7 @@
 #include <memory>
 #include <optional>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <int D>
 struct Workspace;
@@ -52,4 +52,4 @@ class State {
   bool trial_advanced_ = false;  // by advancing history
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

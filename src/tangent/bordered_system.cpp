@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 void BorderedSystem::find_columns(const BoundarySpace<2>& space) {
   size_ = 0;
@@ -214,4 +214,4 @@ bool BorderedSystem::complete(const Increment<2>& increment,
   return true;
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

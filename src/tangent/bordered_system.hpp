@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 class BorderedSystem {
  public:
@@ -72,4 +72,4 @@ class BorderedSystem {
   std::vector<ContactChange<2>> changes_;
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

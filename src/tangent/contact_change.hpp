@@ -9,7 +9,7 @@
 
 #include <span>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Add the changes of the residual with F and history, nodes fixed in their affine place, to
 // `residual` (per node and component).
@@ -33,4 +33,4 @@ void find_moment_changes(const Increment<D>& increment, const Stiffness<D>& stif
                          std::span<const ByDeformation<D>> motion,
                          std::span<ByDeformation<D>> changes);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -8,7 +8,7 @@
 #include <array>
 #include <cstddef>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // The derivatives of one number by the components of F, one in every lane.
 template <int D>
@@ -59,4 +59,4 @@ struct HistoryChange;
 template <int D>
 class HistoryDerivatives;
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

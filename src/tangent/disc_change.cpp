@@ -1,7 +1,7 @@
 // Changes of the contacts of discs.
 #include "tangent/contact_change.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -202,4 +202,4 @@ void find_moment_changes<2>(const Increment<2>& increment, const Stiffness<2>& s
   }
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -17,7 +17,7 @@ struct StartBranches {
   explicit StartBranches(const Increment<2>& of)
       : increment(of),
         f(of.start_deformation),
-        inverse(grainlaw::inverse<2>(f)),
+        inverse(grainlaw::core::inverse<2>(f)),
         cell(of.problem->packing->frame ? Tensor<2>{} : tensor_of<2>(of.problem->packing->cell)) {}
 
   [[nodiscard]] Vec<2> of(std::size_t c) const {
@@ -137,4 +137,4 @@ void HistoryDerivatives<2>::rescale(const Increment<2>& increment) {
   }
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

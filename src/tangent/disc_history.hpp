@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Turn and tangential force; moment and difference of the rotations, of laws that have moments.
 template <>
@@ -47,4 +47,4 @@ class HistoryDerivatives<2> {
   std::vector<ByDeformation<2>> overlap_;                         // of Hertz-Mindlin
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

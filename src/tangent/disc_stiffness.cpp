@@ -1,7 +1,7 @@
 // The stiffness of contacts of discs, as blocks of the nodes they join.
 #include "tangent/stiffness.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -112,4 +112,4 @@ void Stiffness<2>::add_moments() {
   }
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <>
 void Stiffness<2>::add_contacts();
@@ -35,4 +35,4 @@ inline std::array<double, 2> anchor_mean(const AverageConstraint& average) {
   return {mean[0] / count, mean[1] / count};
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

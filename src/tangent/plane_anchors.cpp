@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -63,4 +63,4 @@ void Stiffness<2>::add_anchors(const Increment<2>& increment) {
   });
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

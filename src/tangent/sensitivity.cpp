@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -155,4 +155,4 @@ void Sensitivity<D>::carry_motion(const Increment<D>& increment) {
 template class Sensitivity<2>;
 template class Sensitivity<3>;
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // Lane k of every register is the derivative by the k-th component (row-major) of the F to be reached
 // at the end of the increment; a sub-increment ends at a share of the way, linear in F.
@@ -50,4 +50,4 @@ class Sensitivity {
   bool carried_ = false;
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

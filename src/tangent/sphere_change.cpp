@@ -1,7 +1,7 @@
 // Changes of the contacts of spheres.
 #include "tangent/contact_change.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -41,7 +41,7 @@ Change change_of(const Loop& loop, const TouchingContact<3>& contact,
   const auto& list = loop.increment.contacts;
   const auto& law = *loop.increment.problem->law;
   const auto& s = contact.stiffness;
-  const Vec<3> reference = grainlaw::product<3>(loop.pull_back, contact.point.branch);
+  const Vec<3> reference = grainlaw::core::product<3>(loop.pull_back, contact.point.branch);
   Change result{};
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t m = 0; m < 3; ++m) {
@@ -82,7 +82,8 @@ Change change_of(const Loop& loop, const TouchingContact<3>& contact,
     add(result.force, by_history);
     if (law.rotating()) {
       Matrix3 lever{};
-      grainlaw::add(lever, -list.inverse_reach[contact.index], cross_matrix(contact.point.branch));
+      grainlaw::core::add(lever, -list.inverse_reach[contact.index],
+                          cross_matrix(contact.point.branch));
       add(result.spin, product(lever, by_history));
     }
   }
@@ -158,4 +159,4 @@ void find_moment_changes<3>(const Increment<3>& /*increment*/, const Stiffness<3
                             std::span<const ByDeformation<3>> /*motion*/,
                             std::span<ByDeformation<3>> /*changes*/) {}
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 void HistoryDerivatives<3>::carry(const Increment<3>& increment,
                                   std::span<const ContactChange<3>> changes,
@@ -73,4 +73,4 @@ void HistoryDerivatives<3>::start(const Increment<3>& increment,
   }
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

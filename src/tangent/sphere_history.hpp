@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 using TripleByDeformation = std::array<ByDeformation<3>, 3>;
 
@@ -37,4 +37,4 @@ class HistoryDerivatives<3> {
   std::vector<TripleByDeformation> normal_, force_;  // per listed contact
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

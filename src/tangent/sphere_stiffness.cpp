@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -100,4 +100,4 @@ void Stiffness<3>::hold_free_spins(const Increment<3>& increment) {
   }
 }
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -3,7 +3,7 @@
 
 #include "tangent/stiffness.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 template <>
 void Stiffness<3>::add_contacts();
@@ -14,4 +14,4 @@ void Stiffness<3>::add_moments();
 template <>
 void Stiffness<3>::hold_free_spins(const Increment<3>& increment);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -6,7 +6,7 @@
 #include "base/constants.hpp"
 #include "base/room.hpp"
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -168,4 +168,4 @@ void Stiffness<D>::hold_rotations(const Increment<D>& increment) {
 template void Stiffness<2>::assemble(const Increment<2>&, double);
 template void Stiffness<3>::assemble(const Increment<3>&, double);
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

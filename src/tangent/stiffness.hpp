@@ -13,7 +13,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 // The derivatives of a contact's forces: of discs in the contact's own frame.
 template <int D>
@@ -107,7 +107,7 @@ class Stiffness {
   std::vector<Together<width>> check_together_, kept_;
 };
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core
 
 #include "tangent/disc_stiffness.hpp"
 #include "tangent/sphere_stiffness.hpp"

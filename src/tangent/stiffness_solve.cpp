@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace grainlaw {
+namespace grainlaw::core {
 
 namespace {
 
@@ -207,4 +207,4 @@ bool Stiffness<D>::solve_together(Increment<D>& increment, std::span<const Toget
 GRAINLAW_FOR(2)
 GRAINLAW_FOR(3)
 
-}  // namespace grainlaw
+}  // namespace grainlaw::core

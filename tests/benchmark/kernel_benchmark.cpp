@@ -16,7 +16,7 @@
 
 namespace {
 
-using namespace grainlaw;
+using namespace grainlaw::core;
 
 constexpr std::array<double, 4> target{1.0004, 0, 0, 0.999};
 

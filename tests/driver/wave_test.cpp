@@ -113,7 +113,7 @@ TEST(wave, broken_bonds_dissipate_what_they_held) {
 
 TEST(wave, volumes_in_a_row_are_the_specimens_of_the_thesis) {
   const auto material =
-      grainlaw::make_material<2>(grainlaw::read_material_file(scenes + "pack_regular.toml"));
+      grainlaw::core::make_material<2>(grainlaw::core::read_material_file(scenes + "pack_regular.toml"));
   EXPECT_EQ(repeat_along_x(*material, 40).size(), 9615U);
   const WaveSpecimen specimen = repeat_along_x(*material, 26);
   EXPECT_EQ(specimen.size(), 6255U);

@@ -60,7 +60,7 @@ void free(void* memory) {
 }
 }
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 
 Allocations with_refused_allocation(long k, Refuse how, const std::function<void()>& call) {
   asked = kept = 0;
@@ -72,4 +72,4 @@ Allocations with_refused_allocation(long k, Refuse how, const std::function<void
   return {asked, kept, k > 0 && asked >= k};
 }
 
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 
 enum class Refuse {
   one,   // memory is there again when the next allocation asks for it
@@ -20,4 +20,4 @@ struct Allocations {
 // Runs `call` and refuses it the k-th allocation (from 1; 0: none).
 Allocations with_refused_allocation(long k, Refuse how, const std::function<void()>& call);
 
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

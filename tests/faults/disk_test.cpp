@@ -10,7 +10,7 @@
 #include <iterator>
 #include <map>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 using Files = std::map<std::string, std::string>;  // name -> content
@@ -50,9 +50,7 @@ class writing : public testing::Test {
   grainlaw_status write_packing_files() {
     return grainlaw_state_write_packing(&state_, prefix_.c_str());
   }
-  grainlaw_status write_picture() {
-    return grainlaw_state_write_vtk(&state_, picture_.c_str());
-  }
+  grainlaw_status write_picture() { return grainlaw_state_write_vtk(&state_, picture_.c_str()); }
 
   // Calls write() under ever weaker limits, until it succeeds.
   template <class Write>
@@ -146,4 +144,4 @@ TEST_F(writing, follows_a_link) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <thread>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 constexpr Tensor target{1.0002, 1e-4, -2e-4, 0.9995};
@@ -60,7 +60,8 @@ long refuse_every_allocation(const std::shared_ptr<const Material>& material, un
         EXPECT_STREQ(answer.report.message, grainlaw_status_text(GRAINLAW_OUT_OF_MEMORY));
         EXPECT_EQ(answer.stress, Tensor{}) << "allocation " << k;
         EXPECT_EQ(grainlaw_commit(&state), GRAINLAW_NO_TRIAL) << "allocation " << k;
-        EXPECT_TRUE(same_bits(state.point.state.committed(), material->initial)) << "allocation " << k;
+        EXPECT_TRUE(same_bits(state.point.state.committed(), material->initial))
+            << "allocation " << k;
       }
       EXPECT_TRUE(evaluate(state, want) == expected) << "after allocation " << k;
     });
@@ -87,4 +88,4 @@ TEST(evaluation_without_memory, is_told_when_there_is_none_left_either) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <fstream>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 struct Loaded {
@@ -126,4 +126,4 @@ TEST_F(load_without_memory, of_a_wrong_material_is_told_or_what_is_wrong_is) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 
 struct NamedMaterial {
   std::string name;
@@ -42,4 +42,4 @@ struct DestroyHandle {
 };
 using StateHandle = std::unique_ptr<grainlaw_state, DestroyHandle>;
 
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

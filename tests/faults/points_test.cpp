@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 constexpr std::size_t n = 3;
@@ -196,4 +196,4 @@ TEST_F(points_without_memory, are_evaluated_committed_and_reverted_once_warm) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

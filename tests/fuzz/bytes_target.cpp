@@ -14,7 +14,8 @@ namespace {
 using grainlaw::abi::Material;
 using grainlaw::abi::State;
 
-constexpr std::size_t header = 24, checksum = 8;  // of serialise.cpp: up to the fingerprint; the end
+constexpr std::size_t header = 24,
+                      checksum = 8;  // of serialise.cpp: up to the fingerprint; the end
 
 const std::vector<Material>& materials() {
   static const std::vector<Material> all = [] {

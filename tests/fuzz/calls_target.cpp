@@ -118,14 +118,15 @@ void set_of_points(FuzzedDataProvider& input, const Material& material, const St
       case 0: {
         if (!saved.empty() && input.ConsumeBool())
           saved[input.ConsumeIntegralInRange<std::size_t>(0, saved.size() - 1)] ^= std::byte{1};
-        const auto status =
-            grainlaw_points_load(set.get(), saved.data(), saved.size(), nullptr, 0);
+        const auto status = grainlaw_points_load(set.get(), saved.data(), saved.size(), nullptr, 0);
         EXPECT(status == GRAINLAW_OK || status == GRAINLAW_BAD_BYTES);
         EXPECT(set.save() == (status == GRAINLAW_OK ? saved : before));
         if (status == GRAINLAW_OK) trial = n == 0;
         break;
       }
-      case 1: saved = before; break;
+      case 1:
+        saved = before;
+        break;
       case 2:
         EXPECT(grainlaw_points_commit(set.get()) == (trial ? GRAINLAW_OK : GRAINLAW_NO_TRIAL));
         EXPECT(trial || set.save() == before);
@@ -163,9 +164,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (int call = 0; call < 8 && input.remaining_bytes() > 0; ++call) {
     State& state = states[input.ConsumeIntegralInRange<std::size_t>(0, states.size() - 1)];
     switch (input.ConsumeIntegralInRange<int>(0, 9)) {
-      case 0: saved = state.save(); break;
-      case 1: state.load(saved); break;
-      case 2: state.revert(); break;
+      case 0:
+        saved = state.save();
+        break;
+      case 1:
+        state.load(saved);
+        break;
+      case 2:
+        state.revert();
+        break;
       case 3:
         if (states.size() < 3) states.push_back(State(state));
         break;
@@ -178,14 +185,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         EXPECT((status == GRAINLAW_OK) == (what >= 0 && what <= GRAINLAW_ESCAPED_PARTICLES));
         break;
       }
-      case 5: batch(input, states); break;
+      case 5:
+        batch(input, states);
+        break;
       case 6: {
         const auto status = grainlaw_commit(state.get());
         EXPECT(status == GRAINLAW_OK || status == GRAINLAW_NO_TRIAL);
         break;
       }
-      case 7: set_of_points(input, material, state); break;
-      default: evaluate(input, state);
+      case 7:
+        set_of_points(input, material, state);
+        break;
+      default:
+        evaluate(input, state);
     }
   }
   return 0;

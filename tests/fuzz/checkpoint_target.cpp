@@ -3,8 +3,8 @@
 #include "support.hpp"
 
 #include "fe/checkpoint.hpp"
-#include "fe/scene.hpp"
 #include "fe/output/run_tables.hpp"
+#include "fe/scene.hpp"
 
 #include <vector>
 
@@ -20,11 +20,13 @@ struct Case {
 // One element of the lattice under each solver, the first with a cycle.
 const std::vector<Case>& cases() {
   static const std::vector<Case> all = [] {
-    const std::string common = "steps = 2\nthreads = 1\n[mesh]\nsize = [1.0, 1.0]\ndivisions = [1, 1]\n"
-                               "[[displacement]]\non = 'left'\ncomponent = 'x'\nvalue = 0.0\n"
-                               "[[displacement]]\non = 'bottom'\ncomponent = 'y'\nvalue = 0.0\n"
-                               "[[displacement]]\non = 'top'\ncomponent = 'y'\nvalue = -1e-4\n"
-                               "[material]\n" + fuzz::lattice(fuzz::frictional);
+    const std::string common =
+        "steps = 2\nthreads = 1\n[mesh]\nsize = [1.0, 1.0]\ndivisions = [1, 1]\n"
+        "[[displacement]]\non = 'left'\ncomponent = 'x'\nvalue = 0.0\n"
+        "[[displacement]]\non = 'bottom'\ncomponent = 'y'\nvalue = 0.0\n"
+        "[[displacement]]\non = 'top'\ncomponent = 'y'\nvalue = -1e-4\n"
+        "[material]\n" +
+        fuzz::lattice(fuzz::frictional);
     std::vector<Case> made;
     for (const std::string& solver :
          {std::string("solver = 'newton'\n"), std::string("solver = 'relaxation'\n"),

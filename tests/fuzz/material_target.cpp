@@ -10,15 +10,15 @@ namespace {
 
 // Whether its packing is made within milliseconds.
 bool is_small(const std::string& text) {
-  using grainlaw::GeneratorKind;
+  using grainlaw::core::GeneratorKind;
   try {
-    const auto description = grainlaw::parse_material(text, "/nowhere", "fuzz");
+    const auto description = grainlaw::core::parse_material(text, "/nowhere", "fuzz");
     const auto& generator = description.generator;
     const bool regular = generator && (generator->kind == GeneratorKind::square ||
                                        generator->kind == GeneratorKind::hexagonal);
     return regular && generator->columns * generator->rows <= 20 &&
-           description.solver.method == grainlaw::Method::chain;
-  } catch (const grainlaw::Error& error) {
+           description.solver.method == grainlaw::core::Method::chain;
+  } catch (const grainlaw::core::Error& error) {
     EXPECT(error.status < 0 && error.what()[0] != '\0');
     return false;
   }

@@ -16,9 +16,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string more(text);
   if (more.find('\0') != std::string::npos || fuzz::asks_for_much(more)) return -1;
   try {
-    const grainlaw::PackingPaths paths{particles.path(), contacts.path(), cell.path()};
-    if (grainlaw::read_packing(paths).size() > 20) return 0;
-  } catch (const grainlaw::Error& error) {
+    const grainlaw::core::PackingPaths paths{particles.path(), contacts.path(), cell.path()};
+    if (grainlaw::core::read_packing(paths).size() > 20) return 0;
+  } catch (const grainlaw::core::Error& error) {
     EXPECT(error.status == GRAINLAW_BAD_PACKING && error.what()[0] != '\0');
     return 0;
   }

@@ -2,9 +2,9 @@
 #include "support.hpp"
 
 #include "dns/scene.hpp"
-#include "wave/scene.hpp"
 #include "fe/scene.hpp"
 #include "point/scene.hpp"
+#include "wave/scene.hpp"
 
 namespace {
 

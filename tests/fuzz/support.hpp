@@ -17,12 +17,12 @@
 
 // Ends the process with the place, which libFuzzer reports with the input. Not assert, which optimised
 // builds leave out.
-#define EXPECT(condition)                                                                   \
-  do {                                                                                      \
-    if (!(condition)) {                                                                     \
-      std::fprintf(stderr, "%s:%d: expected %s\n", __FILE__, __LINE__, #condition);          \
-      std::abort();                                                                         \
-    }                                                                                       \
+#define EXPECT(condition)                                                           \
+  do {                                                                              \
+    if (!(condition)) {                                                             \
+      std::fprintf(stderr, "%s:%d: expected %s\n", __FILE__, __LINE__, #condition); \
+      std::abort();                                                                 \
+    }                                                                               \
   } while (false)
 
 namespace fuzz {
@@ -80,15 +80,19 @@ inline bool asks_for_much(std::string_view text) {
 // Six discs in two rows of three that touch six others each, under 100 kPa.
 inline std::string lattice(const std::string& contact, const std::string& more = {}) {
   return "dimension = 2\nthickness = 0.1\n"
-         "packing = { generator = 'hexagonal', columns = 3, rows = 2, radius = 5e-3, pressure = 1e5, "
+         "packing = { generator = 'hexagonal', columns = 3, rows = 2, radius = 5e-3, pressure = "
+         "1e5, "
          "radius_spread = 0.02, seed = 1 }\n"
-         "contact = { " + contact + " }\n" + more;
+         "contact = { " +
+         contact + " }\n" + more;
 }
-inline const std::string frictional = "law = 'frictional', young = 6e8, ratio = 0.8, friction = 0.5";
+inline const std::string frictional =
+    "law = 'frictional', young = 6e8, ratio = 0.8, friction = 0.5";
 inline const std::string bonded =
-    "law = 'bonded', young = 6e8, ratio = 0.8, friction = 0.5, rolling = { ratio = 1.0, friction = 0.1 }, bond = { normal_strength = 300.0, "
-                 "tangential_strength = 200.0, bending_stiffness = 10.0, bending_strength = 0.5, "
-                 "gap = 1e-4 }";
+    "law = 'bonded', young = 6e8, ratio = 0.8, friction = 0.5, rolling = { ratio = 1.0, friction = "
+    "0.1 }, bond = { normal_strength = 300.0, "
+    "tangential_strength = 200.0, bending_stiffness = 10.0, bending_strength = 0.5, "
+    "gap = 1e-4 }";
 inline const std::string layer =
     "[boundary]\ntype = 'mixed'\nleft = { x = 'P', y = 'P', rotation = 'periodic' }\n"
     "right = { x = 'P', y = 'P', rotation = 'periodic' }\nstress = { P22 = -1e5 }\n"

@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 namespace {
 
 // Points in a square, joined when near: as planar as the contacts of discs.
@@ -521,4 +521,4 @@ TYPED_TEST(gmres, leaves_of_the_rest_what_is_not_in_the_range) {
 }
 
 }  // namespace
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -5,7 +5,7 @@
 #include "boundary/boundary_space.hpp"
 #include "increment/increment.hpp"
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 constexpr double kn = 1000;
@@ -230,4 +230,4 @@ TEST(bond_failure, gives_the_same_bits_however_often_it_is_asked) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 // Takes the axes to the axes. `corner` and `side`: which of before becomes the first, second...
@@ -131,4 +131,4 @@ TEST(bound_to_axes, a_rotation_below_a_plate_is_not_a_rotation_of_the_problem) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

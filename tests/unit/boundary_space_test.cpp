@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 constexpr double bar = 1e-8;
@@ -233,4 +233,4 @@ TEST(boundary_space, saved_states_of_other_spaces_are_refused) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

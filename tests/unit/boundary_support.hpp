@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 
 inline Tensor stress_of(const State& state) {
   const auto& p = state.current().stress;
@@ -217,4 +217,4 @@ inline Tangent central_differences(State& state, const Tensor& F, double step) {
   return tangent;
 }
 
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

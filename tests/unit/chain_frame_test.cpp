@@ -5,7 +5,7 @@
 #include "frame/frame_geometry.hpp"
 #include "state/output.hpp"
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 constexpr double radius = 0.5e-3;
@@ -168,4 +168,4 @@ TEST(chain_frame, escaped_particles_are_counted) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

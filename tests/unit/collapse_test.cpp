@@ -2,7 +2,7 @@
 // never taken for an answer.
 #include "boundary_support.hpp"
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 TEST(collapse, is_a_status_of_its_own_and_changes_nothing) {
@@ -28,4 +28,4 @@ TEST(collapse, is_a_status_of_its_own_and_changes_nothing) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

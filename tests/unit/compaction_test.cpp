@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 namespace {
 
 GeneratorOptions small() {
@@ -127,4 +127,4 @@ TEST(compaction, refuses_what_cannot_be) {
 }
 
 }  // namespace
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 constexpr double kn = 1000;
@@ -416,4 +416,4 @@ TEST(every_contact, gains_no_energy_over_a_closed_cycle) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 constexpr double gain = 1e-3;
@@ -154,4 +154,4 @@ TEST(contact_sides, keep_their_velocities_in_a_new_list) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

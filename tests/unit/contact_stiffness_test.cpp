@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 constexpr double kn = 1000;
@@ -121,4 +121,4 @@ TEST(contact_stiffness, is_zero_when_open) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

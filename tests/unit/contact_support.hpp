@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 
 inline std::vector<ParticleRecord> records(std::span<const double> z,
                                            std::span<const double> radius) {
@@ -49,4 +49,4 @@ inline std::vector<double> forces(std::span<const double> z, std::span<const dou
   return result;
 }
 
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

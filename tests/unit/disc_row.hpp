@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 
 inline Packing disc_row(const std::vector<double>& radii, double overlap) {
   Packing packing;
@@ -21,4 +21,4 @@ inline Packing disc_row(const std::vector<double>& radii, double overlap) {
   return packing;
 }
 
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -4,7 +4,7 @@
 #include "law_support.hpp"
 #include "tangent_support.hpp"
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 const std::vector<double> rows[] = {
@@ -88,4 +88,4 @@ TEST(disc_row, tangent_of_bonds_without_force_is_the_derivative) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

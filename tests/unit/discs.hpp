@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 
 inline constexpr std::array<double, 4> cell{10, 0, 0, 10};
 
@@ -63,4 +63,4 @@ inline void rotate(Discs& discs, double angle) {
   }
 }
 
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

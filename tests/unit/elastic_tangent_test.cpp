@@ -3,7 +3,7 @@
 #include "boundary_support.hpp"
 #include "law_support.hpp"
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 constexpr double rounding = 1e-10;
@@ -205,4 +205,4 @@ TEST(elastic_tangent, under_two_prescribed_stresses_is_a_schur_complement) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 
 // Every disc is held: by three contacts or more, none of them marginal. A disc that rattles has no
 // equilibrium of its own and ends where the way leads it.
@@ -41,4 +41,4 @@ inline Packing firm_packing() {
   return small_packing();
 }
 
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

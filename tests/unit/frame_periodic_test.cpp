@@ -2,7 +2,7 @@
 // packing.
 #include "support.hpp"
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 constexpr double tolerance = 1e-11;
@@ -97,4 +97,4 @@ TEST(frame_periodic, cell_after_a_frame_in_the_same_thread_is_the_cell) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 namespace {
 
 Packing yade_packing() {
@@ -348,4 +348,4 @@ TEST(polygon, that_crosses_itself_is_not_simple) {
 }
 
 }  // namespace
-}  // namespace grainlaw
+}  // namespace grainlaw::core

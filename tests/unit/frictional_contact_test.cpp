@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 constexpr double kn = 1000;
@@ -253,4 +253,4 @@ TEST(frictional_contact, advanced_history_is_where_the_next_step_starts) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

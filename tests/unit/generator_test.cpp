@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 namespace {
 
 TEST(generator, scatters_discs_that_do_not_touch) {
@@ -79,4 +79,4 @@ TEST(generator, refuses_options_out_of_range) {
 }
 
 }  // namespace
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 constexpr double bar = 1e-8;
@@ -215,4 +215,4 @@ TEST(hill_mandel, boundary_particles_average_to_the_deformation) {  // eqs. 1-2
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -5,7 +5,7 @@
 #include "state/output.hpp"
 #include "state/serialise.hpp"
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 // Work done on the packing over a cycle, less what is stored and dissipated. Shear; with locked
@@ -146,4 +146,4 @@ TEST(law_state, a_generated_packing_bears) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

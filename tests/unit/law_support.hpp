@@ -3,7 +3,7 @@
 
 #include "support.hpp"
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 
 inline ContactLaw compressive_law() {
   ContactLaw law;
@@ -95,4 +95,4 @@ inline MaterialDescription describe_law(const Packing& packing, const ContactLaw
   return description;
 }
 
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -3,7 +3,7 @@
 #include "law_support.hpp"
 #include "tangent_support.hpp"
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 Packing firmly_held() { return without_rattlers(small_packing()); }
@@ -66,4 +66,4 @@ TEST(law_tangent, through_sub_increments_matches_central_differences) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -4,7 +4,7 @@
 #include "boundary_support.hpp"
 #include "frame/frame_space.hpp"
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 constexpr double pressure = -1e5;
@@ -119,4 +119,4 @@ TEST(layer, start_from_the_trial_finds_the_same_state) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

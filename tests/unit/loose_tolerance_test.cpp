@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 constexpr double tolerance = 1e-8;
@@ -139,4 +139,4 @@ TEST(loose_tolerance, what_ended_by_advancing_history_is_advanced_first_from_the
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 namespace {
 
 GeneratorOptions options(std::size_t count, std::uint64_t seed = 1) {
@@ -105,4 +105,4 @@ TEST(lubachevsky_stillinger, refuses_what_cannot_be) {
 }
 
 }  // namespace
-}  // namespace grainlaw
+}  // namespace grainlaw::core

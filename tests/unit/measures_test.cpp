@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 const State& reference_state() {
@@ -143,4 +143,4 @@ TEST(measures, mean_rotation_follows_a_rigid_rotation) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 namespace {
 
 struct Discs {
@@ -334,4 +334,4 @@ TEST(neighbours, of_spheres_refuse_what_has_no_answer) {
 }
 
 }  // namespace
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -3,7 +3,7 @@
 #include "equilibrium/relaxation.hpp"
 #include "support.hpp"
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 struct Found {
@@ -45,4 +45,4 @@ TEST(newton, relaxations_between_its_steps_spare_factorisations) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

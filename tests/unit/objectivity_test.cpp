@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 constexpr double bar = 1e-10;
@@ -111,4 +111,4 @@ TEST(objectivity, locked_particles_hold_moments) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

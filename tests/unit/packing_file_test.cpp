@@ -11,7 +11,7 @@
 #include <limits>
 #include <string>
 
-namespace grainlaw {
+namespace grainlaw::core {
 namespace {
 
 const std::string data = GRAINLAW_TEST_DATA "/rve400_";
@@ -262,4 +262,4 @@ TEST_F(packing_file, with_a_wrong_frame_is_refused) {
 }
 
 }  // namespace
-}  // namespace grainlaw
+}  // namespace grainlaw::core

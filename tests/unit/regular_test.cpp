@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace grainlaw {
+namespace grainlaw::core {
 namespace {
 
 GeneratorOptions published(GeneratorKind kind, std::size_t columns, std::size_t rows) {
@@ -113,4 +113,4 @@ TEST(regular, refuses_what_cannot_be) {
 }
 
 }  // namespace
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -8,7 +8,7 @@
 #include <functional>
 #include <limits>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 using Way = std::function<bool(Increment&, double)>;
@@ -277,4 +277,4 @@ TEST(relaxation, sliding_contacts_are_those_at_the_friction_limit) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -3,7 +3,7 @@
 #include "disc_row.hpp"
 #include "law_support.hpp"
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 constexpr double overlap = 1e-6;
@@ -146,4 +146,4 @@ TEST(mechanisms, are_none_where_discs_keep_their_orientation_or_contacts_carry_m
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

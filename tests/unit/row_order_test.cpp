@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 namespace {
 
 // side x side discs of unit distance, numbered at random, in a cell sheared by its own height; some
@@ -63,4 +63,4 @@ TEST(row_order, is_left_out_for_small_packings) {
 }
 
 }  // namespace
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 // Three particles that rotate, as far as saved states are concerned.
@@ -146,4 +146,4 @@ TEST(serialise, a_sealed_flag_that_is_neither_true_nor_false_is_refused) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -2,7 +2,7 @@
 // the direct relaxation of the same increments.
 #include "boundary_support.hpp"
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 MaterialDescription by_servo(MaterialDescription description) {
@@ -85,4 +85,4 @@ TEST(servo_boundary, layer_reaches_the_prescribed_stress) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -1,7 +1,7 @@
 // The published servo and the direct relaxation solve the same equations: they meet.
 #include "support.hpp"
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 constexpr double strain = 1e-3;
@@ -141,4 +141,4 @@ TEST(servo, does_not_depend_on_what_the_thread_solved_before) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -4,7 +4,7 @@
 
 #include <map>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 struct Changes {
@@ -84,4 +84,4 @@ TEST(status_changes, include_bonds_that_break) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -6,7 +6,7 @@
 
 #include <span>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 std::vector<MaterialDescription> descriptions() {
@@ -167,4 +167,4 @@ TEST(stiffness, keeps_nothing_that_changes_another_increment) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 // kn / (p t) of discs of mean radius 5 mm at 100 kPa and 0.1 m.
@@ -90,4 +90,4 @@ TEST(stress_control, gives_the_same_bits_again) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

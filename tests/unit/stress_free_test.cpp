@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 MaterialDescription stress_free(MaterialDescription description) {
@@ -332,4 +332,4 @@ TEST(stress_free, force_floor_below_the_forces_changes_nothing) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

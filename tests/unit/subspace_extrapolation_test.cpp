@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 constexpr std::size_t nodes = 40;
@@ -129,4 +129,4 @@ TEST(slow_modes, places_forgotten_count_no_more) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -24,7 +24,7 @@
 #include <utility>
 #include <vector>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 
 using Tensor = std::array<double, 4>;
 using Tangent = std::array<double, 16>;
@@ -227,4 +227,4 @@ inline std::vector<BearingContact> bearing_contacts(const State& state) {
   return result;
 }
 
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

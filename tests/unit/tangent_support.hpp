@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 
 inline constexpr double bar = 1e-6;  // relative Frobenius error
 
@@ -93,4 +93,4 @@ inline void expect_derivative_along(const MaterialDescription& description) {
   }
 }
 
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -2,7 +2,7 @@
 // changes status within the stencil.
 #include "tangent_support.hpp"
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 TEST(tangent, of_the_periodic_cell_matches_central_differences) {
@@ -117,4 +117,4 @@ TEST(tangent, by_forward_differences_is_near_the_exact_one) {
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

@@ -10,7 +10,7 @@
 #include <random>
 #include <type_traits>
 
-namespace grainlaw {
+namespace grainlaw::core {
 namespace {
 
 template <class Dimensions>
@@ -121,4 +121,4 @@ TEST(tensor_in_the_plane, largest_singular_value_is_that_of_eigen) {
 }
 
 }  // namespace
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -13,7 +13,7 @@
 #include <iterator>
 #include <string>
 
-namespace grainlaw {
+namespace grainlaw::core {
 namespace {
 
 // While it lives, no file grows beyond so many bytes.
@@ -93,4 +93,4 @@ TEST_F(text_file, that_is_a_device_is_written_to) {
 }
 
 }  // namespace
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 namespace {
 
 // The numbers of a data array, as written.
@@ -55,4 +55,4 @@ TEST(vtk, that_cannot_be_written_is_an_error) {
 }
 
 }  // namespace
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace grainlaw::test {
+namespace grainlaw::core::test {
 namespace {
 
 Packing without_contacts(Packing packing) {
@@ -219,4 +219,4 @@ TEST(written_state, that_nothing_could_start_from_is_refused_and_writes_nothing)
 }
 
 }  // namespace
-}  // namespace grainlaw::test
+}  // namespace grainlaw::core::test

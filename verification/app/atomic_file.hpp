@@ -41,7 +41,7 @@ class GrowingFile {
   [[nodiscard]] std::filesystem::path path() const { return file_.path(); }
 
  private:
-  grainlaw::GrowingFile file_;
+  grainlaw::core::GrowingFile file_;
 };
 
 }  // namespace verification

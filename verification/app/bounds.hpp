@@ -1,8 +1,8 @@
 // Bounds of numbers on the command line, in words.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <string>
 

@@ -76,8 +76,8 @@ const std::vector<double>& CsvTable::operator[](std::string_view name) const {
 }
 
 CsvTable read_csv(const std::filesystem::path& path) {
-  const std::string text = as<InputError>([&] { return grainlaw::read_text(path.string()); });
-  grainlaw::CsvRecords records(text);
+  const std::string text = as<InputError>([&] { return grainlaw::core::read_text(path.string()); });
+  grainlaw::core::CsvRecords records(text);
   CsvTable table;
   std::vector<std::string> fields;
   if (!records.next(fields)) throw InputError(fmt::format("{}: cannot be read", path.string()));
@@ -94,8 +94,8 @@ CsvTable read_csv(const std::filesystem::path& path) {
 }
 
 std::vector<std::string> read_csv_names(const std::filesystem::path& path) {
-  const std::string text = as<InputError>([&] { return grainlaw::read_text(path.string()); });
-  grainlaw::CsvRecords records(text);
+  const std::string text = as<InputError>([&] { return grainlaw::core::read_text(path.string()); });
+  grainlaw::core::CsvRecords records(text);
   std::vector<std::string> names, fields;
   records.next(fields);
   while (records.next(fields)) names.push_back(fields.front());

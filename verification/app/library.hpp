@@ -34,7 +34,7 @@ template <class Failure, class Action>
 decltype(auto) as(Action&& action) {
   try {
     return action();
-  } catch (const grainlaw::Error& error) {
+  } catch (const grainlaw::core::Error& error) {
     throw Failure(error.what());
   }
 }

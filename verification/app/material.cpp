@@ -120,9 +120,11 @@ double read_tolerance(SceneTable& table, const MaterialSource& material, double 
   const double least = from_trial ? solver["tolerance"].value_or(0.0) : 0;
   const double tolerance = table.number_or("tolerance", std::max(usual, least), positive);
   if (tolerance < least)
-    table.fail("tolerance", fmt::format("{:g}", tolerance),
-               fmt::format("solver.tolerance of the material, {:g}, or more; or a smaller one there: "
-                           "with start = \"trial\" its stress is known no better", least));
+    table.fail(
+        "tolerance", fmt::format("{:g}", tolerance),
+        fmt::format("solver.tolerance of the material, {:g}, or more; or a smaller one there: "
+                    "with start = \"trial\" its stress is known no better",
+                    least));
   return tolerance;
 }
 

@@ -15,7 +15,7 @@
 namespace verification {
 namespace {
 
-using grainlaw::Expectation;
+using grainlaw::core::Expectation;
 
 bool inside(double value, const Range& range) {
   return std::isfinite(value) && value >= range.low && value <= range.high &&
@@ -63,7 +63,7 @@ SceneTable::SceneTable(const toml::table& table, std::filesystem::path file,
                        const std::string& name)
     : table_(table, file.string(), name), file_(std::move(file)) {}
 
-SceneTable::SceneTable(grainlaw::TomlTable table, std::filesystem::path file)
+SceneTable::SceneTable(grainlaw::core::TomlTable table, std::filesystem::path file)
     : table_(std::move(table)), file_(std::move(file)) {}
 
 void SceneTable::fail(std::string_view key, std::string_view found,
@@ -92,7 +92,7 @@ int SceneTable::integer_or(std::string_view key, int fallback, int low) {
 }
 
 bool SceneTable::flag_or(std::string_view key, bool fallback) {
-  return has(key) ? required(key, grainlaw::boolean()) : fallback;
+  return has(key) ? required(key, grainlaw::core::boolean()) : fallback;
 }
 
 std::string SceneTable::text(std::string_view key) { return required(key, any_text()); }
@@ -133,7 +133,7 @@ SceneTable SceneTable::table(std::string_view key) {
 
 std::vector<SceneTable> SceneTable::tables(std::string_view key) {
   std::vector<SceneTable> result;
-  for (grainlaw::TomlTable& table : as<InputError>([&] { return table_.tables(key); }))
+  for (grainlaw::core::TomlTable& table : as<InputError>([&] { return table_.tables(key); }))
     result.push_back(SceneTable(std::move(table), file_));
   return result;
 }
@@ -145,8 +145,9 @@ void SceneTable::close() const {
 SceneFile::SceneFile(const std::filesystem::path& path_) : path(path_) {
   if (!std::filesystem::is_regular_file(path))
     throw InputError(fmt::format("{}: there is no such file", path.string()));
-  content = as<InputError>(
-      [&] { return grainlaw::parse_toml(grainlaw::read_text(path.string()), path.string()); });
+  content = as<InputError>([&] {
+    return grainlaw::core::parse_toml(grainlaw::core::read_text(path.string()), path.string());
+  });
 }
 
 }  // namespace verification

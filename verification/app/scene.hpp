@@ -66,11 +66,11 @@ class SceneTable {
   [[nodiscard]] const toml::table& content() const { return table_.content(); }
 
  private:
-  SceneTable(grainlaw::TomlTable table, std::filesystem::path file);
+  SceneTable(grainlaw::core::TomlTable table, std::filesystem::path file);
   template <class T>
-  T required(std::string_view key, const grainlaw::Expectation<T>& expectation);
+  T required(std::string_view key, const grainlaw::core::Expectation<T>& expectation);
 
-  grainlaw::TomlTable table_;
+  grainlaw::core::TomlTable table_;
   std::filesystem::path file_;
 };
 

@@ -63,7 +63,7 @@ WaveEnergy WaveMotion::energy(double slice) const {
   WaveEnergy energy;
   energy.work = work_;
   energy.dissipated = dissipated_;
-  energy.stored = grainlaw::stored_energy(list_, coordinates(), particles_.size(), law_);
+  energy.stored = grainlaw::core::stored_energy(list_, coordinates(), particles_.size(), law_);
   for (std::size_t q = 0; q < mass_.size(); ++q) {
     // Velocities half a step before and behind the positions: their product is what is conserved.
     const auto& v = velocity_[q];

@@ -12,8 +12,8 @@
 
 namespace verification {
 
-using ContactHistory = grainlaw::ContactHistory<2>;
-using ForceRecord = grainlaw::ForceRecord<2>;
+using ContactHistory = grainlaw::core::ContactHistory<2>;
+using ForceRecord = grainlaw::core::ForceRecord<2>;
 
 namespace {
 
@@ -21,7 +21,7 @@ constexpr double gap_in_radii = 0.5;  // wide, so that a passing wave does not l
 
 }  // namespace
 
-WaveMotion::WaveMotion(const WaveSpecimen& specimen, const grainlaw::ContactLaw& law,
+WaveMotion::WaveMotion(const WaveSpecimen& specimen, const grainlaw::core::ContactLaw& law,
                        double time_step)
     : specimen_(&specimen),
       law_(law),
@@ -85,7 +85,7 @@ void WaveMotion::list_contacts() {
     };
     const auto found = pairs_.size();
     for (const ContactHistory& contact : history_) {
-      const grainlaw::NeighbourPair<2> pair{contact.i, contact.j, {}};
+      const grainlaw::core::NeighbourPair<2> pair{contact.i, contact.j, {}};
       const auto end = pairs_.begin() + static_cast<std::ptrdiff_t>(found);
       if (contact.bonded && !std::binary_search(pairs_.begin(), end, pair, before))
         pairs_.push_back(pair);
@@ -97,9 +97,9 @@ void WaveMotion::list_contacts() {
     for (const auto& pair : pairs_)
       weights_.push_back(
           specimen_->weight(static_cast<std::size_t>(pair.i), static_cast<std::size_t>(pair.j)));
-  grainlaw::build_contacts<2>(pairs_, weights_, specimen_->radius, specimen_->node,
-                              specimen_->nodes, law_, {}, {z, {}, history_, moments_, gaps_},
-                              list_);
+  grainlaw::core::build_contacts<2>(pairs_, weights_, specimen_->radius, specimen_->node,
+                                    specimen_->nodes, law_, {}, {z, {}, history_, moments_, gaps_},
+                                    list_);
 }
 
 void WaveMotion::keep_list() {
@@ -129,13 +129,13 @@ void WaveMotion::keep_list() {
 }
 
 void WaveMotion::find_forces() {
-  dissipated_ += grainlaw::advance_contacts<2>(particles_, law_, list_, forces_);
+  dissipated_ += grainlaw::core::advance_contacts<2>(particles_, law_, list_, forces_);
   if (law_.bonds()) break_bonds();
 }
 
 // Bonds beyond their strength break where the particles are, and the forces are found again.
 void WaveMotion::break_bonds() {
-  const grainlaw::Bond& bond = law_.bond;
+  const grainlaw::core::Bond& bond = law_.bond;
   std::vector<std::size_t> broken;
   for (std::size_t c = 0; c < list_.size(); ++c) {
     if (!list_.bonded(c)) continue;
@@ -149,7 +149,7 @@ void WaveMotion::break_bonds() {
   }
   if (broken.empty()) return;
   const std::vector<double> z = coordinates();
-  const double before = grainlaw::stored_energy(list_, z, particles_.size(), law_);
+  const double before = grainlaw::core::stored_energy(list_, z, particles_.size(), law_);
   for (const std::size_t c : broken) {
     list_.hold[c] = 0;
     list_.rest[c] = list_.reach[c];
@@ -160,8 +160,8 @@ void WaveMotion::break_bonds() {
       if (list_.bending_stiffness[c] == 0) list_.start_moment[0][c] = 0;
     }
   }
-  grainlaw::advance_contacts<2>(particles_, law_, list_, forces_);
-  dissipated_ += before - grainlaw::stored_energy(list_, z, particles_.size(), law_);
+  grainlaw::core::advance_contacts<2>(particles_, law_, list_, forces_);
+  dissipated_ += before - grainlaw::core::stored_energy(list_, z, particles_.size(), law_);
 }
 
 void WaveMotion::settle() {

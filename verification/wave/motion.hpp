@@ -35,7 +35,7 @@ struct AgitationDamping {
 class WaveMotion {
  public:
   // Throws InputError when the time step [s] is beyond the limit of stability.
-  WaveMotion(const WaveSpecimen& specimen, const grainlaw::ContactLaw& law, double time_step);
+  WaveMotion(const WaveSpecimen& specimen, const grainlaw::core::ContactLaw& law, double time_step);
 
   // One time step; at its end the right end stands at this displacement [m]. Throws
   // ComputationError when positions are lost.
@@ -80,28 +80,28 @@ class WaveMotion {
   [[nodiscard]] std::vector<double> coordinates() const;
 
   const WaveSpecimen* specimen_;
-  grainlaw::ContactLaw law_;
+  grainlaw::core::ContactLaw law_;
   double time_step_;
   AgitationDamping damping_;
   Slices slices_;  // of the damping
   double gap_;     // neighbours are listed within it [m]
   double end_ = 0;
   double work_ = 0, dissipated_ = 0, largest_time_step_ = 0;
-  std::vector<grainlaw::ParticleRecord<2>> particles_;
+  std::vector<grainlaw::core::ParticleRecord<2>> particles_;
   // Of the nodes; roll: R theta.
-  std::vector<grainlaw::ForceRecord<2>> forces_, velocity_, inverse_mass_;
+  std::vector<grainlaw::core::ForceRecord<2>> forces_, velocity_, inverse_mass_;
   std::vector<double> mass_;              // of the nodes [kg]
   std::vector<std::size_t> particle_of_;  // one of each node
   std::vector<std::array<double, 2>> listed_;
   std::vector<double> rest_;  // x where the wave starts [m]
   std::vector<std::size_t> right_;
   // What the next list starts from.
-  std::vector<grainlaw::ContactHistory<2>> history_;
+  std::vector<grainlaw::core::ContactHistory<2>> history_;
   std::vector<double> moments_, gaps_;
-  grainlaw::NeighbourSearch<2> search_;
-  std::vector<grainlaw::NeighbourPair<2>> pairs_;
+  grainlaw::core::NeighbourSearch<2> search_;
+  std::vector<grainlaw::core::NeighbourPair<2>> pairs_;
   std::vector<double> weights_;
-  grainlaw::ContactList<2> list_;
+  grainlaw::core::ContactList<2> list_;
 };
 
 }  // namespace verification

@@ -17,12 +17,12 @@
 namespace verification {
 namespace {
 
-std::shared_ptr<const grainlaw::Material<2>> inner_material(const MaterialSource& source) {
+std::shared_ptr<const grainlaw::core::Material<2>> inner_material(const MaterialSource& source) {
   const MaterialText description = material_text(source);
   try {
-    return grainlaw::make_material<2>(
-        grainlaw::parse_material(description.text, description.base, description.origin));
-  } catch (const grainlaw::Error& error) {
+    return grainlaw::core::make_material<2>(
+        grainlaw::core::parse_material(description.text, description.base, description.origin));
+  } catch (const grainlaw::core::Error& error) {
     const std::string text = fmt::format("{}: {} ({})", description.origin, error.what(),
                                          grainlaw_status_text(error.status));
     if (error.status > 0) throw ComputationError(text);

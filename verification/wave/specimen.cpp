@@ -14,15 +14,15 @@
 namespace verification {
 namespace {
 
-using Configuration = grainlaw::Configuration<2>;
-using grainlaw::Packing;
+using Configuration = grainlaw::core::Configuration<2>;
+using grainlaw::core::Packing;
 
 // Which sides a particle of the representative volume is on.
 enum Side : unsigned char { bottom = 1, top = 2, left = 4, right = 8 };
 
 std::vector<unsigned char> sides_of_frame(const Packing& packing) {
-  const grainlaw::Frame& frame = *packing.frame;
-  const auto place = grainlaw::corner_places(frame);
+  const grainlaw::core::Frame& frame = *packing.frame;
+  const auto place = grainlaw::core::corner_places(frame);
   constexpr std::array<unsigned char, 4> around{bottom, right, top, left};
   std::vector<unsigned char> side(packing.size(), 0);
   const std::size_t count = frame.boundary.size();
@@ -60,7 +60,7 @@ class Numbering {
   Numbering(const Packing& packing, const std::vector<unsigned char>& side, std::size_t tiles)
       : n_(packing.size()), tiles_(tiles), left_twin_(n_, none) {
     if (packing.frame) {
-      const grainlaw::Frame& frame = *packing.frame;
+      const grainlaw::core::Frame& frame = *packing.frame;
       std::map<std::tuple<int, int, int>, std::size_t> by_place;
       for (std::size_t p = 0; p < n_; ++p)
         by_place[{frame.source[p], frame.offset[p][0], frame.offset[p][1]}] = p;
@@ -97,7 +97,7 @@ class Numbering {
   std::vector<std::size_t> left_twin_, id_;
 };
 
-void place_particles(const grainlaw::Material<2>& material, const Numbering& numbering,
+void place_particles(const grainlaw::core::Material<2>& material, const Numbering& numbering,
                      const std::vector<unsigned char>& side, WaveSpecimen& specimen) {
   const Packing& packing = material.packing;
   const std::vector<double>& position = material.initial.coordinates;
@@ -135,7 +135,7 @@ void join_copies(const Packing& packing, const Numbering& numbering, WaveSpecime
   std::vector<int> original(specimen.size());
   std::iota(original.begin(), original.end(), 0);
   if (specimen.shared) {
-    const grainlaw::Frame& frame = *packing.frame;
+    const grainlaw::core::Frame& frame = *packing.frame;
     std::map<std::array<int, 2>, std::size_t> bottom_of;
     for (std::size_t p = 0; p < packing.size(); ++p)
       if (frame.offset[p][1] == 0) bottom_of[{frame.source[p], frame.offset[p][0]}] = p;
@@ -154,17 +154,17 @@ void join_copies(const Packing& packing, const Numbering& numbering, WaveSpecime
     specimen.node[p] = specimen.node[static_cast<std::size_t>(original[p])];
 }
 
-void place_contacts(const grainlaw::Material<2>& material, const Numbering& numbering,
+void place_contacts(const grainlaw::core::Material<2>& material, const Numbering& numbering,
                     WaveSpecimen& specimen) {
   const Configuration& initial = material.initial;
   struct Contact {
-    grainlaw::ContactHistory<2> history;
+    grainlaw::core::ContactHistory<2> history;
     double moment, gap;
   };
   std::map<std::array<std::int32_t, 2>, Contact> found;
   for (std::size_t k = 0; k <= specimen.tiles; ++k)
     for (std::size_t c = 0; c < initial.contacts.size(); ++c) {
-      grainlaw::ContactHistory<2> contact = initial.contacts[c];
+      grainlaw::core::ContactHistory<2> contact = initial.contacts[c];
       const auto tile = static_cast<std::ptrdiff_t>(k);
       const bool across = !material.packing.frame && contact.shift[1] != 0;
       const std::size_t i = numbering.at(tile, static_cast<std::size_t>(contact.i));
@@ -200,7 +200,7 @@ double WaveSpecimen::mean_radius() const {
   return std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(size());
 }
 
-WaveSpecimen repeat_along_x(const grainlaw::Material<2>& material, std::size_t tiles) {
+WaveSpecimen repeat_along_x(const grainlaw::core::Material<2>& material, std::size_t tiles) {
   const Packing& packing = material.packing;
   const auto& h = packing.cell;
   const double scale = std::abs(h[0]) + std::abs(h[3]);
@@ -212,7 +212,7 @@ WaveSpecimen repeat_along_x(const grainlaw::Material<2>& material, std::size_t t
   specimen.height = h[3];
   specimen.thickness = packing.thickness;
   specimen.shared = packing.frame && packing.frame->copies[1] &&
-                    material.space.options.weight == grainlaw::ContactWeight::copies;
+                    material.space.options.weight == grainlaw::core::ContactWeight::copies;
   const auto side = packing.frame ? sides_of_frame(packing)
                                   : sides_of_cell(packing, material.initial.coordinates);
   const Numbering numbering(packing, side, tiles);
@@ -222,7 +222,7 @@ WaveSpecimen repeat_along_x(const grainlaw::Material<2>& material, std::size_t t
   return specimen;
 }
 
-double mean_density(const grainlaw::Material<2>& material) {
+double mean_density(const grainlaw::core::Material<2>& material) {
   return material.packing.density * material.space.solid_volume / material.space.reference_volume;
 }
 

@@ -31,7 +31,7 @@ struct WaveSpecimen {
   std::vector<char> right;          // on the right end
   std::vector<unsigned char> side;  // 1: on the bottom, 2: on the top
   // What the contacts start from, ordered by (i, j).
-  std::vector<grainlaw::ContactHistory<2>> contacts;
+  std::vector<grainlaw::core::ContactHistory<2>> contacts;
   std::vector<double> moments;  // empty for laws without
   std::vector<double> gaps;     // empty unless bonds span gaps
   bool shared = false;          // bottom and top are copies that move together
@@ -53,9 +53,9 @@ struct WaveSpecimen {
 // Of a frame the sides are its own; of a periodic cell the discs within a radius of the outermost
 // centre, and the right end repeats the left one. Throws InputError for cells that are not
 // rectangular.
-WaveSpecimen repeat_along_x(const grainlaw::Material<2>& material, std::size_t tiles);
+WaveSpecimen repeat_along_x(const grainlaw::core::Material<2>& material, std::size_t tiles);
 
 // Mass of the representative volume over its volume [kg/m3], eq. 4.2.
-double mean_density(const grainlaw::Material<2>& material);
+double mean_density(const grainlaw::core::Material<2>& material);
 
 }  // namespace verification

@@ -93,8 +93,7 @@ Order compare(const PaperRun& stiff, const PaperRun& soft, const PaperUnits& uni
     const double energy_a = stored(stiff)[k], energy_b = stored(soft)[k];
     order.share += no_less(a[k], b[k]);
     order.energy_share += no_less(energy_a, energy_b);
-    order.spent_share +=
-        no_less(energy_a + dissipated(stiff)[k], energy_b + dissipated(soft)[k]);
+    order.spent_share += no_less(energy_a + dissipated(stiff)[k], energy_b + dissipated(soft)[k]);
     sum_a += a[k];
     sum_b += b[k];
   }

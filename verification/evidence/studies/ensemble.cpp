@@ -1,8 +1,8 @@
 // `grainlaw_evidence ensemble`: drained compression of several packings of one recipe, as a mean with
 // its standard error, beside the same ensemble run with YADE.
 
-#include "evidence/studies/study.hpp"
 #include "evidence/studies/statistics.hpp"
+#include "evidence/studies/study.hpp"
 
 #include "app/bounds.hpp"
 #include "app/csv.hpp"

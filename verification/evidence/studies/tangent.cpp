@@ -1,7 +1,7 @@
 // `grainlaw_evidence tangent`: the returned tangents against central differences.
 
-#include "evidence/studies/study.hpp"
 #include "evidence/studies/statistics.hpp"
+#include "evidence/studies/study.hpp"
 
 #include "app/progress.hpp"
 

@@ -70,8 +70,8 @@ std::vector<double> read_arms(SceneTable& table, const Mesh& mesh, const std::ve
                               int normal) {
   const int along = 1 - normal;
   const auto place = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)](along); };
-  const auto [low, high] =
-      std::minmax_element(nodes.begin(), nodes.end(), [&](int a, int b) { return place(a) < place(b); });
+  const auto [low, high] = std::minmax_element(nodes.begin(), nodes.end(),
+                                               [&](int a, int b) { return place(a) < place(b); });
   if (!(place(*high) > place(*low)))
     table.fail("rotation", "a platen on one node", "two nodes at least");
   const double hinge = table.number_or("hinge", 0.5 * (place(*low) + place(*high)), any_number);

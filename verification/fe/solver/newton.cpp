@@ -138,9 +138,8 @@ class NewtonSolver final : public Solver {
       const bool near = loaded && residual <= options_.jump_tolerance;
       const bool slow = options_.jump_iterations > 0 && made >= options_.jump_iterations &&
                         residual > slow_ratio * before;
-      stalled =
-          iteration >= best_iteration + (near ? jump_patience : options_.patience) &&
-          options_.tangent == GRAINLAW_WANT_TANGENT_EXACT;
+      stalled = iteration >= best_iteration + (near ? jump_patience : options_.patience) &&
+                options_.tangent == GRAINLAW_WANT_TANGENT_EXACT;
       const bool converged = loaded && residual <= tolerance;
       if (converged || (near && (slow || stalled || made == options_.max_iterations))) {
         displacement_ = displacement;
