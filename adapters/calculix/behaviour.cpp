@@ -42,7 +42,7 @@ class PointMap {
       : file_(name, path, in_library) {}
 
   ElementPoint& find(int element, int point) {
-    const abi::Material& material = file_.material();
+    const grainlaw::Material& material = file_.material();
     const auto key = static_cast<std::uint64_t>(element) << 32 | static_cast<std::uint32_t>(point);
     const std::lock_guard lock(mutex_);
     std::unique_ptr<ElementPoint>& found = points_[key];

@@ -39,7 +39,7 @@ constexpr double smallest_cut = 0.1, usual_cut = 0.5, smallest_part = 1e-3;  // 
 
 class Biaxial {
  public:
-  explicit Biaxial(const grainlaw::abi::Material& material)
+  explicit Biaxial(const grainlaw::Material& material)
       : element_(FE_SimplexP<2>(1), 2), mapping_(FE_SimplexP<2>(1)), dofs_(mesh_) {
     grainlaw_dealii::make_triangles(mesh_, {{width, height}}, {{columns, rows}});
     dofs_.distribute_dofs(element_);
@@ -173,7 +173,7 @@ class Table {
 
 void run(const char* material, const std::string& prefix, int steps) {
   if (steps < 1) throw std::runtime_error("expected a number of load steps >= 1");
-  Biaxial problem(grainlaw::abi::Material::load(material));
+  Biaxial problem(grainlaw::Material::load(material));
   Table force(prefix + "_force.csv", "step[-],fraction[-],top_y_displacement[m],top_y_force[N/m]");
   Table newton(prefix + "_newton.csv", "step[-],iteration[-],relative_residual[-]");
   std::vector<double> residuals;

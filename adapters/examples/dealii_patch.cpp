@@ -28,7 +28,7 @@ void run(const char* material_path, const char* path_path) {
   DoFHandler<2> dofs(mesh);
   dofs.distribute_dofs(element);
   grainlaw_dealii::Points points(mapping, dofs, QGaussSimplex<2>(1),
-                                 grainlaw::abi::Material::load(material_path));
+                                 grainlaw::Material::load(material_path));
   std::vector<Point<2>> where(dofs.n_dofs());
   DoFTools::map_dofs_to_support_points(mapping, dofs, where);
   const IndexSet in_y =

@@ -15,7 +15,7 @@ const FEValuesExtractors::Vector displacement_components(0);
 }  // namespace
 
 Points::Points(const Mapping<2>& mapping, const DoFHandler<2>& dofs,
-               const Quadrature<2>& quadrature, const grainlaw::abi::Material& material)
+               const Quadrature<2>& quadrature, const grainlaw::Material& material)
     : mapping_(mapping),
       dofs_(dofs),
       quadrature_(quadrature),

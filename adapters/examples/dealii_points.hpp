@@ -18,11 +18,11 @@ namespace grainlaw_dealii {
 class Points {
  public:
   Points(const dealii::Mapping<2>& mapping, const dealii::DoFHandler<2>& dofs,
-         const dealii::Quadrature<2>& quadrature, const grainlaw::abi::Material& material);
+         const dealii::Quadrature<2>& quadrature, const grainlaw::Material& material);
 
   // Stress and exact tangent at I + grad u in all points. False when one found no equilibrium; then
   // message() and step_ratio() tell, and forces and stiffness stay those of the last success.
-  // Throws grainlaw::abi::StatusError where the library refuses, e.g. a NaN in u.
+  // Throws grainlaw::StatusError where the library refuses, e.g. a NaN in u.
   bool evaluate(const dealii::Vector<double>& displacement);
   void commit();
   // Back to the committed states; forces and stiffness are theirs again.
@@ -44,8 +44,8 @@ class Points {
   const dealii::Mapping<2>& mapping_;
   const dealii::DoFHandler<2>& dofs_;
   dealii::Quadrature<2> quadrature_;
-  grainlaw::abi::Points points_;
-  grainlaw::abi::PointsEvaluation last_;
+  grainlaw::Points points_;
+  grainlaw::PointsEvaluation last_;
   std::vector<double> F_, P_, A_;          // P, A: of the last success
   std::vector<double> trial_P_, trial_A_;  // being evaluated
   std::vector<double> committed_P_, committed_A_;

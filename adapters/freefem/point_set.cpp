@@ -14,7 +14,7 @@
 namespace grainlaw_freefem {
 namespace {
 
-using grainlaw::abi::check;
+using grainlaw::check;
 
 std::string shown(const std::vector<std::size_t>& shape) {
   std::string text;
@@ -63,11 +63,11 @@ grainlaw_measure measure_named(const std::string& name) {
   throw std::invalid_argument("there is no measure \"" + name + "\", expected one of " + names);
 }
 
-grainlaw::abi::Points create(const std::string& material_path, long points) {
+grainlaw::Points create(const std::string& material_path, long points) {
   if (points < 1)
     throw std::invalid_argument("the number of points is " + std::to_string(points) +
                                 ", expected at least 1");
-  return {grainlaw::abi::Material::load(material_path), static_cast<std::size_t>(points)};
+  return {grainlaw::Material::load(material_path), static_cast<std::size_t>(points)};
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ void PointSet::load(const std::string& path) {
   if (stream.bad()) throw std::runtime_error(path + ": cannot be read");
   try {
     points_.load(std::as_bytes(std::span(bytes)));
-  } catch (const grainlaw::abi::StatusError& error) {
+  } catch (const grainlaw::StatusError& error) {
     throw std::runtime_error(path + ": " + error.what());
   }
   last_ = {};

@@ -29,7 +29,7 @@ class PointSet {
   // Returns the number of points without an equilibrium, whose P and A keep what they held;
   // last() tells about them. threads 0: as many as the library takes.
   long evaluate(const Array& F, const Array& P, const Array* A, long threads);
-  [[nodiscard]] const grainlaw::abi::PointsEvaluation& last() const { return last_; }
+  [[nodiscard]] const grainlaw::PointsEvaluation& last() const { return last_; }
 
   // All points, or none: refused unless the last evaluation found an equilibrium in each of them.
   void commit();
@@ -44,8 +44,8 @@ class PointSet {
   void write_vtk(long point, const std::string& path) const;
 
  private:
-  grainlaw::abi::Points points_;
-  grainlaw::abi::PointsEvaluation last_;  // evaluation
+  grainlaw::Points points_;
+  grainlaw::PointsEvaluation last_;  // evaluation
 };
 
 }  // namespace grainlaw_freefem

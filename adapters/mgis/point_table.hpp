@@ -35,7 +35,7 @@ class PointTable {
  public:
   PointTable(const char* name, const char* path, const void* in_library);
 
-  const abi::Material& material() { return file_.material(); }
+  const grainlaw::Material& material() { return file_.material(); }
 
   // A new point at F = I, not yet in the table.
   std::shared_ptr<TablePoint> create();

@@ -20,7 +20,7 @@ int main(int count, char** arguments) {
     std::ifstream path(arguments[2]);
     std::string line;
     if (!std::getline(path, line)) throw std::runtime_error("the path cannot be read");
-    grainlaw::abi::State point(grainlaw::abi::Material::load(arguments[1]));
+    grainlaw::State point(grainlaw::Material::load(arguments[1]));
     std::printf("P11,P12,P21,P22");
     for (int a = 0; a < 16; ++a) {
       std::printf(",A%d%d%d%d", a / 8 + 1, a / 4 % 2 + 1, a / 2 % 2 + 1, a % 2 + 1);

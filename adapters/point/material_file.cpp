@@ -47,20 +47,20 @@ std::string locate(const char* name, const char* path, const void* in_library) {
 MaterialFile::MaterialFile(const char* name, const char* path, const void* in_library)
     : path_(locate(name, path, in_library)) {}
 
-const abi::Material& MaterialFile::material() {
-  if (const abi::Material* loaded = loaded_.load(std::memory_order_acquire)) return *loaded;
+const grainlaw::Material& MaterialFile::material() {
+  if (const grainlaw::Material* loaded = loaded_.load(std::memory_order_acquire)) return *loaded;
   const std::lock_guard lock(loading_);
   return material_ ? *material_ : load();
 }
 
-const abi::Material& MaterialFile::load() {
+const grainlaw::Material& MaterialFile::load() {
   const Version now = version();
   const Clock::time_point start = Clock::now();
   if (failure_ && failure_->version == now && start < failure_->keep_until) throw failure_->error;
   failure_.reset();
   try {
-    loaded_.store(&material_.emplace(abi::Material::load(path_)), std::memory_order_release);
-  } catch (const abi::StatusError& error) {
+    loaded_.store(&material_.emplace(grainlaw::Material::load(path_)), std::memory_order_release);
+  } catch (const grainlaw::StatusError& error) {
     // A lack of memory is not the file's.
     if (error.status() != GRAINLAW_OUT_OF_MEMORY) {
       const Clock::time_point end = Clock::now();

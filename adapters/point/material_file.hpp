@@ -20,10 +20,10 @@ class MaterialFile {
   // now.
   MaterialFile(const char* name, const char* path, const void* in_library);
 
-  // Reads the file at the first call; threads that come meanwhile wait. Throws abi::StatusError
+  // Reads the file at the first call; threads that come meanwhile wait. Throws grainlaw::StatusError
   // with the library's message. A failure is kept, and thrown again at once, until the file changes
   // or a hundred times what the try took has passed: what the file names may be mended, too.
-  const abi::Material& material();
+  const grainlaw::Material& material();
 
  private:
   struct Version {
@@ -32,18 +32,18 @@ class MaterialFile {
     bool operator==(const Version&) const = default;
   };
   struct Failure {
-    abi::StatusError error;
+    grainlaw::StatusError error;
     Version version;
     std::chrono::steady_clock::time_point keep_until;
   };
 
   [[nodiscard]] Version version() const;
-  const abi::Material& load();
+  const grainlaw::Material& load();
 
   std::string path_;
   std::mutex loading_;
-  std::atomic<const abi::Material*> loaded_ = nullptr;  // material_, once it is there
-  std::optional<abi::Material> material_;
+  std::atomic<const grainlaw::Material*> loaded_ = nullptr;  // material_, once it is there
+  std::optional<grainlaw::Material> material_;
   std::optional<Failure> failure_;
 };
 

@@ -18,7 +18,7 @@ std::string component_name(int index) {
   return {'F', static_cast<char>('1' + index / 3), static_cast<char>('1' + index % 3)};
 }
 
-Point::Point(const abi::Material& material) : state_(material), dimension_(material.dimension()) {}
+Point::Point(const grainlaw::Material& material) : state_(material), dimension_(material.dimension()) {}
 
 double Point::distance(const Tensor2& F, const Tensor2& other) {
   double largest = 0;
@@ -53,7 +53,7 @@ Answer Point::evaluate(const Tensor2& F, unsigned want, Response& response) {
   Answer answer;
   answer.status =
       grainlaw_evaluate(state_.get(), reduced, want, P, want != 0 ? A : nullptr, &answer.report);
-  if (answer.status < 0) throw abi::StatusError(answer.status, answer.report.message);
+  if (answer.status < 0) throw grainlaw::StatusError(answer.status, answer.report.message);
   if (answer.status != GRAINLAW_OK) return answer;
   has_trial_ = true;
   trial_ = F;
@@ -100,7 +100,7 @@ void Point::accept(const Tensor2& F) {
 
 std::size_t Point::bytes() const {
   std::size_t size = 0;
-  abi::check(grainlaw_state_save(state_.get(), nullptr, &size));
+  grainlaw::check(grainlaw_state_save(state_.get(), nullptr, &size));
   return 2 * size;
 }
 

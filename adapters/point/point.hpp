@@ -19,7 +19,7 @@ struct Answer {
 
 class Point {
  public:
-  explicit Point(const abi::Material& material);
+  explicit Point(const grainlaw::Material& material);
 
   // How far two deformation gradients are apart: largest difference of a component.
   static double distance(const Tensor2& F, const Tensor2& other);
@@ -28,7 +28,7 @@ class Point {
   [[nodiscard]] bool is_trial(const Tensor2& F) const;  // F of the trial, to rounding
 
   // P and, when wanted, dP/dF at F, from the committed state. Throws std::runtime_error with a text
-  // for the host when F is not finite or not plane strain, abi::StatusError for the library's own.
+  // for the host when F is not finite or not plane strain, grainlaw::StatusError for the library's own.
   Answer evaluate(const Tensor2& F, unsigned want, Response& response);
 
   // The same for a host that takes S, Cauchy stress or a tangent of theirs: also throws, and forgets
@@ -49,7 +49,7 @@ class Point {
   std::mutex in_use;
 
  private:
-  abi::State state_;
+  grainlaw::State state_;
   int dimension_;
   Tensor2 committed_ = identity;
   Tensor2 trial_{};

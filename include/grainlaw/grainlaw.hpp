@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace grainlaw::abi {
+namespace grainlaw {
 
 // A status < 0, or a material that could not be made.
 class StatusError : public std::runtime_error {
@@ -270,6 +270,6 @@ class Points {
   int dimension_;
 };
 
-}  // namespace grainlaw::abi
+}  // namespace grainlaw
 
 #endif

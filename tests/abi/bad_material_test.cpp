@@ -77,8 +77,8 @@ void expect_told(const std::string& file, const Mistake& mistake) {
 
 TEST(bad_material, any_mistake_is_told_with_file_line_key_and_expectation) {
   const Mistake mistakes[] = {
-      {1, "dimension = 3", 1, "dimension", "not supported, expected 2"},
-      {1, "dimension = 4", 1, "dimension", "found 4, which is not supported, expected 2"},
+      {1, "dimension = 3", 2, "thickness", "expected none with dimension = 3"},
+      {1, "dimension = 4", 1, "dimension", "found 4, expected 2 (discs) or 3 (spheres)"},
       {1, "dimension = 2.0", 1, "dimension", "found 2.0, expected an integer"},
       {1, "dimension = \"2\"", 1, "dimension", "expected an integer"},
       {1, "", 1, "dimension", "found nothing, expected an integer"},

@@ -200,7 +200,7 @@ TEST_F(bad_points, damaged_bytes_are_told) {
                       "length " + std::to_string(size));
   for (const std::size_t more : {1U, 8U, 1000U}) {
     Bytes longer = saved;
-    longer.resize(saved.size() + more);
+    longer.insert(longer.end(), more, std::byte{0});
     expect_not_loaded(longer, GRAINLAW_BAD_BYTES, "longer by " + std::to_string(more));
   }
 }

@@ -1,5 +1,5 @@
 // A host that cancels a thread: the call comes to its end, and then the thread does.
-#include "batch_support.hpp"
+#include "points_support.hpp"
 
 #include <pthread.h>
 
@@ -55,6 +55,16 @@ TEST(cancelled_thread, ends_a_batch_first) {
                                    found.status.data(), nullptr, 2);
   });
   EXPECT_TRUE(same_bits(found.P, evaluate(many, 1).P));
+}
+
+TEST(cancelled_thread, ends_a_set_first) {
+  const auto F = deformations();
+  Points set = make_set();
+  expect_to_end([&] {
+    return grainlaw_points_evaluate(set.get(), F.data(), 0, nullptr, nullptr, nullptr, nullptr, 2,
+                                    nullptr);
+  });
+  expect_to_end([&] { return grainlaw_points_commit(set.get()); });
 }
 
 TEST(cancelled_thread, ends_an_output_first) {

@@ -57,6 +57,12 @@ TEST(loaded_copy, refuses_the_handles_of_another) {
   EXPECT_EQ(grainlaw_state_create(own, &created), GRAINLAW_BAD_HANDLE);
   EXPECT_EQ(OF_COPY(copy, grainlaw_state_create)(own, &created), GRAINLAW_OK);
   EXPECT_EQ(grainlaw_revert(created), GRAINLAW_BAD_HANDLE);
+  grainlaw_points* set = nullptr;
+  EXPECT_EQ(grainlaw_points_create(own, 1, &set), GRAINLAW_BAD_HANDLE);
+  EXPECT_EQ(OF_COPY(copy, grainlaw_points_create)(own, 1, &set), GRAINLAW_OK);
+  EXPECT_EQ(grainlaw_points_commit(set), GRAINLAW_BAD_HANDLE);
+  EXPECT_EQ(grainlaw_points_size(set), 0U);
+  OF_COPY(copy, grainlaw_points_destroy)(set);
   OF_COPY(copy, grainlaw_state_destroy)(created);
   OF_COPY(copy, grainlaw_material_destroy)(own);
   EXPECT_EQ(grainlaw_revert(state.get()), GRAINLAW_OK);

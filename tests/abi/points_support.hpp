@@ -5,7 +5,7 @@
 
 namespace grainlaw::test {
 
-using abi::Points;
+using grainlaw::Points;
 
 inline Points make_set() { return {material(), points}; }
 

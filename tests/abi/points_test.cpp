@@ -164,7 +164,7 @@ TEST(points, none_are_a_set_too) {
   set.revert();
   EXPECT_TRUE(set.measure(GRAINLAW_FABRIC).empty());
   set.load(set.save());
-  EXPECT_THROW(static_cast<void>(set.state(0)), abi::StatusError);
+  EXPECT_THROW(static_cast<void>(set.state(0)), grainlaw::StatusError);
 }
 
 TEST(points, outlive_the_handle_of_their_material) {

@@ -1,5 +1,5 @@
 // Batches in processes that lack what threads need: children of fork, and under limits.
-#include "batch_support.hpp"
+#include "points_support.hpp"
 
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -74,6 +74,13 @@ TEST_F(process, a_child_of_fork_has_the_same_answers_and_so_has_its_child) {
            same_bits(evaluate(states_, 2), expected_);
   }));
   EXPECT_TRUE(same_bits(evaluate(states_, 2), expected_));
+}
+
+TEST_F(process, a_set_in_a_child_of_fork_has_the_same_answers) {
+  Points set = make_set();
+  EXPECT_TRUE(same_bits(evaluate(set, 2), expected_));
+  EXPECT_TRUE(true_in_a_child([&] { return same_bits(evaluate(set, 4), expected_); }));
+  EXPECT_TRUE(same_bits(evaluate(set, 2), expected_));
 }
 
 TEST_F(process, a_child_of_fork_starts_threads_of_its_own) {

@@ -18,8 +18,8 @@
 
 namespace grainlaw::test {
 
-using abi::Material;
-using abi::State;
+using grainlaw::Material;
+using grainlaw::State;
 using Tensor = std::array<double, 4>;
 using Tangent = std::array<double, 16>;
 

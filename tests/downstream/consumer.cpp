@@ -8,8 +8,8 @@
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
   try {
-    const auto material = grainlaw::abi::Material::load(argv[1]);
-    grainlaw::abi::State state(material);
+    const auto material = grainlaw::Material::load(argv[1]);
+    grainlaw::State state(material);
     const std::array<double, 4> F{1, 0, 0, 0.999};
     std::array<double, 4> P{};
     std::array<double, 16> A{};

@@ -104,7 +104,7 @@ class writing : public testing::Test {
   TemporaryDirectory directory_;
   const std::string prefix_ = (directory_ / "state").string();
   const std::string picture_ = prefix_ + ".vtp";
-  grainlaw_state state_{State(make_material(describe(small_packing(), rough_law())))};
+  grainlaw_state state_{AnyState(make_material(describe(small_packing(), rough_law())))};
 };
 
 TEST_F(writing, a_packing_on_a_full_disk_keeps_the_old_one) {

@@ -11,8 +11,8 @@
 
 namespace {
 
-using grainlaw::abi::Material;
-using grainlaw::abi::State;
+using grainlaw::Material;
+using grainlaw::State;
 
 constexpr std::size_t header = 24,
                       checksum = 8;  // of serialise.cpp: up to the fingerprint; the end

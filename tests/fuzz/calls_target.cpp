@@ -12,9 +12,9 @@
 
 namespace {
 
-using grainlaw::abi::Material;
-using grainlaw::abi::Points;
-using grainlaw::abi::State;
+using grainlaw::Material;
+using grainlaw::Points;
+using grainlaw::State;
 using Tensor = std::array<double, 4>;
 
 const std::vector<Material>& materials() {

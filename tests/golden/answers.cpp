@@ -22,8 +22,8 @@
 
 namespace {
 
-using grainlaw::abi::Material;
-using grainlaw::abi::State;
+using grainlaw::Material;
+using grainlaw::State;
 using Tensor = std::array<double, 4>;
 
 struct Answer {

@@ -14,8 +14,8 @@
 namespace grainlaw::test {
 namespace {
 
-using abi::Material;
-using abi::State;
+using grainlaw::Material;
+using grainlaw::State;
 using Tensor = std::array<double, 4>;
 
 const std::string square = R"(

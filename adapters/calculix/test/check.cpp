@@ -66,7 +66,7 @@ std::vector<Call> accepted(const std::vector<Call>& calls) {
   return result;
 }
 
-bool patch(grainlaw::abi::State state, const std::vector<Call>& calls, const std::string& path) {
+bool patch(grainlaw::State state, const std::vector<Call>& calls, const std::string& path) {
   const auto rows = read_numbers(path, 1);
   const auto steps = accepted(calls);
   bool good = steps.size() == rows.size();
@@ -84,7 +84,7 @@ bool patch(grainlaw::abi::State state, const std::vector<Call>& calls, const std
 }
 
 // The increments that CalculiX accepted, uncut.
-bool cut(grainlaw::abi::State state, const std::vector<Call>& calls) {
+bool cut(grainlaw::State state, const std::vector<Call>& calls) {
   const auto refused = std::count_if(calls.begin(), calls.end(), [](const Call& call) {
     return call.pnewdt > 0 && call.pnewdt < 1;
   });
@@ -100,7 +100,7 @@ bool cut(grainlaw::abi::State state, const std::vector<Call>& calls) {
 }
 
 // The same drained compression of one packing: F11 such that the Cauchy stress along 1 is -100 kPa.
-bool newton(grainlaw::abi::State state, const std::vector<Call>& calls) {
+bool newton(grainlaw::State state, const std::vector<Call>& calls) {
   bool good = true;
   double before = 1;
   for (const Call& step : accepted(calls)) {
@@ -136,7 +136,7 @@ int main(int count, char** arguments) {
   }
   try {
     const std::string what = arguments[1];
-    grainlaw::abi::State state(grainlaw::abi::Material::load(arguments[2]));
+    grainlaw::State state(grainlaw::Material::load(arguments[2]));
     const auto calls = read_calls(arguments[3]);
     const bool good = what == "patch" ? patch(std::move(state), calls, arguments[4])
                       : what == "cut" ? cut(std::move(state), calls)

@@ -28,8 +28,8 @@ class calculix_material : public testing::Test {
   Host host(int element = 1, int point = 1) const {
     return {library.function("SMALL"), element, point};
   }
-  static abi::State direct_state(const std::string& file = materials + "/../small.toml") {
-    return abi::State(abi::Material::load(file));
+  static grainlaw::State direct_state(const std::string& file = materials + "/../small.toml") {
+    return grainlaw::State(grainlaw::Material::load(file));
   }
   static void expect_reference(const Host& host, const Reference& expected) {
     const auto [stress, stiffness] = distance(expected, host.stress.data(), host.stiffness.data());
@@ -40,7 +40,7 @@ class calculix_material : public testing::Test {
 
 TEST_F(calculix_material, patch_gives_S_and_the_symmetric_part_of_the_tangent) {
   Host point(library.function("RVE"), 1, 1);
-  abi::State state = direct_state(GRAINLAW_TEST_DATA "/rve400.toml");
+  grainlaw::State state = direct_state(GRAINLAW_TEST_DATA "/rve400.toml");
   std::ifstream file(GRAINLAW_PATCH);
   std::string line;
   std::getline(file, line);
@@ -61,7 +61,7 @@ TEST_F(calculix_material, patch_gives_S_and_the_symmetric_part_of_the_tangent) {
 
 TEST_F(calculix_material, increments_with_iterations_are_committed_once) {
   Host point = host();
-  abi::State state = direct_state();
+  grainlaw::State state = direct_state();
   for (const F2& F : path) {
     ASSERT_TRUE(point.increment({elsewhere, F, elsewhere, F}));
     const Reference expected = reference(state, F, true);
@@ -86,7 +86,7 @@ TEST_F(calculix_material, calls_at_a_known_F_give_the_same_bits) {
 
 TEST_F(calculix_material, an_accepted_answer_that_was_not_the_last_is_found_again) {
   Host point = host();
-  abi::State state = direct_state();
+  grainlaw::State state = direct_state();
   ASSERT_TRUE(point.increment({path[0]}));
   reference(state, path[0], true);
   ASSERT_TRUE(point.call(columns(path[1])));
@@ -166,7 +166,7 @@ class calculix_bad_input : public calculix_material {
 
 TEST_F(calculix_bad_input, leaves_the_state_as_it_was) {
   Host point = host();
-  abi::State state = direct_state();
+  grainlaw::State state = direct_state();
   ASSERT_TRUE(point.increment({path[0]}));
   reference(state, path[0], true);
   auto F = columns(path[1]);
@@ -201,7 +201,7 @@ TEST_F(calculix_bad_input, a_stress_that_is_not_symmetric) {
 
 TEST_F(calculix_bad_input, gives_stress_and_elastic_stiffness_of_the_start) {
   Host point = host();
-  abi::State state = direct_state();
+  grainlaw::State state = direct_state();
   ASSERT_TRUE(point.increment({path[0]}));
   const std::array<double, 6> accepted = point.stress;
   reference(state, path[0], true);

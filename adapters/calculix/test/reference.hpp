@@ -19,7 +19,7 @@ struct Reference {
 };
 
 // Evaluates, and commits when asked.
-inline Reference reference(abi::State& state, const std::array<double, 4>& F, bool commit,
+inline Reference reference(grainlaw::State& state, const std::array<double, 4>& F, bool commit,
                            unsigned want = GRAINLAW_WANT_TANGENT_EXACT) {
   std::array<double, 4> P{};
   std::array<double, 16> A{};

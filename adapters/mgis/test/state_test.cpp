@@ -20,13 +20,13 @@ constexpr F2 elsewhere{1.0005, -0.0010, 0.0002, 0.9990};
 
 const std::string behaviours = GRAINLAW_BEHAVIOURS;
 
-abi::State direct_state() {
-  static const abi::Material material =
-      abi::Material::load(std::string(GRAINLAW_BEHAVIOURS) + "/../small.toml");
-  return abi::State(material);
+grainlaw::State direct_state() {
+  static const grainlaw::Material material =
+      grainlaw::Material::load(std::string(GRAINLAW_BEHAVIOURS) + "/../small.toml");
+  return grainlaw::State(material);
 }
 
-F2 direct(abi::State& state, const F2& F) {
+F2 direct(grainlaw::State& state, const F2& F) {
   F2 P{};
   EXPECT_TRUE(state.evaluate(F, P));
   return P;
@@ -51,7 +51,7 @@ class mgis_state : public testing::Test {
 
 TEST_F(mgis_state, retries_and_accepted_steps_are_those_of_a_host_that_says_commit) {
   Manager host = manager();
-  abi::State state = direct_state();
+  grainlaw::State state = direct_state();
   for (const F2& F : path) {
     evaluate(host, elsewhere);
     evaluate(host, F);
@@ -64,7 +64,7 @@ TEST_F(mgis_state, retries_and_accepted_steps_are_those_of_a_host_that_says_comm
 
 TEST_F(mgis_state, revert_goes_back_to_the_start_of_the_step) {
   Manager host = manager();
-  abi::State state = direct_state();
+  grainlaw::State state = direct_state();
   for (const F2& F : path) {
     evaluate(host, elsewhere);
     host.revert();
@@ -77,7 +77,7 @@ TEST_F(mgis_state, revert_goes_back_to_the_start_of_the_step) {
 
 TEST_F(mgis_state, an_accepted_answer_that_was_not_the_last_is_found_again) {
   Manager host = manager();
-  abi::State state = direct_state();
+  grainlaw::State state = direct_state();
   evaluate(host, path[0]);
   const Manager::State accepted = host.s1;
   evaluate(host, elsewhere);
@@ -89,7 +89,7 @@ TEST_F(mgis_state, an_accepted_answer_that_was_not_the_last_is_found_again) {
 
 TEST_F(mgis_state, a_failed_step_leaves_the_host_and_the_state_alone) {
   Manager host = manager();
-  abi::State state = direct_state();
+  grainlaw::State state = direct_state();
   evaluate(host, path[0]);
   host.update();
   direct(state, path[0]);
@@ -107,7 +107,7 @@ TEST_F(mgis_state, a_failed_step_leaves_the_host_and_the_state_alone) {
 TEST_F(mgis_state, an_approximate_answer_is_given_and_half_the_step_asked_for) {
   const BehaviourLibrary advancing{behaviours + "/libAdvancing.so"};
   Manager host(advancing, "Advancing", "PlaneStrain", 1, first_piola, dP_dF);
-  abi::State state(abi::Material::load(behaviours + "/../advancing.toml"));
+  grainlaw::State state(grainlaw::Material::load(behaviours + "/../advancing.toml"));
   for (const F2& F : {path[0], path[1]}) {
     host.set_F(0, F);
     EXPECT_EQ(host.integrate(0), 0);
@@ -232,7 +232,7 @@ TEST_F(mgis_state, a_first_increment_that_was_freed_is_found_again) {
   }
   EXPECT_EQ(states(), 1u);
   host.update();
-  abi::State state = direct_state();
+  grainlaw::State state = direct_state();
   direct(state, path[0]);
   state.commit();
   const F2 expected = direct(state, path[1]);

@@ -51,7 +51,7 @@ class material_file : public testing::Test {
   std::string message() {
     try {
       file.material();
-    } catch (const abi::StatusError& error) {
+    } catch (const grainlaw::StatusError& error) {
       EXPECT_EQ(error.status(), status_of_next);
       return error.what();
     }
@@ -65,7 +65,7 @@ class material_file : public testing::Test {
 
 TEST_F(material_file, is_read_once_by_all_threads) {
   std::vector<std::thread> threads;
-  std::vector<const abi::Material*> found(8);
+  std::vector<const grainlaw::Material*> found(8);
   for (auto& one : found) threads.emplace_back([&] { one = &file.material(); });
   for (auto& thread : threads) thread.join();
   EXPECT_EQ(reads, 1);
