@@ -67,6 +67,9 @@ class Stiffness {
   bool solve_together(Increment<D>& increment, std::span<const Together<width>> b,
                       std::span<Together<width>> x);
 
+  // K x of what was assembled, component-major.
+  [[nodiscard]] std::vector<double> product(std::span<const double> x) const;
+
   // Of the last assemble(), ordered by index.
   [[nodiscard]] std::span<const TouchingContact<D>> touching() const { return touching_; }
   // The moments of these contacts; empty for laws without.

@@ -197,8 +197,25 @@ bool Stiffness<D>::solve_together(Increment<D>& increment, std::span<const Toget
   return true;
 }
 
+template <int D>
+std::vector<double> Stiffness<D>::product(std::span<const double> x) const {
+  const auto nodes = matrix_.nodes;
+  const auto components = static_cast<std::size_t>(matrix_.components);
+  std::vector<Column> of_nodes(nodes), minus(nodes);
+  for (std::size_t q = 0; q < nodes; ++q) {
+    for (std::size_t k = 0; k < components; ++k) of_nodes[q].lane[k] = x[k * nodes + q];
+  }
+  matrix_.subtract_product(of_nodes, minus);
+  std::vector<double> result(x.size());
+  for (std::size_t q = 0; q < nodes; ++q) {
+    for (std::size_t k = 0; k < components; ++k) result[k * nodes + q] = -minus[q].lane[k];
+  }
+  return result;
+}
+
 #define GRAINLAW_FOR(D)                                                                      \
   template void Stiffness<D>::factorise(Increment<D>&);                                      \
+  template std::vector<double> Stiffness<D>::product(std::span<const double>) const;         \
   template bool Stiffness<D>::solve(const Increment<D>&, std::span<const double>,            \
                                     std::span<double>, double);                              \
   template bool Stiffness<D>::solve_together(Increment<D>&,                                  \

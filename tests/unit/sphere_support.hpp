@@ -1,0 +1,90 @@
+// What the tests of spheres share: packings, materials, and increments from state to state.
+#pragma once
+
+#include "homogenise/measures.hpp"
+#include "material/packing_file.hpp"
+#include "packing/geometry.hpp"
+#include "state/state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <random>
+#include <string>
+
+namespace grainlaw::core::sphere_test {
+
+using Deformation = Tensor<3>;
+
+// 500 spheres at 100 kPa made with YADE, tests/data.
+inline const Packing& reference_packing() {
+  static const Packing packing = [] {
+    const std::string data = GRAINLAW_TEST_DATA "/spheres500_";
+    return read_packing({data + "particles.csv", data + "contacts.csv", data + "cell.csv"}, 3);
+  }();
+  return packing;
+}
+
+inline MaterialDescription describe(double tolerance = 1e-9) {
+  MaterialDescription description;
+  description.packing = reference_packing();
+  description.law.young = 1e8;
+  description.law.ratio = 0.8;
+  description.law.friction = std::tan(0.5);
+  description.solver.tolerance = tolerance;
+  return description;
+}
+
+inline MaterialDescription locked(MaterialDescription description) {
+  description.law.rotation = false;
+  return description;
+}
+
+struct Found {
+  grainlaw_status status;
+  Deformation stress{};
+  Tensor4<3> tangent{};
+  grainlaw_report report{};
+};
+
+inline Found evaluate(State<3>& state, const Deformation& F, TangentKind kind = TangentKind::none) {
+  Found found{};
+  found.status =
+      state.evaluate(F.data(), kind, found.stress.data(), found.tangent.data(), found.report);
+  EXPECT_EQ(found.status, GRAINLAW_OK) << found.report.message;
+  return found;
+}
+
+template <std::size_t size>
+double norm(const std::array<double, size>& a) {
+  double squares = 0;
+  for (const double value : a) squares += value * value;
+  return std::sqrt(squares);
+}
+
+// |a - b| / |b|
+template <std::size_t size>
+double relative_difference(const std::array<double, size>& a, const std::array<double, size>& b) {
+  std::array<double, size> difference = a;
+  for (std::size_t k = 0; k < size; ++k) difference[k] -= b[k];
+  return norm(difference) / norm(b);
+}
+
+// About an axis, by an angle [rad].
+inline Deformation rotation(Vec<3> axis, double angle) {
+  const double size = length<3>(axis);
+  for (double& component : axis) component *= std::sin(0.5 * angle) / size;
+  const Quaternion q{std::cos(0.5 * angle), axis};
+  Deformation result{};
+  for (std::size_t m = 0; m < 3; ++m) {
+    Vec<3> unit{};
+    unit[m] = 1;
+    const Vec<3> turned = rotated(q, unit);
+    for (std::size_t k = 0; k < 3; ++k) result[3 * k + m] = turned[k];
+  }
+  return result;
+}
+
+}  // namespace grainlaw::core::sphere_test
