@@ -18,7 +18,8 @@ std::string component_name(int index) {
   return {'F', static_cast<char>('1' + index / 3), static_cast<char>('1' + index % 3)};
 }
 
-Point::Point(const grainlaw::Material& material) : state_(material), dimension_(material.dimension()) {}
+Point::Point(const grainlaw::Material& material)
+    : state_(material), dimension_(material.dimension()) {}
 
 double Point::distance(const Tensor2& F, const Tensor2& other) {
   double largest = 0;

@@ -72,9 +72,9 @@ extern "C" {
 #define GRAINLAW_ENUM(name) enum name
 #endif
 
-typedef GRAINLAW_ENUM(grainlaw_status) {
+typedef GRAINLAW_ENUM(grainlaw_status){
 #define GRAINLAW_X(name, value, text) name = (value),
-  GRAINLAW_STATUS_LIST(GRAINLAW_X)
+    GRAINLAW_STATUS_LIST(GRAINLAW_X)
 #undef GRAINLAW_X
 } grainlaw_status;
 
@@ -138,12 +138,12 @@ enum {
 
 /* What an evaluation did. Starts with its own size; grows only at its end. */
 typedef struct grainlaw_report {
-  size_t size;           /* bytes of this struct as the caller knows it */
-  double residual;       /* max(|fx|, |fy|, |M|/R) over particles / mean contact normal force, or
+  size_t size;            /* bytes of this struct as the caller knows it */
+  double residual;        /* max(|fx|, |fy|, |M|/R) over particles / mean contact normal force, or
                             solver.force_floor where that is larger [-] */
-  double step_ratio;     /* suggested factor on the step, 1 after success; 0: the step is not what
+  double step_ratio;      /* suggested factor on the step, 1 after success; 0: the step is not what
                             is wrong (status < 0) [-] */
-  long relaxation_steps; /* pseudo-time steps [-] */
+  long relaxation_steps;  /* pseudo-time steps [-] */
   long servo_corrections; /* outer corrections of the servo method, 0 for direct [-] */
   int factorisations;     /* sparse factorisations, tangent included [-] */
   int subincrements;      /* parts that led here, each from the equilibrium before it; 0: the
@@ -251,9 +251,9 @@ GRAINLAW_API grainlaw_status grainlaw_state_load(grainlaw_state*, const void* by
   X(GRAINLAW_DEFORMATION_GRADIENT, 16, -2, "F of this state, found components included [-]")      \
   X(GRAINLAW_ESCAPED_PARTICLES, 17, 1, "inner particles outside the polygon of the frame [-]")
 
-typedef GRAINLAW_ENUM(grainlaw_measure) {
+typedef GRAINLAW_ENUM(grainlaw_measure){
 #define GRAINLAW_X(name, value, count, text) name = (value),
-  GRAINLAW_MEASURE_LIST(GRAINLAW_X)
+    GRAINLAW_MEASURE_LIST(GRAINLAW_X)
 #undef GRAINLAW_X
 } grainlaw_measure;
 

@@ -43,7 +43,7 @@ typedef struct grainlaw_summary {
   double step_ratio; /* smallest step ratio of the failed points, 1 without any; 0: the step is not
                         what is wrong [-] */
   long failed;       /* points whose status is not OK [-] */
-  long first_failed; /* number of the first of them, a fatal one before recoverable ones; -1: none */
+  long first_failed; /* number of the first, a fatal one before recoverable ones; -1: none */
   char message[256]; /* of that point, or why the call was refused; "" after success */
 } grainlaw_summary;
 
@@ -88,9 +88,8 @@ GRAINLAW_API grainlaw_status grainlaw_points_load(grainlaw_points*, const void* 
  * gives it. values NULL: set *count to n * components. Otherwise *count is the capacity on entry, the
  * number written on return. On any error nothing is written. Errors: NULL_POINTER, BAD_HANDLE,
  * BAD_ARGUMENT (unknown measure), BUFFER_TOO_SMALL, OUT_OF_MEMORY. */
-GRAINLAW_API grainlaw_status grainlaw_points_measure(const grainlaw_points*,
-                                                     grainlaw_measure what, double* values,
-                                                     size_t* count);
+GRAINLAW_API grainlaw_status grainlaw_points_measure(const grainlaw_points*, grainlaw_measure what,
+                                                     double* values, size_t* count);
 
 #ifdef __cplusplus
 }

@@ -2,12 +2,12 @@
 #include <grainlaw/grainlaw.h>
 #include <stdio.h>
 
-int main(int argc, char **argv) {
+int main(int argc, char** argv) {
   const double F[4] = {1, 0, 0, 0.999};
   double P[4], A[16];
   char message[256];
-  grainlaw_material *material = NULL;
-  grainlaw_state *state = NULL;
+  grainlaw_material* material = NULL;
+  grainlaw_state* state = NULL;
   grainlaw_report report = grainlaw_report_default();
   grainlaw_status status;
 

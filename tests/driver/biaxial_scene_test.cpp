@@ -25,8 +25,7 @@ class biaxial_scene : public testing::Test {
     const auto path = directory_.path() / "biaxial.toml";
     const double way = 1e-4 * steps;
     std::ofstream(path) << "steps = " << steps << "\nthreads = 1\n"
-                        << more << small_packing_of_seed(5)
-                        << R"(
+                        << more << small_packing_of_seed(5) << R"(
 [newton]
 tolerance = 1e-6
 loose_tolerance = 1e-2
@@ -36,7 +35,8 @@ max_cuts = 6
 [mesh]
 size = [0.05, 0.1]
 divisions = [1, 2]
-)" << held("bottom", "y") << held("bottom_left", "x") << R"(
+)" << held("bottom", "y")
+                        << held("bottom_left", "x") << R"(
 [[displacement]]
 on = "top"
 component = "y"
@@ -61,7 +61,8 @@ value = 100e3
 
 TEST_F(biaxial_scene, reaches_the_end_past_its_peak) {
   run(30, "every_point = [\"mean_stress\", \"stress_ratio\"]\n");
-  const CsvTable history = table(""), forces = table("_force"), ratios = table("_every_stress_ratio");
+  const CsvTable history = table(""), forces = table("_force"),
+                 ratios = table("_every_stress_ratio");
   ASSERT_EQ(history.rows(), 31U);
   EXPECT_NEAR(history["F22"].back(), 0.97, 1e-9);
   const auto& axial = history["sigma22"];
@@ -75,7 +76,8 @@ TEST_F(biaxial_scene, reaches_the_end_past_its_peak) {
     // Every table has every step, and the points' mean is near the mean's.
     double mean = 0;
     for (std::size_t p = 1; p < ratios.columns.size(); ++p) mean += ratios.columns[p][k] / 8;
-    const double of_mean = (history["sigma11"][k] - axial[k]) / std::abs(history["sigma11"][k] + axial[k]);
+    const double of_mean =
+        (history["sigma11"][k] - axial[k]) / std::abs(history["sigma11"][k] + axial[k]);
     EXPECT_NEAR(mean, std::abs(of_mean), 0.15) << k;
   }
   EXPECT_EQ(ratios.columns.size(), 1U + 8U);
@@ -96,8 +98,9 @@ TEST_F(biaxial_scene, with_the_table_of_another_solver_is_refused) {
     run(1, "solver = \"relaxation\"\n");
     ADD_FAILURE() << "nothing was refused";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("newton: found a table, expected none with solver = "
-                                             "\"relaxation\""),
+    EXPECT_NE(std::string(error.what())
+                  .find("newton: found a table, expected none with solver = "
+                        "\"relaxation\""),
               std::string::npos)
         << error.what();
   }

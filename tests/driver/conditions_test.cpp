@@ -92,8 +92,8 @@ jump_x = { value = 3.0 }
 }
 
 TEST(conditions, reduction_is_the_transpose_of_expansion) {
-  const Model model =
-      read_model(held_bottom + periodic_sides + "[[platen]]\non = 'top'\nsurface = 'rough'\n", "q8");
+  const Model model = read_model(
+      held_bottom + periodic_sides + "[[platen]]\non = 'top'\nsurface = 'rough'\n", "q8");
   const Dofs dofs = number_dofs(model);
   const Eigen::VectorXd unknowns = Eigen::VectorXd::LinSpaced(dofs.unknowns, 1, 2);
   const Eigen::VectorXd forces =
@@ -120,8 +120,8 @@ TEST(conditions, a_load_on_a_side_that_is_prescribed_in_its_direction_is_refused
   expect_refusal(smooth_supports + "[[traction]]\non = 'bottom'\ncomponent = 'y'\nvalue = 1e5\n",
                  {"traction[1]"});
   EXPECT_NO_THROW(read_model(held_bottom + pressure));
-  EXPECT_NO_THROW(read_model(smooth_supports +
-                             "[[traction]]\non = 'bottom'\ncomponent = 'x'\nvalue = 1e5\n"));
+  EXPECT_NO_THROW(
+      read_model(smooth_supports + "[[traction]]\non = 'bottom'\ncomponent = 'x'\nvalue = 1e5\n"));
 }
 
 TEST(conditions, a_displacement_that_is_not_zero_at_the_start_is_refused) {
@@ -137,8 +137,7 @@ TEST(conditions, a_component_prescribed_twice_is_refused) {
                  {"scene.toml:11: displacement[3]", "component x of node 1",
                   "prescribed otherwise by scene.toml:3: displacement[1]"});
   // The corner of two sides that say the same is no contradiction.
-  EXPECT_NO_THROW(
-      read_model(held_bottom + held("left", "x")));
+  EXPECT_NO_THROW(read_model(held_bottom + held("left", "x")));
 }
 
 TEST(conditions, sines_that_end_at_other_times_contradict_each_other) {
@@ -178,7 +177,8 @@ TEST(conditions, periodic_sides_prescribed_on_one_side_are_refused) {
 
 TEST(conditions, a_resultant_needs_a_side_that_is_bound_and_free) {
   const std::string resultant = "[[resultant]]\non = 'top'\ncomponent = 'y'\nvalue = 1.0\n";
-  expect_refusal(held_bottom + resultant, {"scene.toml:12: resultant[1].on", "each for themselves"});
+  expect_refusal(held_bottom + resultant,
+                 {"scene.toml:12: resultant[1].on", "each for themselves"});
   expect_refusal(held_bottom +
                      "[[platen]]\non = 'top'\n[[displacement]]\non = 'top'\ncomponent = 'y'\n"
                      "value = 1.0\n" +

@@ -27,8 +27,7 @@ struct Solved {
     read_conditions(scene, 1, model);
     const Material material = lattice_material();
     const auto solver = make_newton_solver(model, material, {.tolerance = 1e-10}, 1);
-    run_load_steps(*solver, 1, 1, 1,
-                   [&](const LoadStep& found, const Solver&) { step = found; });
+    run_load_steps(*solver, 1, 1, 1, [&](const LoadStep& found, const Solver&) { step = found; });
     displacement = solver->displacement();
   }
   [[nodiscard]] std::size_t at(const std::string& name) const {
@@ -89,9 +88,8 @@ TEST_P(platen, a_rough_platen_moves_as_one_and_is_in_balance) {
 
 // On the axis of symmetry a rough platen cannot go sideways: no condition says so but the axis.
 TEST_P(platen, a_rough_platen_on_half_a_model_follows_the_axis) {
-  const std::string pushed =
-      confined + "[[platen]]\non = 'top'\nsurface = 'rough'\n" +
-      "[[displacement]]\non = 'top'\ncomponent = 'y'\nvalue = -1e-4\n";
+  const std::string pushed = confined + "[[platen]]\non = 'top'\nsurface = 'rough'\n" +
+                             "[[displacement]]\non = 'top'\ncomponent = 'y'\nvalue = -1e-4\n";
   const Solved half(pushed, GetParam());
   for (const int node : half.model.mesh.node_sets.at("top")) {
     EXPECT_EQ(half.displacement(2 * node), 0);
@@ -119,12 +117,11 @@ TEST_P(platen, periodic_sides_move_alike_and_hand_on_the_force) {
 }
 
 TEST_P(platen, a_jump_stretches_periodic_sides) {
-  const Solved solved(
-      held("bottom", "y") + held("bottom_left", "x") +
-      "[[displacement]]\non = 'bottom_right'\ncomponent = 'x'\nvalue = -1e-4\n"
-      "[[periodic]]\nsides = ['left', 'right']\njump_x = { value = -1e-4 }\n"
-      "[[pressure]]\non = 'top'\nvalue = 1e5\n",
-      GetParam());
+  const Solved solved(held("bottom", "y") + held("bottom_left", "x") +
+                          "[[displacement]]\non = 'bottom_right'\ncomponent = 'x'\nvalue = -1e-4\n"
+                          "[[periodic]]\nsides = ['left', 'right']\njump_x = { value = -1e-4 }\n"
+                          "[[pressure]]\non = 'top'\nvalue = 1e5\n",
+                      GetParam());
   EXPECT_NEAR(solved.motion("left_right_x"), -1e-4, 1e-18);
   EXPECT_NEAR(solved.step.record.deformation(0, 0), 1 - 1e-4, 1e-12);
   EXPECT_NEAR(solved.step.record.stress(0, 0), solved.force("left_right_x"), 1e-3);
@@ -134,8 +131,8 @@ TEST_P(platen, a_jump_stretches_periodic_sides) {
 TEST_P(platen, tractions_make_the_stress) {
   const Solved solved(
       smooth_supports +
-      "[[traction]]\non = 'right'\ncomponent = 'x'\nstart = -1e5\nvalue = -1.1e5\n"
-      "[[traction]]\non = 'top'\ncomponent = 'y'\nstart = -1e5\nvalue = -1.2e5\n",
+          "[[traction]]\non = 'right'\ncomponent = 'x'\nstart = -1e5\nvalue = -1.1e5\n"
+          "[[traction]]\non = 'top'\ncomponent = 'y'\nstart = -1e5\nvalue = -1.2e5\n",
       GetParam());
   EXPECT_NEAR(solved.step.record.stress(0, 0), -1.1e5, 1e-3);
   EXPECT_NEAR(solved.step.record.stress(1, 1), -1.2e5, 1e-3);
@@ -208,7 +205,9 @@ TEST(platen_on_a_hinge, does_not_hold_the_specimen_against_turning) {
   const auto held = [](const std::string& rotation) {
     const toml::table content = toml::parse(
         "mesh = { size = [1, 1], divisions = [2, 2] }\n"
-        "[[platen]]\non = 'top'\nrotation = '" + rotation + "'\n"
+        "[[platen]]\non = 'top'\nrotation = '" +
+        rotation +
+        "'\n"
         "[[displacement]]\non = 'top'\ncomponent = 'y'\nvalue = 0.0\n"
         "[[displacement]]\non = 'bottom_left'\ncomponent = 'x'\nvalue = 0.0\n");
     SceneTable scene(content, "scene.toml", "");

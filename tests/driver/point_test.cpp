@@ -104,9 +104,8 @@ sigma11 = -50e3
 TEST(point, a_material_that_starts_from_its_trial_bounds_the_tolerance) {
   const grainlaw::test::TemporaryDirectory directory;
   const auto read = [&](const std::string& solver, const std::string& tolerance) {
-    std::ofstream(directory / "scene.toml")
-        << tolerance << "\nmaterial.solver = { start = 'trial'" << solver
-        << " }\n[[segment]]\nsteps = 1\nF22 = 0.99\n";
+    std::ofstream(directory / "scene.toml") << tolerance << "\nmaterial.solver = { start = 'trial'"
+                                            << solver << " }\n[[segment]]\nsteps = 1\nF22 = 0.99\n";
     return read_point_scenes(SceneFile(directory / "scene.toml")).front().options.tolerance;
   };
   EXPECT_EQ(read("", ""), 1e-8);

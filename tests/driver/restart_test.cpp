@@ -16,7 +16,8 @@ namespace {
 using grainlaw::test::TemporaryDirectory;
 
 // With a table of a point, series for ParaView of the mesh and of a packing.
-const std::string specimen = "steps = 4\nthreads = 1\nvtk_every = 2\npackings = [1]\npoints = [2]\n" + small_packing;
+const std::string specimen =
+    "steps = 4\nthreads = 1\nvtk_every = 2\npackings = [1]\npoints = [2]\n" + small_packing;
 const std::string compression = "[newton]\ntolerance = 1e-6\n" + narrow_mesh + smooth_supports + R"(
 [[displacement]]
 on = "top"
@@ -81,8 +82,8 @@ TEST_F(restart, ends_in_the_bytes_of_an_uninterrupted_run) {
 }
 
 TEST_F(restart, of_a_dynamic_run_ends_in_the_same_bytes) {
-  write_scene("solver = \"dynamics\"\n" + specimen + "[dynamics]\ndensity = 2000\nduration = 1e-3\n" +
-              narrow_mesh + held_bottom + R"(
+  write_scene("solver = \"dynamics\"\n" + specimen +
+              "[dynamics]\ndensity = 2000\nduration = 1e-3\n" + narrow_mesh + held_bottom + R"(
 [[displacement]]
 on = "top"
 component = "y"
@@ -153,7 +154,8 @@ on = "top"
 step = 5e-4
 limit_displacement = 1e-3
 cycles = 1
-)" + held("top", "y") + periodic_sides);
+)" + held("top", "y") +
+              periodic_sides);
   expect_same_files_in_pieces();
 }
 

@@ -64,9 +64,8 @@ TEST_F(start, a_strain_in_the_place_of_a_stretch_is_refused) {
 }
 
 TEST_F(start, tension_is_refused_unless_there_are_bonds) {
-  expect_refused(
-      "dF22 = -0.01\nsigma11 = 50e3\n",
-      "].sigma11: found 50000, which is tension, expected a number <= 0, -50000 Pa");
+  expect_refused("dF22 = -0.01\nsigma11 = 50e3\n",
+                 "].sigma11: found 50000, which is tension, expected a number <= 0, -50000 Pa");
   expect_refused("P22 = 1e5\n", "].P22: found 100000");
   std::string bonded = small_packing;
   const std::string law = "\"frictional\"";

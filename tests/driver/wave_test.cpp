@@ -1,8 +1,8 @@
 // Waves through rows of discs: particles against closed forms, meshes against particles.
 
+#include "material/material_file.hpp"
 #include "wave/motion.hpp"
 #include "wave/run.hpp"
-#include "material/material_file.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -112,8 +112,8 @@ TEST(wave, broken_bonds_dissipate_what_they_held) {
 }
 
 TEST(wave, volumes_in_a_row_are_the_specimens_of_the_thesis) {
-  const auto material =
-      grainlaw::core::make_material<2>(grainlaw::core::read_material_file(scenes + "pack_regular.toml"));
+  const auto material = grainlaw::core::make_material<2>(
+      grainlaw::core::read_material_file(scenes + "pack_regular.toml"));
   EXPECT_EQ(repeat_along_x(*material, 40).size(), 9615U);
   const WaveSpecimen specimen = repeat_along_x(*material, 26);
   EXPECT_EQ(specimen.size(), 6255U);

@@ -131,6 +131,28 @@ TEST(stress_free, turning_and_shearing_a_loose_packing_costs_nothing) {
   expect_carried(state, before, {1, 0.02 / loose, 0, 1});
 }
 
+// Go to F in equal steps, and cut those without an equilibrium as a host does: which these are depends on
+// the compiler, as rounding decides between the ways in which loose discs come to bear.
+int advance_with_cuts(State& state, const Tensor& F, int steps) {
+  const auto& f0 = state.committed().deformation;
+  const Tensor start{f0[0], f0[1], f0[2], f0[3]};
+  constexpr int parts = 4;  // of a step that was cut
+  int cuts = 0;
+  for (int k = 0; k < steps * parts;) {
+    const auto at = [&](int part) {
+      return sum(start, static_cast<double>(part) / (steps * parts), sum(F, -1, start));
+    };
+    if (k % parts == 0 && evaluate(state, at(k + parts)).status == GRAINLAW_OK) {
+      EXPECT_TRUE(state.commit());
+      k += parts;
+      continue;
+    }
+    cuts += k % parts == 0 ? 1 : 0;
+    advance(state, at(++k));
+  }
+  return cuts;
+}
+
 TEST(stress_free, packing_bears_again_when_it_comes_back) {
   for (const auto& law : {rough_law(), compressive_law(), hertz_law()}) {
     State state(make_material(stress_free(describe_law(small_packing(), law))));
@@ -140,7 +162,7 @@ TEST(stress_free, packing_bears_again_when_it_comes_back) {
     expect_free(state, {1.2, 0, 0, 1.05});
     ASSERT_TRUE(state.commit());
     advance(state, {1.01, 0, 0, 1.01}, 20);
-    advance(state, {0.985, 0, 0, 0.985}, 50);
+    EXPECT_LE(advance_with_cuts(state, {0.985, 0, 0, 0.985}, 50), 2);
     const Evaluation back = evaluate(state, {0.985, 0, 0, 0.985});
     EXPECT_GT(pressure(back), start);
     EXPECT_GT(back.report.contacts, 100);

@@ -86,64 +86,64 @@ GRAINLAW_API void grainlaw_mgis_release(grainlaw_mgis_behaviour*);
 #endif
 
 /* The symbols that the generic interface of MFront 4 exports for a behaviour NAME. */
-#define GRAINLAW_MGIS_BEHAVIOUR(NAME, MATERIAL)                                                    \
-  static grainlaw_mgis_behaviour grainlaw_behaviour_##NAME = {#NAME, MATERIAL, NULL};              \
-  GRAINLAW_API const char* NAME##_author = "grainlaw";                                             \
-  GRAINLAW_API const char* NAME##_date = "";                                                       \
-  GRAINLAW_API const char* NAME##_description = "a packing of grains";                             \
-  GRAINLAW_API const char* NAME##_build_id = "";                                                   \
-  GRAINLAW_API const char* NAME##_mfront_ept = #NAME;                                              \
-  GRAINLAW_API const char* NAME##_mfront_interface = "Generic";                                    \
-  GRAINLAW_API const char* NAME##_src = MATERIAL;                                                  \
-  GRAINLAW_API unsigned short NAME##_mfront_mkt = 1;                                               \
-  GRAINLAW_API unsigned short NAME##_api_version = 1;                                              \
-  GRAINLAW_API unsigned short NAME##_nModellingHypotheses = 2;                                     \
-  GRAINLAW_API const char* NAME##_ModellingHypotheses[2] = {"PlaneStrain", "Tridimensional"};      \
-  GRAINLAW_API unsigned short NAME##_BehaviourType = 2;      /* finite strain */                   \
-  GRAINLAW_API unsigned short NAME##_BehaviourKinematic = 3; /* F and Cauchy */                    \
-  GRAINLAW_API unsigned short NAME##_SymmetryType = 0;                                             \
-  GRAINLAW_API unsigned short NAME##_ElasticSymmetryType = 0;                                      \
-  GRAINLAW_API unsigned short NAME##_nMainVariables = 1;                                           \
-  GRAINLAW_API unsigned short NAME##_nGradients = 1;                                               \
-  GRAINLAW_API const char* NAME##_Gradients[1] = {"DeformationGradient"};                          \
-  GRAINLAW_API int NAME##_GradientsTypes[1] = {3};                                                 \
-  GRAINLAW_API unsigned short NAME##_nThermodynamicForces = 1;                                     \
-  GRAINLAW_API const char* NAME##_ThermodynamicForces[1] = {"Stress"};                             \
-  GRAINLAW_API int NAME##_ThermodynamicForcesTypes[1] = {1};                                       \
-  GRAINLAW_API unsigned short NAME##_nTangentOperatorBlocks = 2;                                   \
-  GRAINLAW_API const char* NAME##_TangentOperatorBlocks[2] = {"Stress", "DeformationGradient"};    \
-  GRAINLAW_API unsigned short NAME##_nMaterialProperties = 0;                                      \
-  GRAINLAW_API const char* const* NAME##_MaterialProperties = NULL;                                \
-  GRAINLAW_API unsigned short NAME##_nInternalStateVariables = 2;                                  \
-  GRAINLAW_API const char* NAME##_InternalStateVariables[2] = {"GrainlawPoint", "GrainlawStep"};   \
-  GRAINLAW_API int NAME##_InternalStateVariablesTypes[2] = {0, 0};                                 \
-  /* Temperature goes without saying, as in any MFront behaviour: hosts set it unasked. */         \
-  GRAINLAW_API unsigned short NAME##_TemperatureRemovedFromExternalStateVariables = 1;             \
-  GRAINLAW_API unsigned short NAME##_nExternalStateVariables = 0;                                  \
-  GRAINLAW_API const char* const* NAME##_ExternalStateVariables = NULL;                            \
-  GRAINLAW_API const int* NAME##_ExternalStateVariablesTypes = NULL;                               \
-  GRAINLAW_API unsigned short NAME##_nParameters = 0;                                              \
-  GRAINLAW_API const char* const* NAME##_Parameters = NULL;                                        \
-  GRAINLAW_API const int* NAME##_ParametersTypes = NULL;                                           \
-  GRAINLAW_API unsigned short NAME##_requiresStiffnessTensor = 0;                                  \
-  GRAINLAW_API unsigned short NAME##_requiresThermalExpansionCoefficientTensor = 0;                \
-  GRAINLAW_API unsigned short NAME##_UsableInPurelyImplicitResolution = 0;                         \
-  GRAINLAW_API unsigned short NAME##_ComputesInternalEnergy = 0;                                   \
-  GRAINLAW_API unsigned short NAME##_ComputesDissipatedEnergy = 0;                                 \
-  GRAINLAW_API unsigned short NAME##_nInitializeFunctions = 0;                                     \
-  GRAINLAW_API const char* const* NAME##_InitializeFunctions = NULL;                               \
-  GRAINLAW_API unsigned short NAME##_nPostProcessings = 0;                                         \
-  GRAINLAW_API const char* const* NAME##_PostProcessings = NULL;                                   \
-  GRAINLAW_API int NAME##_PlaneStrain(grainlaw_mgis_data* data) {                                  \
-    return grainlaw_mgis_integrate(&grainlaw_behaviour_##NAME, 2, data);                           \
-  }                                                                                                \
-  GRAINLAW_API int NAME##_Tridimensional(grainlaw_mgis_data* data) {                               \
-    return grainlaw_mgis_integrate(&grainlaw_behaviour_##NAME, 3, data);                           \
-  }                                                                                                \
-  GRAINLAW_API size_t NAME##_states(void) {                                                        \
-    return grainlaw_mgis_states(&grainlaw_behaviour_##NAME);                                       \
-  }                                                                                                \
-  GRAINLAW_API void NAME##_release(void) { grainlaw_mgis_release(&grainlaw_behaviour_##NAME); }    \
+#define GRAINLAW_MGIS_BEHAVIOUR(NAME, MATERIAL)                                                  \
+  static grainlaw_mgis_behaviour grainlaw_behaviour_##NAME = {#NAME, MATERIAL, NULL};            \
+  GRAINLAW_API const char* NAME##_author = "grainlaw";                                           \
+  GRAINLAW_API const char* NAME##_date = "";                                                     \
+  GRAINLAW_API const char* NAME##_description = "a packing of grains";                           \
+  GRAINLAW_API const char* NAME##_build_id = "";                                                 \
+  GRAINLAW_API const char* NAME##_mfront_ept = #NAME;                                            \
+  GRAINLAW_API const char* NAME##_mfront_interface = "Generic";                                  \
+  GRAINLAW_API const char* NAME##_src = MATERIAL;                                                \
+  GRAINLAW_API unsigned short NAME##_mfront_mkt = 1;                                             \
+  GRAINLAW_API unsigned short NAME##_api_version = 1;                                            \
+  GRAINLAW_API unsigned short NAME##_nModellingHypotheses = 2;                                   \
+  GRAINLAW_API const char* NAME##_ModellingHypotheses[2] = {"PlaneStrain", "Tridimensional"};    \
+  GRAINLAW_API unsigned short NAME##_BehaviourType = 2;      /* finite strain */                 \
+  GRAINLAW_API unsigned short NAME##_BehaviourKinematic = 3; /* F and Cauchy */                  \
+  GRAINLAW_API unsigned short NAME##_SymmetryType = 0;                                           \
+  GRAINLAW_API unsigned short NAME##_ElasticSymmetryType = 0;                                    \
+  GRAINLAW_API unsigned short NAME##_nMainVariables = 1;                                         \
+  GRAINLAW_API unsigned short NAME##_nGradients = 1;                                             \
+  GRAINLAW_API const char* NAME##_Gradients[1] = {"DeformationGradient"};                        \
+  GRAINLAW_API int NAME##_GradientsTypes[1] = {3};                                               \
+  GRAINLAW_API unsigned short NAME##_nThermodynamicForces = 1;                                   \
+  GRAINLAW_API const char* NAME##_ThermodynamicForces[1] = {"Stress"};                           \
+  GRAINLAW_API int NAME##_ThermodynamicForcesTypes[1] = {1};                                     \
+  GRAINLAW_API unsigned short NAME##_nTangentOperatorBlocks = 2;                                 \
+  GRAINLAW_API const char* NAME##_TangentOperatorBlocks[2] = {"Stress", "DeformationGradient"};  \
+  GRAINLAW_API unsigned short NAME##_nMaterialProperties = 0;                                    \
+  GRAINLAW_API const char* const* NAME##_MaterialProperties = NULL;                              \
+  GRAINLAW_API unsigned short NAME##_nInternalStateVariables = 2;                                \
+  GRAINLAW_API const char* NAME##_InternalStateVariables[2] = {"GrainlawPoint", "GrainlawStep"}; \
+  GRAINLAW_API int NAME##_InternalStateVariablesTypes[2] = {0, 0};                               \
+  /* Temperature goes without saying, as in any MFront behaviour: hosts set it unasked. */       \
+  GRAINLAW_API unsigned short NAME##_TemperatureRemovedFromExternalStateVariables = 1;           \
+  GRAINLAW_API unsigned short NAME##_nExternalStateVariables = 0;                                \
+  GRAINLAW_API const char* const* NAME##_ExternalStateVariables = NULL;                          \
+  GRAINLAW_API const int* NAME##_ExternalStateVariablesTypes = NULL;                             \
+  GRAINLAW_API unsigned short NAME##_nParameters = 0;                                            \
+  GRAINLAW_API const char* const* NAME##_Parameters = NULL;                                      \
+  GRAINLAW_API const int* NAME##_ParametersTypes = NULL;                                         \
+  GRAINLAW_API unsigned short NAME##_requiresStiffnessTensor = 0;                                \
+  GRAINLAW_API unsigned short NAME##_requiresThermalExpansionCoefficientTensor = 0;              \
+  GRAINLAW_API unsigned short NAME##_UsableInPurelyImplicitResolution = 0;                       \
+  GRAINLAW_API unsigned short NAME##_ComputesInternalEnergy = 0;                                 \
+  GRAINLAW_API unsigned short NAME##_ComputesDissipatedEnergy = 0;                               \
+  GRAINLAW_API unsigned short NAME##_nInitializeFunctions = 0;                                   \
+  GRAINLAW_API const char* const* NAME##_InitializeFunctions = NULL;                             \
+  GRAINLAW_API unsigned short NAME##_nPostProcessings = 0;                                       \
+  GRAINLAW_API const char* const* NAME##_PostProcessings = NULL;                                 \
+  GRAINLAW_API int NAME##_PlaneStrain(grainlaw_mgis_data* data) {                                \
+    return grainlaw_mgis_integrate(&grainlaw_behaviour_##NAME, 2, data);                         \
+  }                                                                                              \
+  GRAINLAW_API int NAME##_Tridimensional(grainlaw_mgis_data* data) {                             \
+    return grainlaw_mgis_integrate(&grainlaw_behaviour_##NAME, 3, data);                         \
+  }                                                                                              \
+  GRAINLAW_API size_t NAME##_states(void) {                                                      \
+    return grainlaw_mgis_states(&grainlaw_behaviour_##NAME);                                     \
+  }                                                                                              \
+  GRAINLAW_API void NAME##_release(void) { grainlaw_mgis_release(&grainlaw_behaviour_##NAME); }  \
   __attribute__((destructor)) static void grainlaw_unload_##NAME(void) { NAME##_release(); }
 
 #endif
