@@ -23,7 +23,7 @@ class CsvRecords {
 
  private:
   std::string_view rest_;
-  std::size_t line_ = 0, next_line_ = 1;
+  std::size_t line_ = 1, next_line_ = 1;
   bool open_ = false;
 };
 
