@@ -37,3 +37,7 @@ class TemporaryDirectory {
 };
 
 }  // namespace grainlaw::test
+
+namespace grainlaw::core::test {
+using grainlaw::test::TemporaryDirectory;
+}  // namespace grainlaw::core::test

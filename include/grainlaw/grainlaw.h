@@ -6,7 +6,7 @@
  * granular representative volume (RVE) in equilibrium.
  *
  * Conventions, for every function below:
- *   - dim is grainlaw_material_dimension: 2 (3 is kept for spheres). Tensors are row-major:
+ *   - dim is grainlaw_material_dimension: 2 (discs) or 3 (spheres). Tensors are row-major:
  *     F[i*dim+J] = dx_i/dX_J.
  *   - SI units throughout. Stress in Pa, tension positive. A 2D packing has an out-of-plane
  *     thickness; it is plane strain with F33 = 1 and P33 = 0.

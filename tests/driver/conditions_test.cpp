@@ -16,7 +16,8 @@ namespace {
 
 Model read_model(const std::string& conditions, const std::string& element = "q4") {
   const toml::table content = toml::parse("mesh = { element = '" + element +
-                                          "', size = [2, 1], divisions = [2, 2] }\n" + conditions);
+                                          "', size = [2, 1], divisions = [2, 2] }\n" + conditions)
+                                  .table();
   SceneTable scene(content, "scene.toml", "");
   SceneTable mesh = scene.table("mesh");
   Model model;
@@ -200,7 +201,7 @@ TEST(conditions, a_rigid_motion_that_is_left_is_named) {
 }
 
 TEST(conditions, a_platen_needs_a_straight_side) {
-  const toml::table content = toml::parse("[[platen]]\non = 'top'");
+  const toml::table content = toml::parse("[[platen]]\non = 'top'").table();
   SceneTable scene(content, "scene.toml", "");
   Model model;
   model.mesh = rectangle_mesh({1, 1}, {2, 2}, ElementKind::q4);

@@ -21,7 +21,7 @@ class cycle : public testing::Test {
   static std::string sides() { return held_bottom + held("top", "y") + periodic_sides; }
   struct Test {
     explicit Test(const std::string& options) {
-      const toml::table content = toml::parse("[cycle]\non = 'top'\n" + options + sides());
+      const toml::table content = toml::parse("[cycle]\non = 'top'\n" + options + sides()).table();
       SceneTable scene(content, "scene.toml", "");
       // Two rows, so that there is something to solve.
       model.mesh = rectangle_mesh({1, 1}, {1, 2}, ElementKind::q4);

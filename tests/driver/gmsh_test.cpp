@@ -92,7 +92,7 @@ TEST_F(gmsh, a_scene_names_the_file_and_an_inverted_element_is_told) {
   std::string inverted = text(1);
   inverted.replace(inverted.find("5 3 2 2 1 2 3 4 5"), 17, "5 3 2 2 1 5 4 3 2");
   std::ofstream(path()) << inverted;
-  const toml::table content = toml::parse("mesh = { file = '" + path().string() + "' }");
+  const toml::table content = toml::parse("mesh = { file = '" + path().string() + "' }").table();
   SceneTable scene(content, "scene.toml", "");
   SceneTable table = scene.table("mesh");
   try {

@@ -218,7 +218,7 @@ INSTANTIATE_TEST_SUITE_P(elements, output,
 TEST(output_options, wrong_ones_are_refused_with_what_was_expected) {
   const Mesh mesh = rectangle_mesh({1, 1}, {1, 2}, ElementKind::q4);  // 8 points
   const auto refusal = [&](const std::string& text) {
-    const toml::table content = toml::parse(text);
+    const toml::table content = toml::parse(text).table();
     SceneTable table(content, "scene.toml", "");
     try {
       read_output(table, mesh, 10);

@@ -20,7 +20,8 @@ struct Solved {
   Solved(const std::string& conditions, const std::string& element,
          const std::string& height = "1") {
     const toml::table content = toml::parse("mesh = { element = '" + element + "', size = [1, " +
-                                            height + "], divisions = [2, 2] }\n" + conditions);
+                                            height + "], divisions = [2, 2] }\n" + conditions)
+                                    .table();
     SceneTable scene(content, "scene.toml", "");
     SceneTable mesh = scene.table("mesh");
     model.mesh = read_mesh(mesh);
@@ -203,13 +204,15 @@ TEST(platen_on_a_hinge, pushed_down_turns_as_the_weaker_side_yields) {
 
 TEST(platen_on_a_hinge, does_not_hold_the_specimen_against_turning) {
   const auto held = [](const std::string& rotation) {
-    const toml::table content = toml::parse(
-        "mesh = { size = [1, 1], divisions = [2, 2] }\n"
-        "[[platen]]\non = 'top'\nrotation = '" +
-        rotation +
-        "'\n"
-        "[[displacement]]\non = 'top'\ncomponent = 'y'\nvalue = 0.0\n"
-        "[[displacement]]\non = 'bottom_left'\ncomponent = 'x'\nvalue = 0.0\n");
+    const toml::table content =
+        toml::parse(
+            "mesh = { size = [1, 1], divisions = [2, 2] }\n"
+            "[[platen]]\non = 'top'\nrotation = '" +
+            rotation +
+            "'\n"
+            "[[displacement]]\non = 'top'\ncomponent = 'y'\nvalue = 0.0\n"
+            "[[displacement]]\non = 'bottom_left'\ncomponent = 'x'\nvalue = 0.0\n")
+            .table();
     SceneTable scene(content, "scene.toml", "");
     Model model;
     SceneTable mesh = scene.table("mesh");

@@ -8,7 +8,7 @@ namespace verification {
 namespace {
 
 Program parse(const std::string& text, double duration = 1, Rise rise = Rise::from_zero) {
-  const toml::table content = toml::parse(text);
+  const toml::table content = toml::parse(text).table();
   SceneTable table(content, "scene.toml", "displacement");
   return read_program(table, duration, rise);
 }

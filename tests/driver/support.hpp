@@ -23,7 +23,8 @@ inline Material lattice_material() {
     contact = { law = "frictional", young = 6e8, ratio = 0.8, friction = 0.5463 }
     boundary = { type = "periodic-cell" }
     solver = { tolerance = 1e-12 }
-  )");
+  )")
+                       .table();
   return make_material(source);
 }
 

@@ -23,7 +23,7 @@ constexpr const char* string_bonds =
 // A string of 2 repeat + 1 discs unless the text says otherwise.
 WaveScene parse(const std::string& text) {
   SceneFile file(scenes + "figure_4_4.toml");
-  file.content = toml::parse(text);
+  file.content = toml::parse(text).table();
   return read_wave_scene(file);
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace grainlaw {
+namespace grainlaw::core {
 namespace {
 
 std::vector<std::vector<std::string>> records_of(const std::string& text) {
@@ -58,4 +58,4 @@ TEST(csv_table, wrong_files_are_refused_with_their_line) {
 }
 
 }  // namespace
-}  // namespace grainlaw
+}  // namespace grainlaw::core

@@ -1,6 +1,7 @@
 // States of sphere packings: stress, tangents, rotations, bytes; and a layer of spheres against discs.
 #include "sphere_support.hpp"
 
+#include "base/error.hpp"
 #include "homogenise/measures.hpp"
 #include "state/serialise.hpp"
 

@@ -1,0 +1,142 @@
+// Spheres through the C ABI: 3 x 3 tensors, states, sets and files; and what is plane so far is refused.
+#include "support.hpp"
+
+#include <limits>
+
+namespace grainlaw::test {
+namespace {
+
+const Material& spheres() {
+  static const Material instance = Material::load(data_directory + "/spheres500.toml");
+  return instance;
+}
+
+using Space = std::array<double, 9>;
+constexpr Space sheared{1.0001, 2e-4, 0, 0, 1, 1e-4, -5e-5, 0, 0.9996};
+
+Space space_stress(State& state, const Space& F) {
+  Space P{};
+  EXPECT_TRUE(state.evaluate(F, P));
+  return P;
+}
+
+void expect_told(const std::string& text, const std::string& told) {
+  const TemporaryDirectory directory;
+  write_text(directory / "material.toml", text);
+  write_text(directory / "discs.csv", "id,x,y,r\n0,0,0,0.5\n1,1,0,0.5\n");
+  write_text(directory / "spheres.csv", "id,x,y,z,r\n0,0,0,0,0.5\n1,1,0,0,0.5\n");
+  write_text(directory / "thick.csv",
+             "H00,H01,H02,H10,H11,H12,H20,H21,H22,thickness\n2,0,0,0,2,0,0,0,2,0.1\n");
+  write_text(directory / "flat.csv", "H00,H01,H02,H10,H11,H12,H20,H21,H22\n2,0,0,0,2,0,0,0,0\n");
+  write_text(directory / "cell.csv", "H00,H01,H02,H10,H11,H12,H20,H21,H22\n2,0,0,0,2,0,0,0,2\n");
+  write_text(directory / "twice.csv",
+             "i,j,shift_x,shift_y,shift_z,fn,ftx_on_j,fty_on_j,ftz_on_j\n0,1,0,0,0,1,0,0,nan\n");
+  char message[1024];
+  grainlaw_material* made = nullptr;
+  const auto path = (directory / "material.toml").string();
+  const grainlaw_status found =
+      grainlaw_material_load(path.c_str(), &made, message, sizeof message);
+  ++bad_inputs;
+  EXPECT_LT(found, 0) << told;
+  EXPECT_EQ(made, nullptr);
+  EXPECT_NE(std::string(message).find(told), std::string::npos) << message << "\nfor " << told;
+}
+
+std::string text_of(const std::string& packing, const std::string& rest = "",
+                    const std::string& contact =
+                        "law = \"frictional\"\nkn = 1e5\nratio = 0.8\n"
+                        "friction = 0.5\n") {
+  return "dimension = 3\n" + rest + "[packing]\n" + packing + "[contact]\n" + contact;
+}
+
+TEST(spheres, have_three_dimensions) {
+  EXPECT_EQ(spheres().dimension(), 3);
+  State state(spheres());
+  EXPECT_EQ(state.measure(GRAINLAW_CAUCHY_STRESS).size(), 9U);
+}
+
+TEST(spheres, set_of_points_has_the_bits_of_a_state_with_any_number_of_threads) {
+  State state(spheres());
+  Space P{};
+  std::array<double, 81> A{};
+  ASSERT_TRUE(state.evaluate(sheared, P, GRAINLAW_WANT_TANGENT_EXACT, A));
+  for (const int threads : {1, 2}) {
+    Points points(spheres(), 2);
+    std::array<double, 18> F{}, stresses{};
+    std::array<double, 162> tangents{};
+    for (std::size_t k = 0; k < 18; ++k) F[k] = sheared[k % 9];
+    ASSERT_EQ(points.evaluate(F, stresses, GRAINLAW_WANT_TANGENT_EXACT, tangents, threads).status,
+              GRAINLAW_OK);
+    for (std::size_t k = 0; k < 18; ++k) EXPECT_EQ(stresses[k], P[k % 9]) << threads << ' ' << k;
+    for (std::size_t k = 0; k < 162; ++k) EXPECT_EQ(tangents[k], A[k % 81]) << threads << ' ' << k;
+  }
+}
+
+TEST(spheres, written_packing_goes_on_with_the_same_stress) {
+  State state(spheres());
+  static_cast<void>(space_stress(state, sheared));
+  state.commit();
+  const TemporaryDirectory directory;
+  state.write_packing((directory / "deformed").string());
+  std::string text = read_text(data_directory + "/spheres500.toml");
+  for (auto at = text.find("spheres500_"); at != std::string::npos; at = text.find("spheres500_"))
+    text.replace(at, 10, "deformed");
+  write_text(directory / "deformed.toml", text);
+  const Material written = Material::load((directory / "deformed.toml").string());
+  State again(written);
+  const auto expected = state.measure(GRAINLAW_CAUCHY_STRESS);
+  const auto found = again.measure(GRAINLAW_CAUCHY_STRESS);
+  for (std::size_t k = 0; k < 9; ++k) EXPECT_NEAR(found[k], expected[k], 1e-8 * 1e5) << k;
+}
+
+TEST(spheres, refused_increment_leaves_the_state) {
+  State state(spheres());
+  const Space before = space_stress(state, sheared);
+  state.revert();
+  const auto bytes = state.save();
+  Space P{};
+  const Space torn{1, 0, 0, 0, 1, 0, 0, 0, 1e3};
+  EXPECT_FALSE(state.evaluate(torn, P));
+  const Space nan{1, 0, 0, 0, 1, 0, 0, 0, std::numeric_limits<double>::quiet_NaN()};
+  EXPECT_THROW(static_cast<void>(state.evaluate(nan, P)), StatusError);
+  EXPECT_THROW(static_cast<void>(state.evaluate(std::array<double, 4>{1, 0, 0, 1}, P)),
+               StatusError);
+  state.revert();
+  EXPECT_EQ(state.save(), bytes);
+  EXPECT_TRUE(same_bits(space_stress(state, sheared), before));
+}
+
+TEST(spheres, bytes_of_discs_are_refused) {
+  State discs(material());
+  State state(spheres());
+  const auto bytes = state.save();
+  EXPECT_THROW(state.load(discs.save()), StatusError);
+  EXPECT_EQ(state.save(), bytes);
+}
+
+TEST(bad_spheres, what_is_plane_is_refused) {
+  const std::string files = "particles = \"spheres.csv\"\ncell = \"cell.csv\"\n";
+  expect_told(text_of(files, "thickness = 0.1\n"), "thickness");
+  expect_told(text_of("generator = \"square\"\ncolumns = 2\nrows = 2\nradius = 0.5\noverlap = 0\n"),
+              "files of spheres");
+  expect_told(text_of(files) + "[boundary]\ntype = \"frame-d\"\n", "periodic-cell");
+  expect_told(text_of(files) + "rolling = { ratio = 1, friction = 0.1 }\n", "rolling");
+  expect_told(text_of(files, "",
+                      "law = \"bonded\"\nkn = 1e5\nratio = 0.8\nfriction = 0.5\n"
+                      "bond = { normal_strength = 1, tangential_strength = 1 }\n"),
+              "bonds are of discs");
+}
+
+TEST(bad_spheres, mistakes_in_files_are_told) {
+  const std::string cell = "cell = \"cell.csv\"\n", particles = "particles = \"spheres.csv\"\n";
+  expect_told(text_of("particles = \"discs.csv\"\n" + cell), "'z'");
+  expect_told(text_of(particles + "cell = \"thick.csv\"\n"), "'thickness'");
+  expect_told(text_of(particles + "cell = \"flat.csv\"\n"), "det H > 0");
+  expect_told(text_of(particles + cell + "contacts = \"twice.csv\"\n"), "ftz_on_j");
+  expect_told("dimension = 4\n[packing]\n" + particles + cell +
+                  "[contact]\nlaw = \"compressive\"\nkn = 1\n",
+              "2 (discs) or 3 (spheres)");
+}
+
+}  // namespace
+}  // namespace grainlaw::test
