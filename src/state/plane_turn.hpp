@@ -14,6 +14,10 @@ inline void add_turn(const SplitIncrement<2>& increment, std::size_t particles,
                      std::vector<double>& z) {
   for (std::size_t k = 2 * particles; k < z.size(); ++k) z[k] += increment.turn[0];
 }
+// The springs of discs turn with their branches.
+inline void turn_springs(const SplitIncrement<2>& /*increment*/,
+                         std::vector<ContactHistory<2>>& /*contacts*/) {}
+
 inline void take_turn(const SplitIncrement<2>& increment, const Configuration<2>& from,
                       std::size_t particles, std::vector<double>& z) {
   for (std::size_t k = 2 * particles; k < z.size(); ++k) {

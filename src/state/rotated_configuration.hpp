@@ -27,6 +27,7 @@ void rotate_configuration(const SplitIncrement<D>& increment, const Tensor<D>& F
                           std::size_t particles, Configuration<D>& configuration) {
   rotate_positions<D>(increment.rotation, particles, configuration.coordinates.data());
   add_turn(increment, particles, configuration.coordinates);
+  turn_springs(increment, configuration.contacts);
   configuration.deformation = F;
 }
 

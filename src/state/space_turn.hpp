@@ -47,6 +47,13 @@ inline void add_turn(const SplitIncrement<3>& increment, std::size_t n, std::vec
   }
 }
 
+inline void turn_springs(const SplitIncrement<3>& increment,
+                         std::vector<ContactHistory<3>>& contacts) {
+  for (auto& contact : contacts) {
+    contact.tangential_force = product<3>(increment.rotation, contact.tangential_force);
+  }
+}
+
 // From rotations since F = I to Gibbs vectors since `from`, without the rotation of the increment.
 inline void take_turn(const SplitIncrement<3>& increment, const Configuration<3>& from,
                       std::size_t n, std::vector<double>& z) {

@@ -201,7 +201,7 @@ TEST_F(packing_file, with_wrong_particles_is_refused) {
   expect_particles_refused("cells from the first", "id,x,y,r\n7,0,0,1\n8,0,1e5,1\n");
   expect_particles_refused("p.csv:2: fewer fields", "id,x,y,r\n7,0,0\n");
   expect_particles_refused("p.csv:2: more fields", "id,x,y,r\n7,0,0,1,5\n");
-  expect_particles_refused("uplicate", "id,x,y,r,x\n7,0,0,1,5\n");
+  expect_particles_refused("stands twice", "id,x,y,r,x\n7,0,0,1,5\n");
   expect_particles_refused("not a text file", std::string("id,x,y,r\n7,0,0,1\0junk\n", 22));
 }
 

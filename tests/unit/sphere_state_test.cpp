@@ -49,6 +49,16 @@ TEST(spheres, rotation_turns_stress_and_particles) {
     measure(material->problem(), turned.current(), GRAINLAW_MEAN_ROTATION, mean_turned.data());
     EXPECT_LT(length<3>(mean), 0.05 * angle);
     EXPECT_NEAR(length<3>(mean_turned), angle, 0.05 * angle);
+    // Springs too: the next increment starts from what both committed.
+    turned.commit();
+    State<3> straight(material);
+    evaluate(straight, F);
+    straight.commit();
+    const Deformation next = drained(1e-3);
+    EXPECT_LT(relative_difference(evaluate(turned, product<3>(Q, next)).stress,
+                                  product<3>(Q, evaluate(straight, next).stress)),
+              1e-9)
+        << angle;
   }
 }
 
