@@ -41,7 +41,7 @@ AnyState::AnyState(const AnyMaterial& material)
     : state_(std::visit([](const auto& one) { return state_of(one); }, material)) {}
 
 void AnyState::check_deformation(const double* F) const {
-  std::visit([&](const auto& state) { check<state.dim>(state.effective(F)); }, state_);
+  std::visit([&]<int D>(const State<D>& state) { check<D>(state.effective(F)); }, state_);
 }
 
 grainlaw_status AnyState::evaluate(const double* F, TangentKind kind, double* P, double* A,
@@ -85,7 +85,9 @@ AnyConfiguration AnyState::read(std::span<const std::byte> bytes) const {
 
 void AnyState::restore(AnyConfiguration committed) noexcept {
   std::visit(
-      [&](auto& state) { state.restore(std::get<Configuration<state.dim>>(std::move(committed))); },
+      [&]<int D>(State<D>& state) {
+        state.restore(std::get<Configuration<D>>(std::move(committed)));
+      },
       state_);
 }
 
