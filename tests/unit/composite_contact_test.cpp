@@ -88,7 +88,7 @@ Discs pair(const ContactLaw& law, const Committed& committed = {}, bool bond = t
   std::vector<double> moments, gaps;
   if (law.moments()) moments = {committed.moment};
   if (committed.gap != 0) gaps = {committed.gap - overlap};
-  return {law,          {1, 3},  start, {{0, 1, {}, false, law.bonds() && bond, committed.force}},
+  return {law,          {1, 3},  start, {{0, 1, {}, false, law.bonds() && bond, {committed.force}}},
           {{0, 1, {}}}, moments, gaps};
 }
 
@@ -279,7 +279,7 @@ TEST(bonded_contact, three_discs_in_a_row_bend_like_a_beam) {
   Discs discs{law,
               {1, 1, 1},
               {0, 2, 4, 0, 0, 0, 0, 0, 0},
-              {{0, 1, {}, false, true, 0}, {1, 2, {}, false, true, 0}},
+              {{0, 1, {}, false, true, {0}}, {1, 2, {}, false, true, {0}}},
               {{0, 1, {}}, {1, 2, {}}},
               {0, 0}};
   discs.turn(1) = 0.01;

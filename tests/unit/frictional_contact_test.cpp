@@ -27,7 +27,7 @@ ContactLaw rough() {
 
 // Radii 1 and 3, overlap 0.1 along x, unturned.
 Discs pair(const ContactLaw& law = rough(), double committed = 0) {
-  return {law, {1, 3}, {0, 3.9, 0, 0, 0, 0}, {{0, 1, {}, false, false, committed}}};
+  return {law, {1, 3}, {0, 3.9, 0, 0, 0, 0}, {{0, 1, {}, false, false, {committed}}}};
 }
 
 TEST(frictional_contact, pushes_with_stiffness_times_overlap) {

@@ -258,7 +258,7 @@ const Cell3 mirrored = {-0.2, -1.1, 0.1, 1.3, -0.1, 0.2, 0.1, 0.3, -1};
 TEST(neighbours, of_spheres_agree_with_brute_force_in_any_cell) {
   std::mt19937_64 rng(8);
   for (const auto& cell : {cube, sheared_cube, oblique, mirrored})
-    for (const std::size_t n : {1, 2, 7, 40, 200})
+    for (const std::size_t n : {1U, 2U, 7U, 40U, 200U})
       for (const double gap : {0.0, 0.03, 0.4})
         expect_as_brute_force(random_spheres(n, cell, 0.12, 0, rng), &cell, gap);
 }
@@ -266,7 +266,7 @@ TEST(neighbours, of_spheres_agree_with_brute_force_in_any_cell) {
 TEST(neighbours, of_a_cell_smaller_than_a_sphere_come_with_all_images) {
   std::mt19937_64 rng(9);
   for (const auto& cell : {cube, sheared_cube, oblique, mirrored})
-    for (const std::size_t n : {1, 2, 3})
+    for (const std::size_t n : {1U, 2U, 3U})
       for (const double radius : {0.3, 0.8, 2.1})
         expect_as_brute_force(random_spheres(n, cell, radius, 0, rng), &cell, 0.1);
 }
@@ -280,7 +280,7 @@ TEST(neighbours, of_spheres_are_found_from_unwrapped_positions) {
 
 TEST(neighbours, of_spheres_without_a_cell_have_no_images) {
   std::mt19937_64 rng(11);
-  for (const std::size_t n : {1, 2, 5, 200})
+  for (const std::size_t n : {1U, 2U, 5U, 200U})
     expect_as_brute_force(random_spheres(n, oblique, 0.15, 1, rng), nullptr, 0.05);
 }
 
@@ -289,7 +289,7 @@ TEST(neighbours, of_very_unequal_spheres_are_found) {
   for (const auto& cell : {cube, sheared_cube, oblique, mirrored}) {
     Spheres steps = random_spheres(150, cell, 0.02, 1, rng);
     steps.radius[3] = 0.5;  // alone, a few, and some between them and the rest
-    for (const std::size_t p : {40, 41, 149}) steps.radius[p] = 0.2;
+    for (const std::size_t p : {40U, 41U, 149U}) steps.radius[p] = 0.2;
     for (std::size_t p = 100; p < 120; ++p) steps.radius[p] = 0.06;
     for (const double gap : {0.0, 0.02}) {
       expect_as_brute_force(steps, &cell, gap);

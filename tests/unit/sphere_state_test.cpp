@@ -19,7 +19,7 @@ Deformation drained(double strain) {
 TEST(spheres, start_from_the_stress_they_were_made_at) {
   const auto material = make_material<3>(describe());
   const auto& p = material->initial.stress;
-  for (const std::size_t k : {0, 4, 8}) EXPECT_NEAR(p[k], -1e5, 500) << k;
+  for (const std::size_t k : {0U, 4U, 8U}) EXPECT_NEAR(p[k], -1e5, 500) << k;
   EXPECT_EQ(material->initial.contacts.size(), 1548U);
 }
 
