@@ -73,4 +73,15 @@ Vec<D> vec_of(const Whole& numbers) {
   return result;
 }
 
+// x -> g x
+template <int D>
+void map_positions(const Tensor<D>& g, std::size_t n, double* x) {
+  for (std::size_t p = 0; p < n; ++p) {
+    Vec<D> at{};
+    for (std::size_t k = 0; k < D; ++k) at[k] = x[k * n + p];
+    const Vec<D> to = product<D>(g, at);
+    for (std::size_t k = 0; k < D; ++k) x[k * n + p] = to[k];
+  }
+}
+
 }  // namespace grainlaw::core

@@ -64,7 +64,7 @@ void guess_from_trial(const Configuration<D>& from, const Configuration<D>& tria
   const auto last = split<D>(*request.problem->space, trial.deformation, from.deformation);
   auto& z = w.guess;
   z = trial.coordinates;
-  rotate_positions<D>(transpose<D>(last.rotation), particles, z.data());
+  map_positions<D>(transpose<D>(last.rotation), particles, z.data());
   take_turn(last, from, particles, z);
   request.guess = &z;
   request.guess_deformation = last.target;
