@@ -73,8 +73,7 @@ std::size_t dof(int node, int component) { return static_cast<std::size_t>(2 * n
 class Linker {
  public:
   Linker(const Model& model, std::vector<Program>& programs)
-      : model_(model),
-        ground_(2 * model.mesh.nodes.size()),
+      : ground_(2 * model.mesh.nodes.size()),
         prescribed_by_(ground_, nullptr),
         tied_by_(ground_, nullptr),
         linkage_(ground_, programs) {
@@ -149,7 +148,6 @@ class Linker {
     }
   }
 
-  const Model& model_;
   std::size_t ground_;
   std::vector<const PrescribedDisplacement*> prescribed_by_;
   std::vector<const Tie*> tied_by_;
