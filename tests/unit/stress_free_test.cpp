@@ -131,6 +131,13 @@ TEST(stress_free, turning_and_shearing_a_loose_packing_costs_nothing) {
   expect_carried(state, before, {1, 0.02 / loose, 0, 1});
 }
 
+// The default build, of GCC, cuts none.
+#ifdef __clang__
+constexpr int most_cuts = 2;
+#else
+constexpr int most_cuts = 0;
+#endif
+
 // Go to F in equal steps, and cut those without an equilibrium as a host does: which these are depends on
 // the compiler, as rounding decides between the ways in which loose discs come to bear.
 int advance_with_cuts(State& state, const Tensor& F, int steps) {
@@ -162,7 +169,7 @@ TEST(stress_free, packing_bears_again_when_it_comes_back) {
     expect_free(state, {1.2, 0, 0, 1.05});
     ASSERT_TRUE(state.commit());
     advance(state, {1.01, 0, 0, 1.01}, 20);
-    EXPECT_LE(advance_with_cuts(state, {0.985, 0, 0, 0.985}, 50), 2);
+    EXPECT_LE(advance_with_cuts(state, {0.985, 0, 0, 0.985}, 50), most_cuts);
     const Evaluation back = evaluate(state, {0.985, 0, 0, 0.985});
     EXPECT_GT(pressure(back), start);
     EXPECT_GT(back.report.contacts, 100);
