@@ -72,9 +72,9 @@ void guess_from_trial(const Configuration<D>& from, const Configuration<D>& tria
 
 template <int D>
 void add_cost(const Increment<D>& increment, grainlaw_report& report) {
-  report.relaxation_steps += increment.relaxation_steps;
-  report.servo_corrections += increment.servo_corrections;
-  report.factorisations += increment.factorisations;
+  report.relaxation_steps += increment.cost.relaxation_steps;
+  report.servo_corrections += increment.cost.servo_corrections;
+  report.factorisations += increment.cost.factorisations;
 }
 
 // Forward differences of P, each from the same history (Guo & Zhao 2014, eq. 8, as dP/dF).
@@ -247,7 +247,7 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
 
   w.increment.advance_history();
   w.increment.export_to(committed_, trial_);
-  report.broken_bonds = static_cast<int>(std::lround(w.increment.broken_bonds));
+  report.broken_bonds = static_cast<int>(std::lround(w.increment.losses().broken_bonds()));
   report.contacts = static_cast<int>(trial_.contacts.size());
   report.sliding = static_cast<int>(std::count_if(trial_.contacts.begin(), trial_.contacts.end(),
                                                   [](const auto& c) { return c.sliding; }));
