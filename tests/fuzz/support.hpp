@@ -70,11 +70,8 @@ inline bool has_large_integer(const toml::node& node) {
 
 // Integers are numbers of discs, elements, steps: larger ones ask for work, not for other code.
 inline bool asks_for_much(std::string_view text) {
-  try {
-    return has_large_integer(toml::parse(text));
-  } catch (const toml::parse_error&) {
-    return false;
-  }
+  const toml::parse_result parsed = toml::parse(text);
+  return parsed && has_large_integer(parsed.table());
 }
 
 // Six discs in two rows of three that touch six others each, under 100 kPa.
