@@ -46,7 +46,8 @@ class PseudoTransientNewton {
         tolerance_(tolerance),
         memory_(memory),
         relaxation_(relaxation),
-        may_roll_(RollingMechanisms<D>::possible(increment.problem())) {
+        may_roll_(RollingMechanisms<D>::possible(increment.problem()) &&
+                  !increment.motion().drag().acts()) {
     memory.step.assign(increment.problem().unknowns(), 0.0);
     memory.coordinates.reserve(increment.motion().coordinates().size());
     memory.moved.reserve(increment.motion().coordinates().size());

@@ -34,8 +34,9 @@ Relaxation<D>::Relaxation(Increment<D>& increment, History history, RelaxationMe
       memory_(memory) {
   const auto& law = *problem_.law;
   const bool by_places = history == History::committed && problem_.space->identity;
-  by_sides_ = ContactSides<D>::available && by_places && law.plain() && law.tangential();
-  at_once_ = by_places && law.plain() && !by_sides_;
+  const bool plain = by_places && law.plain() && !motion_.drag().acts();
+  by_sides_ = ContactSides<D>::available && plain && law.tangential();
+  at_once_ = plain && !by_sides_;
   // Without friction nothing flutters, and the damping is that of the softest mode.
   rough_ = by_places && law.tangential();
   extrapolates_ = may_extrapolate && rough_;

@@ -87,6 +87,48 @@ void start_iteration(const Request<D>& request, double share, Increment<D>& incr
   }
 }
 
+// How part k of `parts` begins: an implicit Euler step of masses `inertia` and a drag 1 - inertia. The
+// first part expects as much of the last move as the strain goes on in its direction, the others go on.
+template <int D>
+DragStart<D> drag_start(const Request<D>& request, int k, int parts) {
+  const Viscosity& viscosity = request.options->viscosity;
+  const Tensor<D>& before = request.from->deformation;
+  const auto at = [&](int part) {
+    return between<D>(before, request.deformation, static_cast<double>(part) / parts);
+  };
+  const double time = request.duration / parts;
+  const double mass = viscosity.inertia / time;
+  const double drag = 1 - viscosity.inertia;
+  const double inertia = mass / (mass + drag);
+  DragStart<D> how;
+  how.rate = (mass + drag) / (viscosity.time * time);
+  how.stretch = product<D>(at(k), inverse<D>(k == 1 ? before : at(k - 1)));
+  for (std::size_t i = 0; i < D; ++i) how.stretch[(D + 1) * i] -= 1;
+  if (k > 1) {
+    how.follow = inertia;
+    return how;
+  }
+  const Tensor<D>& last = request.from->move_stretch;
+  double along = 0, square = 0;
+  for (std::size_t i = 0; i < squared<D>; ++i) {
+    along += how.stretch[i] * last[i];
+    square += last[i] * last[i];
+  }
+  if (!(square > 0)) return how;
+  const double ratio = along / square;
+  how.follow = inertia * std::clamp(ratio, 0.0, tuned::largest_follow);
+  if (ratio < 0 || ratio >= tuned::largest_follow) return how;
+  for (std::size_t i = 0; i < squared<D>; ++i) {
+    how.follow_by_stretch[i] = inertia * last[i] / square;
+  }
+  return how;
+}
+
+template <int D>
+bool has_drag(const Request<D>& request) {
+  return request.options->viscosity.time > 0;
+}
+
 // The tolerance, and no less than rounding leaves: below that there is no equilibrium to speak of.
 // Forces may fade on the way to it.
 template <int D>
@@ -113,6 +155,7 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
   increment.refresh_masses();
   double target = reachable(request, increment);
   double hand_over = hand_over_of(increment.problem().nodes());
+  if (has_drag(request)) hand_over = D == 2 ? tuned::drag_hand_over : target;
   if (target > tuned::worth_newton * hand_over) hand_over = target;
   bool last = false;
   for (int round = 0; !last && round < rounds; ++round) {
@@ -120,7 +163,7 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
     const double tolerance = std::max(hand_over, target);
     const long limit = (round < tuned::long_rounds ? 1 : 2) * steps;
     // From the last iterate of a step the next is found on the same branch.
-    const bool may_extrapolate = request.guess == nullptr;
+    const bool may_extrapolate = request.guess == nullptr && !has_drag(request);
     const bool relaxed =
         relax(increment, tolerance, limit, History::committed, w.relaxation, 0, may_extrapolate);
     const bool lost = increment.scale().touching() == 0 || increment.collapsed();
@@ -184,6 +227,11 @@ bool solve_parts(const Request<D>& request, int parts, Workspace<D>& w, Outcome&
     } else {
       increment.deform(between<D>(request.from->deformation, request.deformation, share));
     }
+    if (has_drag(request)) {
+      const bool guessed = request.guess != nullptr && parts == 1;
+      increment.begin_drag(drag_start(request, k, parts), k == 1 ? request.from->move : w.move,
+                           !guessed);
+    }
     if (!solve_part(request, w, outcome)) return false;
     double start = static_cast<double>(k - 1) / parts;
     const auto find_sensitivities = [&] {
@@ -206,6 +254,10 @@ bool solve_parts(const Request<D>& request, int parts, Workspace<D>& w, Outcome&
       return true;
     });
     if (!settled) return false;
+    if (has_drag(request)) {
+      if (outcome.sensitivities && k < parts) w.sensitivity.carry_drag(increment);
+      increment.end_drag(w.move);
+    }
     if (k < parts) {
       carry();
       increment.continue_history();

@@ -64,6 +64,16 @@ class Stages {
       add({Stage::as_asked});
       return;
     }
+    const Viscosity& viscosity = request.options->viscosity;
+    if (viscosity.time > 0) {
+      const int parts = std::max(static_cast<int>(viscosity.steps), least_parts(request));
+      for (int refinement = 1; refinement <= tuned::finest_refinement; refinement *= 2) {
+        if (refinement == 1 || parts * refinement <= tuned::most_subincrements) {
+          add({Stage::parts, parts * refinement});
+        }
+      }
+      return;
+    }
     // What ended so before in this step would seldom end otherwise now.
     if (request.guess_advanced && request.guess_loose) add({Stage::advancing});
     const int least = least_parts(request);

@@ -108,6 +108,7 @@ void Increment<D>::find_contact_forces() {
 template <int D>
 void Increment<D>::sum_forces(std::span<ForceRecord<D>> forces) {
   evaluate_contacts<D>(motion_.records(), *problem_->law, contacts_, forces);
+  if (motion_.drag().acts()) motion_.drag().subtract_from(forces, motion_.records());
 }
 
 // From forces on nodes to what is left of them: nothing on what is prescribed, nothing that the

@@ -73,6 +73,12 @@ class Increment {
   // Whether a contact that carries, or the boundary, holds a node: fixed_bit() of each direction.
   void find_held(std::vector<unsigned char>& held) const;
 
+  // As the motion's, with its losses.
+  void begin_drag(const DragStart<D>& how, std::span<const double> last_move, bool as_expected) {
+    motion_.begin_drag(how, masses_.least(), last_move, as_expected);
+  }
+  void end_drag(std::vector<double>& move) { losses_.drag(motion_.end_drag(move)); }
+
   // Break bonds that are beyond their strength here, and the history starts anew from here; false
   // when none is. The worst break first, with all that exceed the strength by at least half as
   // much: the others may be relieved, and equal bonds break together.

@@ -72,6 +72,7 @@ template <int D>
 void Increment<D>::find_held(std::vector<unsigned char>& held) const {
   const auto& space = *problem_->space;
   held.assign(problem_->nodes(), 0);
+  if (motion_.drag().acts()) return std::fill(held.begin(), held.end(), fixed_translation<D>);
   for (std::size_t q = 0; q < space.fixed.size(); ++q)
     held[q] = space.fixed[q] & fixed_translation<D>;
   for (std::size_t c = 0; c < contacts_.size(); ++c) {

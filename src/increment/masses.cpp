@@ -29,6 +29,7 @@ ContactTotals Masses<D>::sum(const Problem<D>& problem, const Motion<D>& motion,
   for (std::size_t q = 0; q < problem.nodes(); ++q) {
     records_[q] = mass_of(stiffness_[q], least_[q], tuned::mass_factor);
   }
+  if (motion.drag().acts()) motion.drag().add_to(std::span(records_), tuned::mass_factor);
   if (problem.space->identity) return totals;
   find_averages(*problem.space);
   if (problem.space->finds_deformation) find_rows(problem, motion, contacts);

@@ -1,5 +1,6 @@
 #include "increment/motion.hpp"
 
+#include "base/room.hpp"
 #include "increment/records.hpp"
 #include "packing/geometry.hpp"
 
@@ -37,6 +38,7 @@ void Motion<D>::begin(const Problem<D>& problem, const Configuration<D>& from) {
   std::fill(start_.begin() + static_cast<std::ptrdiff_t>(dim * n), start_.end(), 0.0);
   start_deformation_ = committed_deformation_ = from.deformation;
   turned_.reset(n, problem.law->rotating());
+  drag_.stop();
   coordinates_ = start_;
   deformation_ = start_deformation_;
   cell_ = cell_at(deformation_);
@@ -139,6 +141,7 @@ void Motion<D>::move(std::span<const double> step, double factor) {
     deformation_[k] += change[k];
   }
   move_with<D>(space.reference.data(), change, n, coordinates_.data());
+  if (drag_.acts()) drag_.follow_deformation(space, change);
 }
 
 template <int D>
@@ -174,6 +177,7 @@ void Motion<D>::change_deformation(const double* rows) {
       (&records_[p].x)[k] += dot<D>(change.data() + dim * k, x + p, n);
     }
   }
+  if (drag_.acts()) drag_.follow_deformation(space, change);
 }
 
 template <int D>
@@ -213,7 +217,39 @@ void Motion<D>::start_here(std::span<const unsigned char> held) {
 template <int D>
 void Motion<D>::restart_turns() {
   if (!problem_->law->rotating()) return;
+  if (drag_.acts()) drag_.restart_turns(records_);
   turned_.restart(records_, coordinates_.data() + dim * problem_->particles());
+}
+
+template <int D>
+void Motion<D>::begin_drag(const DragStart<D>& how, std::span<const LeastMass<D>> contact_stiffness,
+                           std::span<const double> last_move, bool as_expected) {
+  const auto n = problem_->particles();
+  copy_with_room(start_, affine_);
+  carry_affinely(start_deformation_, deformation_, affine_.data());
+  resize_with_room(last_move_, last_move.size());
+  std::copy(last_move.begin(), last_move.end(), last_move_.begin());
+  if (!last_move.empty() && !problem_->space->bound_to_axes()) {
+    map_positions<D>(product<D>(deformation_, inverse<D>(start_deformation_)), n,
+                     last_move_.data());
+  }
+  drag_.begin(how, *problem_->space, problem_->law->rotating(), contact_stiffness, start_,
+              start_deformation_, affine_, last_move_);
+  if (!as_expected) return;
+  coordinates_ = affine_;
+  for (std::size_t k = 0; k < last_move_.size(); ++k) {
+    coordinates_[k] += how.follow * last_move_[k];
+  }
+}
+
+template <int D>
+double Motion<D>::end_drag(std::vector<double>& move) {
+  copy_with_room(drag_.start(), affine_);
+  carry_affinely(drag_.from(), deformation_, affine_.data());
+  load_records();
+  resize_with_room(move, coordinates_.size());
+  for (std::size_t k = 0; k < move.size(); ++k) move[k] = coordinates_[k] - affine_[k];
+  return drag_.work(records_, affine_);
 }
 
 template <int D>

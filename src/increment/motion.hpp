@@ -4,6 +4,7 @@
 
 #include "contact/records.hpp"
 #include "increment/configuration.hpp"
+#include "increment/drag.hpp"
 #include "increment/problem.hpp"
 #include "increment/turns.hpp"
 
@@ -45,6 +46,15 @@ class Motion {
   // Spheres count their rotations from here.
   void restart_turns();
 
+  // From the start of the history to the present F fluctuations meet a drag, after a part in which they
+  // moved by `last_move` (coordinates; empty: not at all); `contact_stiffness` is one contact's, by nodes.
+  // Where `as_expected`, particles go where the drag expects them.
+  void begin_drag(const DragStart<D>& how, std::span<const LeastMass<D>> contact_stiffness,
+                  std::span<const double> last_move, bool as_expected);
+  // Where the part ends: the move of the fluctuations goes to `move`; returns what the drag took [J].
+  double end_drag(std::vector<double>& move);
+  [[nodiscard]] const Drag<D>& drag() const { return drag_; }
+
   // Without what has moved as a whole; rotations added to those of `from`.
   void export_to(const Configuration<D>& from, Configuration<D>& to) const;
 
@@ -85,6 +95,8 @@ class Motion {
   std::vector<ParticleRecord<D>> records_;
   Turned<D> turned_;
   std::vector<double> carried_start_;
+  Drag<D> drag_;
+  std::vector<double> affine_, last_move_;
   std::vector<double> node_radius_;
   double deformation_scale_ = 1;
   double mean_branch_ = 0;

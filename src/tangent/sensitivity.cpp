@@ -62,6 +62,7 @@ bool Sensitivity<D>::solve(Increment<D>& increment, double share, double start_s
   resize_with_room(motion_, increment.problem().node_unknowns());
   right_.assign(increment.problem().node_unknowns(), ByDeformation<D>{});
   add_residual_changes<D>(increment, stiffness, change_, history, right_);
+  if (increment.motion().drag().acts()) drag_.add_to(increment, change_, right_);
   if (!space.identity) {
     for (std::size_t q = 0; q < increment.problem().nodes(); ++q) {
       for (std::size_t k = 0; k < b; ++k) {

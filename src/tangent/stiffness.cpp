@@ -1,4 +1,5 @@
 #include "tangent/stiffness.hpp"
+#include "tangent/drag_change.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -110,8 +111,14 @@ void Stiffness<D>::assemble(const Increment<D>& increment, double shift) {
   add_contacts();
   if (!moments_.empty()) add_moments();
   add_masses(increment, shift);
+  const bool drag = increment.motion().drag().acts();
+  if (drag) add_drag(increment);
   if constexpr (D == 3) {
-    increment.problem().law->rotating() ? hold_free_spins(increment) : hold_rotations(increment);
+    if (!increment.problem().law->rotating()) {
+      hold_rotations(increment);
+    } else if (!drag) {
+      hold_free_spins(increment);
+    }
   }
   if (increment.problem().space->identity) return;
   if constexpr (D == 2) {
@@ -157,6 +164,24 @@ void Stiffness<D>::add_masses(const Increment<D>& increment, double factor) {
     Column* block = matrix_.block(q);
     for (std::size_t k = 0; k < b; ++k) {
       block[k].lane[k] += factor * increment.masses().of_unknowns()[k * matrix_.nodes + q];
+    }
+  }
+}
+
+template <int D>
+void Stiffness<D>::add_drag(const Increment<D>& increment) {
+  const auto b = static_cast<std::size_t>(matrix_.components);
+  constexpr std::size_t spins = Dimension<D>::spins;
+  for (std::size_t q = 0; q < matrix_.nodes; ++q) {
+    Column* block = matrix_.block(q);
+    const double* stiffness = &increment.motion().drag().stiffness(q).x;
+    for (std::size_t k = 0; k < D; ++k) block[k].lane[k] += stiffness[k];
+    const double radius = increment.motion().node_radius()[q];
+    const auto turn = rotation_by_spin<D>(increment, q);
+    for (std::size_t k = 0; k + D < b; ++k) {
+      for (std::size_t l = 0; l + D < b; ++l) {
+        block[D + l].lane[D + k] += radius * radius * stiffness[D + k] * turn[k * spins + l];
+      }
     }
   }
 }

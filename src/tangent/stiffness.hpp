@@ -87,6 +87,7 @@ class Stiffness {
   void link_anchors(const Increment<D>& increment);
   void add_anchors(const Increment<D>& increment);
   void add_masses(const Increment<D>& increment, double factor);
+  void add_drag(const Increment<D>& increment);
   bool solve_together_by_factors(const Increment<D>& increment, std::span<const Together<width>> b,
                                  std::span<Together<width>> x);
   bool solve_by_gmres(const Increment<D>& increment);
