@@ -1,6 +1,7 @@
 #include "equilibrium/stages.hpp"
 
 #include "base/constants.hpp"
+#include "equilibrium/drag_start.hpp"
 #include "reference/servo.hpp"
 
 #include <algorithm>
@@ -49,13 +50,6 @@ double hand_over_of(std::size_t nodes) {
                                      tuned::hand_over_power);
 }
 
-template <int D>
-Tensor<D> between(const Tensor<D>& a, const Tensor<D>& b, double share) {
-  Tensor<D> f{};
-  for (std::size_t k = 0; k < squared<D>; ++k) f[k] = a[k] + share * (b[k] - a[k]);
-  return f;
-}
-
 // Mean force below which what is left of forces that do not settle counts for nothing [N]. Bonds
 // hold on without any.
 template <int D>
@@ -85,43 +79,6 @@ void start_iteration(const Request<D>& request, double share, Increment<D>& incr
     increment.motion().go_to(*request.guess, request.guess_deformation);
     increment.deform(request.deformation);
   }
-}
-
-// How part k of `parts` begins: an implicit Euler step of masses `inertia` and a drag 1 - inertia. The
-// first part expects as much of the last move as the strain goes on in its direction, the others go on.
-template <int D>
-DragStart<D> drag_start(const Request<D>& request, int k, int parts) {
-  const Viscosity& viscosity = request.options->viscosity;
-  const Tensor<D>& before = request.from->deformation;
-  const auto at = [&](int part) {
-    return between<D>(before, request.deformation, static_cast<double>(part) / parts);
-  };
-  const double time = request.duration / parts;
-  const double mass = viscosity.inertia / time;
-  const double drag = 1 - viscosity.inertia;
-  const double inertia = mass / (mass + drag);
-  DragStart<D> how;
-  how.rate = (mass + drag) / (viscosity.time * time);
-  how.stretch = product<D>(at(k), inverse<D>(k == 1 ? before : at(k - 1)));
-  for (std::size_t i = 0; i < D; ++i) how.stretch[(D + 1) * i] -= 1;
-  if (k > 1) {
-    how.follow = inertia;
-    return how;
-  }
-  const Tensor<D>& last = request.from->move_stretch;
-  double along = 0, square = 0;
-  for (std::size_t i = 0; i < squared<D>; ++i) {
-    along += how.stretch[i] * last[i];
-    square += last[i] * last[i];
-  }
-  if (!(square > 0)) return how;
-  const double ratio = along / square;
-  how.follow = inertia * std::clamp(ratio, 0.0, tuned::largest_follow);
-  if (ratio < 0 || ratio >= tuned::largest_follow) return how;
-  for (std::size_t i = 0; i < squared<D>; ++i) {
-    how.follow_by_stretch[i] = inertia * last[i] / square;
-  }
-  return how;
 }
 
 template <int D>
