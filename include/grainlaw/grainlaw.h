@@ -155,6 +155,9 @@ typedef struct grainlaw_report {
   int history_advanced;   /* 1: fallback that advances the friction history was used; approximate */
   char message[256];      /* one line of text, "" after plain success */
   int broken_bonds;       /* bonds that broke in this evaluation [-] */
+  double unbalanced;      /* with solver.viscous_time: largest drag on a particle / mean contact
+                             normal force, 0 at an equilibrium [-] */
+  double viscous_work;    /* with solver.viscous_time: work done on the drag [J] */
 } grainlaw_report;
 
 /* A report with its size set and everything else zero. */
@@ -201,6 +204,11 @@ GRAINLAW_API grainlaw_status grainlaw_evaluate_batch(size_t n, grainlaw_state* c
                                                      const double* F, unsigned want, double* P,
                                                      double* A, grainlaw_status* status,
                                                      grainlaw_report* reports, int threads);
+
+/* The time that the increments from now on take, in the host's unit, until another is given; copies of
+ * the state take it over, bytes do not. Only solver.viscous_increment > 0 asks for it. Errors:
+ * NULL_POINTER, BAD_HANDLE, BAD_ARGUMENT (not finite, or not above 0). */
+GRAINLAW_API grainlaw_status grainlaw_state_set_time_step(grainlaw_state*, double time_step);
 
 /* Make the trial the committed state. Errors: NULL_POINTER, BAD_HANDLE, NO_TRIAL. */
 GRAINLAW_API grainlaw_status grainlaw_commit(grainlaw_state*);

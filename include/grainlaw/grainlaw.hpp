@@ -115,6 +115,7 @@ class State {
     return result;
   }
 
+  void set_time_step(double step) { check(grainlaw_state_set_time_step(get(), step)); }
   void commit() { check(grainlaw_commit(get())); }
   void revert() { check(grainlaw_revert(get())); }
 
@@ -219,6 +220,7 @@ class Points {
   }
 
   // All points, or none of them.
+  void set_time_step(double step) { check(grainlaw_points_set_time_step(get(), step)); }
   void commit() { check(grainlaw_points_commit(get())); }
   void revert() { check(grainlaw_points_revert(get())); }
 

@@ -63,6 +63,9 @@ GRAINLAW_API grainlaw_status grainlaw_points_evaluate(grainlaw_points*, const do
                                                       grainlaw_report* reports, int threads,
                                                       grainlaw_summary* summary);
 
+/* As grainlaw_state_set_time_step, of all points. */
+GRAINLAW_API grainlaw_status grainlaw_points_set_time_step(grainlaw_points*, double time_step);
+
 /* Make the trials the committed states, of all points or, where one has none, of none. Errors:
  * NULL_POINTER, BAD_HANDLE, NO_TRIAL. */
 GRAINLAW_API grainlaw_status grainlaw_points_commit(grainlaw_points*);

@@ -8,6 +8,7 @@
 #include <grainlaw/grainlaw.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <span>
@@ -75,6 +76,13 @@ grainlaw_status grainlaw_evaluate_batch(std::size_t n, grainlaw_state* const* st
     return checked;
   }
   return api::evaluate_points(points, order, arrays, threads).status;
+}
+
+grainlaw_status grainlaw_state_set_time_step(grainlaw_state* handle, double time_step) {
+  if (const auto status = api::check_owned(handle); status != GRAINLAW_OK) return status;
+  if (!(time_step > 0 && std::isfinite(time_step))) return GRAINLAW_BAD_ARGUMENT;
+  handle->point.state.set_time_step(time_step);
+  return GRAINLAW_OK;
 }
 
 grainlaw_status grainlaw_commit(grainlaw_state* handle) {

@@ -11,6 +11,7 @@
 #include <grainlaw/grainlaw.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <memory>
@@ -128,6 +129,13 @@ grainlaw_status grainlaw_points_evaluate(grainlaw_points* handle, const double* 
                             : api::evaluate_points(handle->points, handle->order, arrays, threads);
   write(found, summary);
   return found.status;
+}
+
+grainlaw_status grainlaw_points_set_time_step(grainlaw_points* handle, double time_step) {
+  if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
+  if (!(time_step > 0 && std::isfinite(time_step))) return GRAINLAW_BAD_ARGUMENT;
+  for (IntegrationPoint* const point : handle->points) point->state.set_time_step(time_step);
+  return GRAINLAW_OK;
 }
 
 grainlaw_status grainlaw_points_commit(grainlaw_points* handle) {

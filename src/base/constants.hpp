@@ -141,6 +141,13 @@ GRAINLAW_TUNED(double, slow_refinement, 0.5);
 GRAINLAW_TUNED(double, quick_refinement, 0.05);
 GRAINLAW_TUNED(double, settled_solution, 1e-9);
 
+// ---- Drag ------------------------------------------------------------------------------------
+
+// How many times the last move may be expected again where the strain goes faster [-]; post-peak design.
+GRAINLAW_TUNED(double, largest_follow, 3);
+// Relaxation with drag hands over to Newton at this residual, of spheres not at all [-]; post-peak design.
+GRAINLAW_TUNED(double, drag_hand_over, 1e-3);
+
 // ---- Strategy --------------------------------------------------------------------------------
 
 // Relaxation hands over to Newton at this residual with up to usual_nodes, falling with this power:

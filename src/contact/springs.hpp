@@ -4,6 +4,7 @@
 #include "contact/contact_list.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -28,6 +29,11 @@ double normal_force(const ContactList<D>& list, std::size_t c, double overlap,
   if (!law.hertzian()) return list.normal_stiffness[c] * overlap;
   return 2.0 / 3 * list.normal_stiffness[c] * stiffness_scale(overlap, law) * overlap;
 }
+
+// Of a tangential force in one dimension or more.
+inline double magnitude_of(double force) { return std::abs(force); }
+inline double magnitude_of(const std::array<double, 1>& force) { return std::abs(force[0]); }
+inline double magnitude_of(const Vec<3>& force) { return std::sqrt(square<3>(force)); }
 
 // One contact seen from its own frame, and the moment it carries.
 template <int D>

@@ -12,7 +12,7 @@ namespace {
 template <int D>
 double defect_norm(const Increment<D>& increment, std::span<const double> step, double a) {
   const double* r = increment.residual().data();
-  const double* m = increment.mass.data();
+  const double* m = increment.masses().of_unknowns().data();
   double sum = 0;
   for (std::size_t k = 0; k < step.size(); ++k) {
     const double value = r[k] - a * m[k] * step[k];
@@ -24,14 +24,14 @@ double defect_norm(const Increment<D>& increment, std::span<const double> step, 
 // Largest move of a particle's surface under the step, against its neighbours where F moves [m].
 template <int D>
 double largest_move(const Increment<D>& increment, std::span<const double> step) {
-  const auto nodes = increment.nodes();
+  const auto nodes = increment.problem().nodes();
   double largest = 0;
-  for (std::size_t k = increment.node_unknowns(); k < step.size(); ++k) {
-    const double lever = increment.mean_branch() / increment.deformation_scale();
+  for (std::size_t k = increment.problem().node_unknowns(); k < step.size(); ++k) {
+    const double lever = increment.motion().mean_branch() / increment.motion().deformation_scale();
     largest = std::max(largest, std::abs(step[k]) * lever);
   }
-  for (std::size_t k = 0; k < increment.node_unknowns(); ++k) {
-    const double lever = k < D * nodes ? 1.0 : increment.node_radius[k % nodes];
+  for (std::size_t k = 0; k < increment.problem().node_unknowns(); ++k) {
+    const double lever = k < D * nodes ? 1.0 : increment.motion().node_radius()[k % nodes];
     largest = std::max(largest, std::abs(step[k]) * lever);
   }
   return largest;
@@ -46,20 +46,21 @@ class PseudoTransientNewton {
         tolerance_(tolerance),
         memory_(memory),
         relaxation_(relaxation),
-        may_roll_(RollingMechanisms<D>::possible(*increment.problem)) {
-    memory.step.assign(increment.unknowns(), 0.0);
-    memory.coordinates.reserve(increment.coordinates.size());
-    memory.moved.reserve(increment.coordinates.size());
-    memory.flow.reserve(increment.unknowns());
-    memory.total.reserve(increment.unknowns());
+        may_roll_(RollingMechanisms<D>::possible(increment.problem()) &&
+                  !increment.motion().drag().acts()) {
+    memory.step.assign(increment.problem().unknowns(), 0.0);
+    memory.coordinates.reserve(increment.motion().coordinates().size());
+    memory.moved.reserve(increment.motion().coordinates().size());
+    memory.flow.reserve(increment.problem().unknowns());
+    memory.total.reserve(increment.problem().unknowns());
     increment.refresh_masses();
     if (may_roll_) memory.mechanisms.forget(increment);
     keep_best();
   }
 
   bool run(int max_factorisations) {
-    const int last = increment_.factorisations + max_factorisations;
-    while (increment_.factorisations < last && std::isfinite(norm_)) {
+    const int last = increment_.cost.factorisations + max_factorisations;
+    while (increment_.cost.factorisations < last && std::isfinite(norm_)) {
       if (increment_.residual_norm() < tolerance_) return true;
       assemble();
       if (may_roll_) {
@@ -89,7 +90,7 @@ class PseudoTransientNewton {
 
   // Of mechanisms, that counts [N].
   [[nodiscard]] double least_moment() const {
-    return tuned::least_moment * tolerance_ * increment_.relative_scale();
+    return tuned::least_moment * tolerance_ * increment_.scale().relative();
   }
 
   void turn_mechanisms() {
@@ -110,7 +111,7 @@ class PseudoTransientNewton {
     auto& step = memory_.step;
     stiffness.factorise(increment_);
     if constexpr (D == 2) {
-      if (BorderedSystem::needed(*increment_.problem->space)) {
+      if (BorderedSystem::needed(*increment_.problem().space)) {
         return memory_.border.solve(increment_, stiffness, shift_, residual, step);
       }
     }
@@ -119,14 +120,13 @@ class PseudoTransientNewton {
 
   void keep_best() {
     norm_ = best_ = defect();
-    memory_.best = increment_.coordinates;
-    best_deformation_ = increment_.deformation;
+    memory_.best = increment_.motion().coordinates();
+    best_deformation_ = increment_.motion().deformation();
     without_gain_ = 0;
   }
 
   void go_to(const std::vector<double>& coordinates, const Tensor<D>& deformation) {
-    increment_.coordinates = coordinates;
-    increment_.deformation = deformation;
+    increment_.motion().go_to(coordinates, deformation);
     increment_.keep_neighbours();
     increment_.update_forces();
   }
@@ -151,14 +151,14 @@ class PseudoTransientNewton {
   // holds some particles, a shift holds them.
   void full_step() {
     const double before = norm_;
-    const double limit =
-        tuned::longest_full_step * increment_.relative_scale() / increment_.mean_stiffness();
+    const double limit = tuned::longest_full_step * increment_.scale().relative() /
+                         increment_.masses().mean_stiffness();
     const double share = limit / largest_move(increment_, memory_.step);
     if (share < tuned::least_share && shift_ < tuned::flow_shift) {
       shift_ = std::max(16 * shift_, tuned::first_shift);
       return;
     }
-    increment_.move(memory_.step, std::min(1.0, share));
+    increment_.motion().move(memory_.step, std::min(1.0, share));
     increment_.keep_neighbours();
     increment_.update_forces();
     increment_.refresh_masses();
@@ -184,14 +184,14 @@ class PseudoTransientNewton {
 
   // How much of memory_.step leaves particles near where they are.
   [[nodiscard]] double near_share() const {
-    const double smallest =
-        *std::min_element(increment_.node_radius.begin(), increment_.node_radius.end());
+    const auto radius = increment_.motion().node_radius();
+    const double smallest = *std::min_element(radius.begin(), radius.end());
     return std::min(1.0,
                     tuned::longest_flow_step * smallest / largest_move(increment_, memory_.step));
   }
 
   void move(double fraction) {
-    increment_.move(memory_.step, fraction);
+    increment_.motion().move(memory_.step, fraction);
     increment_.keep_neighbours();
     increment_.update_forces();
   }
@@ -199,15 +199,14 @@ class PseudoTransientNewton {
   // An implicit Euler step of the overdamped flow, shift_ m dz = r(z + dz): settled or corrected where
   // contacts switch on the way, at last shortened.
   bool flow_step() {
-    memory_.coordinates = increment_.coordinates;
+    memory_.coordinates = increment_.motion().coordinates();
     memory_.flow = memory_.step;
-    const auto deformation = increment_.deformation;
+    const auto deformation = increment_.motion().deformation();
     const double cap = near_share();
     double fraction = cap;
     for (int shortening = 0; shortening < 3; ++shortening, fraction *= 0.3) {
       if (shortening > 0) {
-        increment_.coordinates = memory_.coordinates;
-        increment_.deformation = deformation;
+        increment_.motion().go_to(memory_.coordinates, deformation);
         memory_.step = memory_.flow;
       }
       move(fraction);
@@ -233,8 +232,8 @@ class PseudoTransientNewton {
   // Whether a relaxation from where the step went leaves less than there was; else it is taken back.
   bool settled(double error) {
     if (!may_settle(error, norm_)) return false;
-    memory_.moved = increment_.coordinates;
-    const auto deformation = increment_.deformation;
+    memory_.moved = increment_.motion().coordinates();
+    const auto deformation = increment_.motion().deformation();
     settle();
     if (defect() < tuned::acceptable_step * norm_) return true;
     go_to(memory_.moved, deformation);
@@ -247,7 +246,7 @@ class PseudoTransientNewton {
     for (int k = 0; k < tuned::most_corrections && error < tuned::hopeless_correction * norm_;
          ++k) {
       const double* r = increment_.residual().data();
-      const double* m = increment_.mass.data();
+      const double* m = increment_.masses().of_unknowns().data();
       for (std::size_t q = 0; q < memory_.total.size(); ++q) {
         memory_.residual[q] = r[q] - shift_ * m[q] * memory_.total[q];
       }

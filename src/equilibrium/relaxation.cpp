@@ -2,7 +2,6 @@
 
 #include "base/constants.hpp"
 #include "base/simd.hpp"
-#include "contact/contact_forces.hpp"
 #include "equilibrium/node_step.hpp"
 
 #include <algorithm>
@@ -28,21 +27,26 @@ GRAINLAW_CLONES void find_gains(const double* mass, double* gain, std::size_t do
 template <int D>
 Relaxation<D>::Relaxation(Increment<D>& increment, History history, RelaxationMemory<D>& memory,
                           bool may_extrapolate)
-    : increment_(increment), history_(history), memory_(memory) {
-  const auto& law = *increment.problem->law;
-  const bool by_places = history == History::committed && increment.problem->space->identity;
-  by_sides_ = ContactSides<D>::available && by_places && law.plain() && law.tangential();
-  at_once_ = by_places && law.plain() && !by_sides_;
+    : increment_(increment),
+      problem_(increment.problem()),
+      motion_(increment.motion()),
+      history_(history),
+      memory_(memory) {
+  const auto& law = *problem_.law;
+  const bool by_places = history == History::committed && problem_.space->identity;
+  const bool plain = by_places && law.plain() && !motion_.drag().acts();
+  by_sides_ = ContactSides<D>::available && plain && law.tangential();
+  at_once_ = plain && !by_sides_;
   // Without friction nothing flutters, and the damping is that of the softest mode.
   rough_ = by_places && law.tangential();
   extrapolates_ = may_extrapolate && rough_;
   if (extrapolates_) {
-    memory.slow.reserve(increment.particles());
+    memory.slow.reserve(problem_.particles());
     memory.slow.forget();
   }
   if (by_sides_) return;
   for (auto* column : {&memory.velocity, &memory.gain}) {
-    column->assign(width * increment.forces.size(), 0.0);
+    column->assign(width * increment.forces().size(), 0.0);
   }
 }
 
@@ -54,20 +58,21 @@ void Relaxation<D>::refresh() {
   if constexpr (ContactSides<D>::available) {
     if (by_sides_) {
       if (relisted || !arranged_) {
-        memory_.sides.arrange(increment_.contacts, *increment_.problem->packing,
-                              increment_.least_masses(), at_rest_);
+        memory_.sides.arrange(increment_.contacts(), *problem_.packing, increment_.masses().least(),
+                              at_rest_);
         arranged_ = true;
         at_rest_ = false;
       }
-      return look();
+      calm_start_ = calm_max_ = residual_;
+      return increment_.look(memory_.sides);
     }
   }
   increment_.sum_masses();
-  find_gains(&increment_.mass_records[0].x, memory_.gain.data(), memory_.gain.size());
-  const auto& space = *increment_.problem->space;
+  find_gains(&increment_.masses().records()[0].x, memory_.gain.data(), memory_.gain.size());
+  const auto& space = *problem_.space;
   if (space.identity) return;
   double* gain = memory_.gain.data();
-  for (std::size_t q = 0; q < increment_.nodes(); ++q, gain += width) {
+  for (std::size_t q = 0; q < problem_.nodes(); ++q, gain += width) {
     for (std::size_t k = 0; k < Dimension<D>::unknowns; ++k) {
       if ((space.fixed[q] & fixed_bit(k)) != 0) gain[k] = 0;
     }
@@ -87,35 +92,15 @@ bool Relaxation<D>::calm() const {
 }
 
 template <int D>
-void Relaxation<D>::look() {
-  calm_start_ = calm_max_ = residual_;
-  if constexpr (ContactSides<D>::available) {
-    const auto totals = memory_.sides.look(increment_.records, *increment_.problem->law,
-                                           tuned::mass_factor, increment_.contacts);
-    increment_.touching = totals.touching;
-    increment_.mean_force = totals.touching > 0 ? totals.force / totals.weights : 0;
-  }
-}
-
-template <int D>
 void Relaxation<D>::update() {
   if (by_sides_) return;  // step() finds them
-  const auto& law = *increment_.problem->law;
-  auto& forces = increment_.forces;
-  if (at_once_) return find_contact_forces<D>(increment_.records, law, increment_.contacts);
-  if (history_ == History::advancing) {
-    increment_.dissipated +=
-        advance_contacts<D>(increment_.records, law, increment_.contacts, forces);
-    increment_.restart_turns();
-  } else {
-    evaluate_contacts<D>(increment_.records, law, increment_.contacts, forces);
-  }
-  increment_.reduce(forces);
+  if (at_once_) return increment_.find_contact_forces();
+  increment_.find_forces(history_);
 }
 
 template <int D>
 double Relaxation<D>::size() const {
-  return std::max(1.0, static_cast<double>(increment_.nodes()) / tuned::usual_nodes);
+  return std::max(1.0, static_cast<double>(problem_.nodes()) / tuned::usual_nodes);
 }
 
 // A high floor keeps flutter down, a low one lets soft modes move, which are softer in large packings.
@@ -154,17 +139,17 @@ bool Relaxation<D>::extrapolate() {
     return false;
   }
   increment_.update_forces();
-  memory_.slow.see(increment_.records, increment_.forces, residual_);
+  memory_.slow.see(motion_.records(), increment_.forces(), residual_);
   if (!memory_.slow.slow()) return false;
-  const double stiffness = increment_.mean_stiffness();
-  const double limit = tuned::longest_extrapolation * increment_.relative_scale() / stiffness;
+  const double stiffness = increment_.masses().mean_stiffness();
+  const double limit = tuned::longest_extrapolation * increment_.scale().relative() / stiffness;
   const bool extrapolated =
-      memory_.slow.extrapolate(increment_.records, limit, tuned::least_stiffness * stiffness);
+      memory_.slow.extrapolate(motion_.records(), limit, tuned::least_stiffness * stiffness);
   memory_.slow.forget();
   if (!extrapolated) return false;
   pause_ = tuned::longer_pause * pause_ + tuned::extrapolation_interval;
   next_extrapolation_ = steps_ + std::lround(pause_);
-  increment_.store_records();
+  motion_.store_records();
   std::fill(memory_.velocity.begin(), memory_.velocity.end(), 0.0);
   arranged_ = false;
   at_rest_ = true;
@@ -182,34 +167,34 @@ void Relaxation<D>::step() {
   const double stiffness = power_ - before.power;  // sum v (r_previous - r)
   power_ = before.next_power;
   residual_ = std::numeric_limits<double>::infinity();
-  if (increment_.touching > 0 && std::isfinite(stiffness + before.largest)) {
-    residual_ = before.largest / increment_.relative_scale();
+  if (increment_.scale().touching() > 0 && std::isfinite(stiffness + before.largest)) {
+    residual_ = before.largest / increment_.scale().relative();
   }
   const double inertia = std::max(before.inertia, std::numeric_limits<double>::min());
   frequency_ = std::sqrt(std::max(stiffness / inertia, 0.0));
   ++steps_;
-  ++increment_.relaxation_steps;
+  ++increment_.cost.relaxation_steps;
 }
 
 template <int D>
 auto Relaxation<D>::one_step(double keep, double gain) -> Measured {
   if constexpr (ContactSides<D>::available) {
-    if (by_sides_) return memory_.sides.step(*increment_.problem->law, keep, gain);
+    if (by_sides_) return memory_.sides.step(*problem_.law, keep, gain);
   }
   return step_nodes(keep, gain);
 }
 
 template <int D>
 auto Relaxation<D>::step_nodes(double keep, double gain) -> Measured {
-  const auto& space = *increment_.problem->space;
-  double* z = &increment_.records[0].x;
-  const Nodes nodes{memory_.velocity.data(), &increment_.mass_records[0].x, memory_.gain.data(),
-                    space.identity ? z : nullptr};
-  if (at_once_) return gather_and_step(nodes, increment_.contacts, keep, gain);
-  const auto before = step_all(nodes, increment_.forces, keep, gain);
+  const auto& space = *problem_.space;
+  double* z = &motion_.records()[0].x;
+  const Nodes nodes{memory_.velocity.data(), &increment_.masses().records()[0].x,
+                    memory_.gain.data(), space.identity ? z : nullptr};
+  if (at_once_) return gather_and_step(nodes, increment_.contacts(), keep, gain);
+  const auto before = step_all(nodes, increment_.forces(), keep, gain);
   if (space.identity) return before;
   if (space.finds_deformation) step_deformation();
-  for (std::size_t p = 0; p < increment_.particles(); ++p) {
+  for (std::size_t p = 0; p < problem_.particles(); ++p) {
     const double* v = memory_.velocity.data() + width * static_cast<std::size_t>(space.node[p]);
     store(z + width * p, load<width>(z + width * p) + load<width>(v));
   }
@@ -219,30 +204,30 @@ auto Relaxation<D>::step_nodes(double keep, double gain) -> Measured {
 // Found components of F move on with the nodes, never far in one step.
 template <int D>
 void Relaxation<D>::step_deformation() {
-  const double limit = tuned::largest_deformation_step * increment_.deformation_scale();
-  double* v = memory_.velocity.data() + width * increment_.nodes();
+  const double limit = tuned::largest_deformation_step * motion_.deformation_scale();
+  double* v = memory_.velocity.data() + width * problem_.nodes();
   for (std::size_t k = 0; k < D * width; ++k) v[k] = std::clamp(v[k], -limit, limit);
-  increment_.change_deformation(v, increment_.records);
+  motion_.change_deformation(v);
 }
 
 template <int D>
 bool Relaxation<D>::run(double tolerance, long steps, double least_force) {
-  increment_.load_records();
+  motion_.load_records();
   arranged_ = false;
   refresh();
   increment_.update_forces();
   if (increment_.residual_norm() < tolerance) return true;
   for (const long last = steps_ + steps;;) {
     step();
-    const bool stop =
-        steps_ == last || !std::isfinite(residual_) ||
-        (steps_ % tuned::floor_window == 0 && (increment_.mean_force < least_force || flutters()));
+    const bool stop = steps_ == last || !std::isfinite(residual_) ||
+                      (steps_ % tuned::floor_window == 0 &&
+                       (increment_.scale().mean_force() < least_force || flutters()));
     const bool over = residual_ < tolerance || stop;
     if (over || (steps_ % tuned::mass_interval == 0 && !calm())) {
       if constexpr (ContactSides<D>::available) {
-        if (by_sides_) memory_.sides.move(increment_.records);
+        if (by_sides_) memory_.sides.move(motion_.records());
       }
-      increment_.store_records();
+      motion_.store_records();
       refresh();
       if (extrapolates_ && !over && extrapolate()) refresh();
     }

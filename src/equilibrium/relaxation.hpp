@@ -12,8 +12,6 @@
 
 namespace grainlaw::core {
 
-enum class History { committed, advancing };
-
 // Memory of the relaxations, reused from call to call.
 template <int D>
 struct RelaxationMemory {
@@ -41,7 +39,6 @@ class Relaxation {
   using Measured = typename ContactSides<D>::Measured;
 
   void refresh();
-  void look();
   [[nodiscard]] bool calm() const;
   Measured one_step(double keep, double gain);
   Measured step_nodes(double keep, double gain);
@@ -54,6 +51,8 @@ class Relaxation {
   void step_deformation();
 
   Increment<D>& increment_;
+  const Problem<D>& problem_;
+  Motion<D>& motion_;
   History history_;
   RelaxationMemory<D>& memory_;
   bool by_sides_ = false;      // forces and steps by ContactSides

@@ -23,6 +23,7 @@ struct Workspace {
   NewtonMemory<D> newton;
   Sensitivity<D> sensitivity;
   std::vector<double> guess;
+  std::vector<double> move;  // of the last part with drag
 };
 
 template <int D>
@@ -33,6 +34,7 @@ struct Request {
   Tensor<D> deformation{};  // F to reach, without rotation against `from`
   double tolerance = 1e-6;
   double loose_tolerance = 0;  // as in SolverOptions, of this request
+  double duration = 1;         // of the increment, that of an ordinary one being 1 [-]
   bool sensitivities = false;
   // Coordinates (rotations counted from `from`) to start the iteration from, at guess_deformation;
   // null: the affine image.

@@ -33,9 +33,9 @@ RollingMechanisms<2>::Member RollingMechanisms<2>::member(std::size_t node) {
 
 void RollingMechanisms<2>::find(const Increment<2>& increment,
                                 std::span<const TouchingContact<2>> touching) {
-  const auto& list = increment.contacts;
-  const auto& law = *increment.problem->law;
-  const auto nodes = increment.nodes();
+  const auto& list = increment.contacts();
+  const auto& law = *increment.problem().law;
+  const auto nodes = increment.problem().nodes();
   for (auto* column : {&sense_, &turn_}) resize_with_room(*column, nodes);
   resize_with_room(parent_, nodes);
   resize_with_room(locked_, nodes);
@@ -139,7 +139,7 @@ double RollingMechanisms<2>::balance(std::span<const Side> sides, double force) 
 }
 
 void RollingMechanisms<2>::hold(const Increment<2>& increment, Stiffness<2>& stiffness) const {
-  for (std::size_t q = 0; q < increment.nodes(); ++q) {
+  for (std::size_t q = 0; q < increment.problem().nodes(); ++q) {
     if (parent_[q] == q && locked_[q] == 0) stiffness.hold_rotation(increment, q);
   }
 }
@@ -147,22 +147,22 @@ void RollingMechanisms<2>::hold(const Increment<2>& increment, Stiffness<2>& sti
 void RollingMechanisms<2>::see(const Increment<2>& increment, std::span<const double> step,
                                double least) {
   forget(increment);
-  const std::size_t n = increment.nodes();
+  const std::size_t n = increment.problem().nodes();
   for (std::size_t q = 0; q < n; ++q) {
     if (parent_[q] != q || locked_[q] != 0) continue;
-    const double moment = increment.mass[2 * n + q] * step[2 * n + q];
-    if (std::abs(moment) > least * increment.node_radius[q]) seen_[q] = 1;
+    const double moment = increment.masses().of_unknowns()[2 * n + q] * step[2 * n + q];
+    if (std::abs(moment) > least * increment.motion().node_radius()[q]) seen_[q] = 1;
   }
 }
 
 void RollingMechanisms<2>::forget(const Increment<2>& increment) {
-  resize_with_room(seen_, increment.nodes());
+  resize_with_room(seen_, increment.problem().nodes());
   std::fill(seen_.begin(), seen_.end(), static_cast<unsigned char>(0));
 }
 
 bool RollingMechanisms<2>::turn(Increment<2>& increment, double least) {
   bool any = false;
-  for (std::size_t q = 0; q < increment.nodes(); ++q) {
+  for (std::size_t q = 0; q < increment.problem().nodes(); ++q) {
     if (seen_[q] == 0) continue;
     seen_[q] = 0;
     wanted_[member(q).cluster] = 1;
@@ -186,10 +186,10 @@ bool RollingMechanisms<2>::turn(Increment<2>& increment, double least) {
     }
   }
   if (!turned) return false;
-  double* rotation = increment.coordinates.data() + 2 * increment.nodes();
-  for (std::size_t q = 0; q < increment.nodes(); ++q) {
+  auto& motion = increment.motion();
+  for (std::size_t q = 0; q < increment.problem().nodes(); ++q) {
     const Member own = member(q);
-    rotation[q] += own.sense * turn_[own.cluster] / increment.node_radius[q];
+    motion.coordinate(2, q) += own.sense * turn_[own.cluster] / motion.node_radius()[q];
   }
   return true;
 }

@@ -34,7 +34,7 @@ class RollingMechanisms<2> {
   void see(const Increment<2>& increment, std::span<const double> step, double least);
   void forget(const Increment<2>& increment);
   // Turn the clusters with one of these, where their moment is more than `least` [N], to where it
-  // vanishes, in increment.coordinates. Returns whether any was turned: then find() them anew.
+  // vanishes, in its coordinates. Returns whether any was turned: then find() them anew.
   bool turn(Increment<2>& increment, double least);
 
  private:

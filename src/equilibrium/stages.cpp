@@ -1,6 +1,7 @@
 #include "equilibrium/stages.hpp"
 
 #include "base/constants.hpp"
+#include "equilibrium/drag_start.hpp"
 #include "reference/servo.hpp"
 
 #include <algorithm>
@@ -49,20 +50,13 @@ double hand_over_of(std::size_t nodes) {
                                      tuned::hand_over_power);
 }
 
-template <int D>
-Tensor<D> between(const Tensor<D>& a, const Tensor<D>& b, double share) {
-  Tensor<D> f{};
-  for (std::size_t k = 0; k < squared<D>; ++k) f[k] = a[k] + share * (b[k] - a[k]);
-  return f;
-}
-
 // Mean force below which what is left of forces that do not settle counts for nothing [N]. Bonds
 // hold on without any.
 template <int D>
 double faded_force(const Request<D>& request, const Increment<D>& increment) {
   if (!may_be_free(request) || request.problem->law->bonds()) return 0;
   return std::max(std::min(request.tolerance, tuned::faded) * unloaded_force(*request.problem),
-                  increment.rounding_force());
+                  increment.scale().rounding());
 }
 
 // Without contacts there is no force to be balanced, nor where all forces fade.
@@ -71,8 +65,8 @@ bool is_free(const Request<D>& request, Increment<D>& increment) {
   if (!may_be_free(request)) return false;
   increment.refresh_masses();
   increment.update_forces();
-  if (increment.touching == 0) return true;
-  if (increment.mean_force >= faded_force(request, increment)) return false;
+  if (increment.scale().touching() == 0) return true;
+  if (increment.scale().mean_force() >= faded_force(request, increment)) return false;
   increment.release_contacts();
   return true;
 }
@@ -82,10 +76,14 @@ void start_iteration(const Request<D>& request, double share, Increment<D>& incr
   increment.begin(*request.problem, *request.from,
                   between<D>(request.from->deformation, request.deformation, share));
   if (request.guess != nullptr && share == 1) {
-    increment.coordinates = *request.guess;
-    increment.deformation = request.guess_deformation;
+    increment.motion().go_to(*request.guess, request.guess_deformation);
     increment.deform(request.deformation);
   }
+}
+
+template <int D>
+bool has_drag(const Request<D>& request) {
+  return request.options->viscosity.time > 0;
 }
 
 // The tolerance, and no less than rounding leaves: below that there is no equilibrium to speak of.
@@ -93,7 +91,7 @@ void start_iteration(const Request<D>& request, double share, Increment<D>& incr
 template <int D>
 double reachable(const Request<D>& request, const Increment<D>& increment) {
   return std::max(request.tolerance,
-                  std::min(increment.rounding_residual(), tuned::largest_rounding));
+                  std::min(increment.scale().relative_rounding(), tuned::largest_rounding));
 }
 
 // One sub-increment: relaxation, then Newton; when Newton does not get there, both again from where
@@ -103,9 +101,9 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
   const bool whole = outcome.subincrements == 1;
   auto& increment = w.increment;
   const Effort& effort = effort_of(request);
-  const long steps = relaxation_limit(effort.relaxation_steps, increment.nodes());
+  const long steps = relaxation_limit(effort.relaxation_steps, increment.problem().nodes());
   const auto limit_to = [&](int count, int least) {
-    return limit_of(count, least, increment.nodes());
+    return limit_of(count, least, increment.problem().nodes());
   };
   const int rounds = limit_to(effort.rounds, tuned::least_rounds);
   const int enough = limit_to(tuned::enough_rounds, tuned::least_rounds);
@@ -113,7 +111,8 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
       limit_to(effort.most_factorisations, tuned::unsettled_factorisations);
   increment.refresh_masses();
   double target = reachable(request, increment);
-  double hand_over = hand_over_of(increment.nodes());
+  double hand_over = hand_over_of(increment.problem().nodes());
+  if (has_drag(request)) hand_over = D == 2 ? tuned::drag_hand_over : target;
   if (target > tuned::worth_newton * hand_over) hand_over = target;
   bool last = false;
   for (int round = 0; !last && round < rounds; ++round) {
@@ -121,10 +120,11 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
     const double tolerance = std::max(hand_over, target);
     const long limit = (round < tuned::long_rounds ? 1 : 2) * steps;
     // From the last iterate of a step the next is found on the same branch.
-    const bool may_extrapolate = request.guess == nullptr;
+    const bool may_extrapolate = request.guess == nullptr && !has_drag(request);
     const bool relaxed =
         relax(increment, tolerance, limit, History::committed, w.relaxation, 0, may_extrapolate);
-    if (increment.touching == 0 || increment.collapsed()) return is_free(request, increment);
+    const bool lost = increment.scale().touching() == 0 || increment.collapsed();
+    if (lost) return is_free(request, increment);
     if (relaxed && tolerance == target) return true;
     const auto is_loose = [&] { return increment.residual_norm() < request.loose_tolerance; };
     if (request.guess_loose && !relaxed && is_loose()) return outcome.loose = true;
@@ -160,7 +160,7 @@ bool settle_bonds(Increment<D>& increment, BeforeBreak&& before_break, SolveAgai
 template <int D>
 bool may_fade(const Request<D>& request, const Increment<D>& increment) {
   return may_be_free(request) &&
-         increment.mean_force < tuned::fading * unloaded_force(*request.problem);
+         increment.scale().mean_force() < tuned::fading * unloaded_force(*request.problem);
 }
 
 template <int D>
@@ -184,6 +184,11 @@ bool solve_parts(const Request<D>& request, int parts, Workspace<D>& w, Outcome&
     } else {
       increment.deform(between<D>(request.from->deformation, request.deformation, share));
     }
+    if (has_drag(request)) {
+      const bool guessed = request.guess != nullptr && parts == 1;
+      increment.begin_drag(drag_start(request, k, parts), k == 1 ? request.from->move : w.move,
+                           !guessed);
+    }
     if (!solve_part(request, w, outcome)) return false;
     double start = static_cast<double>(k - 1) / parts;
     const auto find_sensitivities = [&] {
@@ -206,6 +211,10 @@ bool solve_parts(const Request<D>& request, int parts, Workspace<D>& w, Outcome&
       return true;
     });
     if (!settled) return false;
+    if (has_drag(request)) {
+      if (outcome.sensitivities && k < parts) w.sensitivity.carry_drag(increment);
+      increment.end_drag(w.move);
+    }
     if (k < parts) {
       carry();
       increment.continue_history();
@@ -237,7 +246,7 @@ bool solve_advancing(const Request<D>& request, Method method, Workspace<D>& w, 
       loosest = std::max(loosest, request.loose_tolerance);
     }
     const double most_steps = (may_be_free(request) ? 2 : 1) * tuned::advancing_steps;
-    return relax(increment, loosest, relaxation_limit(most_steps, increment.nodes()),
+    return relax(increment, loosest, relaxation_limit(most_steps, increment.problem().nodes()),
                  History::advancing, w.relaxation, faded_force(request, increment));
   };
   const auto settled = [&] { return equilibrium() || is_free(request, increment); };
@@ -254,13 +263,13 @@ bool solve_advancing(const Request<D>& request, Method method, Workspace<D>& w, 
 template <int D>
 bool solve_whole(Request<D> request, Workspace<D>& w, Outcome& outcome) {
   auto& increment = w.increment;
-  request.guess = &w.detour.coordinates;
-  request.guess_deformation = w.detour.deformation;
+  request.guess = &w.detour.motion().coordinates();
+  request.guess_deformation = w.detour.motion().deformation();
   start_iteration(request, 1, increment);
   increment.keep_neighbours();
   increment.update_forces();
   const int factorisations = limit_of(full_effort.first_factorisations,
-                                      tuned::unsettled_factorisations, increment.nodes());
+                                      tuned::unsettled_factorisations, increment.problem().nodes());
   const double target = reachable(request, increment);
   if (!pseudo_transient_newton(increment, target, factorisations, w.newton, &w.relaxation))
     return false;

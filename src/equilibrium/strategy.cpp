@@ -64,6 +64,16 @@ class Stages {
       add({Stage::as_asked});
       return;
     }
+    const Viscosity& viscosity = request.options->viscosity;
+    if (viscosity.time > 0) {
+      const int parts = std::max(static_cast<int>(viscosity.steps), least_parts(request));
+      for (int refinement = 1; refinement <= tuned::finest_refinement; refinement *= 2) {
+        if (refinement == 1 || parts * refinement <= tuned::most_subincrements) {
+          add({Stage::parts, parts * refinement});
+        }
+      }
+      return;
+    }
     // What ended so before in this step would seldom end otherwise now.
     if (request.guess_advanced && request.guess_loose) add({Stage::advancing});
     const int least = least_parts(request);
@@ -90,19 +100,6 @@ class Stages {
   std::size_t size_ = 0;
 };
 
-// What all stages together took.
-struct Cost {
-  long steps = 0, corrections = 0;
-  int factorisations = 0;
-
-  template <int D>
-  void add(const Increment<D>& increment) {
-    steps += increment.relaxation_steps;
-    corrections += increment.servo_corrections;
-    factorisations += increment.factorisations;
-  }
-};
-
 // Walks the stages until one ends in an equilibrium.
 template <int D>
 class Walk {
@@ -113,14 +110,12 @@ class Walk {
   Outcome run() {
     if (!find()) {
       const auto& increment = workspace_.increment;
-      outcome_.status = workspace_.increment.collapsed() ? GRAINLAW_COLLAPSED
-                        : increment.touching == 0        ? GRAINLAW_CONTACTS_LOST
-                                                         : GRAINLAW_NOT_CONVERGED;
+      outcome_.status = workspace_.increment.collapsed()    ? GRAINLAW_COLLAPSED
+                        : increment.scale().touching() == 0 ? GRAINLAW_CONTACTS_LOST
+                                                            : GRAINLAW_NOT_CONVERGED;
       outcome_.step_ratio = 0.5;
     }
-    workspace_.increment.relaxation_steps = cost_.steps;
-    workspace_.increment.servo_corrections = cost_.corrections;
-    workspace_.increment.factorisations = cost_.factorisations;
+    workspace_.increment.cost = cost_;
     return outcome_;
   }
 
@@ -134,13 +129,13 @@ class Walk {
       const bool done = enter(stage);
       if (stage.kind == Stage::fading) advancing_fails = !done;
       const bool accepted = done && (stage.kind != Stage::fading || !increment.bears());
-      cost_.add(increment);
+      cost_.add(increment.cost);
       if (accepted && !increment.collapsed()) {
         outcome_.status = GRAINLAW_OK;
         if (stage.then_whole) straighten();
         return true;
       }
-      const bool lost = increment.touching == 0 || increment.collapsed();
+      const bool lost = increment.scale().touching() == 0 || increment.collapsed();
       if (stage.kind == Stage::parts && lost) return false;
     }
     return false;
@@ -162,14 +157,14 @@ class Walk {
   void straighten() {
     workspace_.detour = workspace_.increment;
     const bool whole = solve_whole(request_, workspace_, outcome_);
-    cost_.add(workspace_.increment);
+    cost_.add(workspace_.increment.cost);
     if (!whole) std::swap(workspace_.increment, workspace_.detour);
   }
 
   const Request<D>& request_;
   Workspace<D>& workspace_;
   Outcome outcome_;
-  Cost cost_;
+  Cost cost_;  // of all stages together
 };
 
 }  // namespace

@@ -11,14 +11,14 @@ namespace {
 // Calls visit(contact, point, L) for every touching contact.
 template <int D, class Visit>
 void for_each_contact(const Increment<D>& increment, Visit&& visit) {
-  const Tensor<D> pull_back = inverse<D>(increment.deformation);
-  for (std::size_t c = 0; c < increment.contacts.size(); ++c) {
-    const auto point = contact_point(increment.contacts, c, increment.coordinates,
-                                     increment.particles(), *increment.problem->law);
+  const Tensor<D> pull_back = inverse<D>(increment.motion().deformation());
+  for (std::size_t c = 0; c < increment.contacts().size(); ++c) {
+    const auto point = contact_point(increment.contacts(), c, increment.motion().coordinates(),
+                                     increment.problem().particles(), *increment.problem().law);
     if (point.status == ContactStatus::open) continue;
     visit(c, point,
-          increment.problem->space->bound_to_axes() ? increment.fixed_branch(c)
-                                                    : product<D>(pull_back, point.branch));
+          increment.problem().space->bound_to_axes() ? increment.fixed_branch(c)
+                                                     : product<D>(pull_back, point.branch));
   }
 }
 
@@ -55,7 +55,7 @@ void condense_found(const BoundarySpace<D>& space, Tensor4<D>& tangent) {
 template <int D>
 Tensor<D> piola_stress(const Increment<D>& increment) {
   Tensor<D> p{};
-  const double volume = increment.problem->space->reference_volume;
+  const double volume = increment.problem().space->reference_volume;
   for_each_contact(increment, [&](std::size_t, const auto& point, const auto& branch) {
     const Vec<D> force = point.force_on_j();
     for (std::size_t i = 0; i < D; ++i) {
@@ -70,9 +70,9 @@ template <int D>
 Tensor4<D> changes_of_stress(const Increment<D>& increment, const Sensitivity<D>& sensitivity,
                              std::size_t lanes) {
   Tensor4<D> tangent{};
-  const double volume = increment.problem->space->reference_volume;
-  const Tensor<D> pull_back = inverse<D>(increment.deformation);
-  const bool bound = increment.problem->space->bound_to_axes();
+  const double volume = increment.problem().space->reference_volume;
+  const Tensor<D> pull_back = inverse<D>(increment.motion().deformation());
+  const bool bound = increment.problem().space->bound_to_axes();
   const DeformationChange<D>& of_F = sensitivity.deformation_change();
   for_each_contact(increment, [&](std::size_t c, const auto& point, const auto& branch) {
     const Vec<D> force = point.force_on_j();
@@ -104,7 +104,7 @@ Tensor4<D> changes_of_stress(const Increment<D>& increment, const Sensitivity<D>
 template <>
 Tensor4<2> condensed_tangent(const Increment<2>& increment, const Sensitivity<2>& sensitivity) {
   auto tangent = changes_of_stress<2>(increment, sensitivity, squared<2>);
-  clear_found<2>(*increment.problem->space, tangent);
+  clear_found<2>(*increment.problem().space, tangent);
   return tangent;
 }
 
@@ -114,7 +114,7 @@ Tensor4<3> condensed_tangent(const Increment<3>& increment, const Sensitivity<3>
   constexpr std::size_t n = squared<3>;
   const auto by_stretch = changes_of_stress<3>(increment, sensitivity, stretch_of_lane.size());
   const Tensor<3> stress = piola_stress(increment);
-  const Tensor<3> inverse_committed = inverse<3>(increment.committed_deformation);
+  const Tensor<3> inverse_committed = inverse<3>(increment.motion().committed_deformation());
   Tensor4<3> tangent{};
   for (std::size_t component = 0; component < n; ++component) {
     Tensor<3> direction{};
@@ -140,9 +140,9 @@ Tensor4<3> condensed_tangent(const Increment<3>& increment, const Sensitivity<3>
 template <int D>
 Tensor4<D> elastic_tangent(const Increment<D>& increment) {
   Tensor4<D> tangent{};
-  const double volume = increment.problem->space->reference_volume;
-  const auto& list = increment.contacts;
-  const auto& law = *increment.problem->law;
+  const double volume = increment.problem().space->reference_volume;
+  const auto& list = increment.contacts();
+  const auto& law = *increment.problem().law;
   for_each_contact(increment, [&](std::size_t c, const auto& point, const auto& branch) {
     // Both stiffnesses of a Hertz-Mindlin contact go with the square root of the overlap.
     const double scale = law.hertzian() ? std::sqrt(list.reach[c] - point.distance) : 1;
@@ -162,7 +162,7 @@ Tensor4<D> elastic_tangent(const Increment<D>& increment) {
       }
     }
   });
-  condense_found<D>(*increment.problem->space, tangent);
+  condense_found<D>(*increment.problem().space, tangent);
   return tangent;
 }
 

@@ -24,6 +24,10 @@ struct Configuration {
   std::vector<double> bond_gaps;  // stress-free branch - (R_i + R_j), one per contact; empty unless
                                   // bonds span gaps [m]
   double broken_bonds = 0;        // since F = I, each with its contact's weight [-]
+  // With drag, of the last part of the last increment: move of the fluctuations (coordinates, rotations
+  // as vectors [rad]) and G - 1; else empty.
+  std::vector<double> move;
+  Tensor<D> move_stretch{};
 };
 
 // A rotation, kept in numbers `apart` doubles from each other, as an angle or a rotation vector [rad].

@@ -1,10 +1,8 @@
 #include "increment/increment.hpp"
 
 #include "base/constants.hpp"
-#include "base/room.hpp"
 #include "contact/contact_forces.hpp"
 #include "increment/records.hpp"
-#include "packing/geometry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,203 +10,153 @@
 
 namespace grainlaw::core {
 
-namespace {
-
-// Affine motion of reference positions, added to x.
 template <int D>
-void move_with(const double* reference, const Tensor<D>& change, std::size_t n, double* x) {
-  for (std::size_t p = 0; p < n; ++p) {
-    for (std::size_t k = 0; k < D; ++k) {
-      x[k * n + p] += dot<D>(change.data() + D * k, reference + p, n);
-    }
-  }
-}
-
-}  // namespace
-
-template <int D>
-Tensor<D> Increment<D>::cell_at(const Tensor<D>& f) const {
-  if (problem->packing->frame) return {};
-  return product<D>(f, tensor_of<D>(problem->packing->cell));
-}
-
-template <int D>
-void Increment<D>::begin(const Problem<D>& p, const Configuration<D>& from,
+void Increment<D>::begin(const Problem<D>& problem, const Configuration<D>& from,
                          const Tensor<D>& target) {
-  problem = &p;
-  const auto n = particles();
-  const auto components = static_cast<std::size_t>(p.components());
-  start.resize(n * components);
-  std::copy_n(from.coordinates.begin(), dim * n, start.begin());
-  std::fill(start.begin() + static_cast<std::ptrdiff_t>(dim * n), start.end(), 0.0);
-  start_deformation = committed_deformation = from.deformation;
-  turned_.reset(n, p.law->rotating());
-  copy_with_room(from.contacts, history);
-  copy_with_room(from.moments, history_moments);
-  copy_with_room(from.bond_gaps, history_gaps);
-  coordinates = start;
-  deformation = start_deformation;
-  cell = cell_at(deformation);
-  records.resize(n);
-  for (std::size_t q = 0; q < n; ++q) {
-    records[q] = {};
-    records[q].radius = p.packing->radius[q];
-  }
-  const std::size_t rows = p.space->finds_deformation ? dim : 0;
-  forces.resize(nodes() + rows);
-  mass_records.resize(nodes() + rows);
-  stiffness_.resize(nodes());
-  node_residual.resize(unknowns());
-  mass.resize(unknowns());
-  node_radius.resize(nodes());
-  for (std::size_t q = 0; q < n; ++q) {
-    node_radius[static_cast<std::size_t>(p.space->node[q])] = p.packing->radius[q];
-  }
-  find_least_masses();
-  const double radius = mean_radius(p.packing->radius);
-  gap_ = tuned::listing_gap * radius;
-  const double largest_radius = *std::max_element(node_radius.begin(), node_radius.end());
-  double extent = 0;
-  for (std::size_t k = 0; k < dim * n; ++k) extent = std::max(extent, std::abs(start[k]));
-  rounding_force_ = tuned::contacts_of_a_particle * std::numeric_limits<double>::epsilon() *
-                    extent * p.law->stiffness(largest_radius, largest_radius);
-  dissipated = 0;
-  broken_bonds = 0;
-  mean_force = 0;
-  touching = 0;
-  relaxation_steps = servo_corrections = 0;
-  factorisations = 0;
-  mean_branch_ = 2 * radius;
-  deformation_scale_ = p.space->reference_volume / (p.packing->thickness * mean_branch_);
-  if (!p.space->identity) {
-    for (std::size_t q = 0; q < nodes(); ++q) mass_records[q] = mass_of({}, least_masses_[q], 1);
-    find_average_masses();
-  }
+  problem_ = &problem;
+  cost = {};
+  losses_.begin();
+  motion_.begin(problem, from);
+  history_.begin(from);
+  masses_.begin(problem, motion_);
+  scale_.begin(problem, motion_);
+  forces_.resize(problem.nodes() + problem.rows());
+  residual_.resize(problem.unknowns());
   deform(target);
 }
 
 template <int D>
 void Increment<D>::deform(const Tensor<D>& target) {
   released_ = false;
-  after_break_ = false;
-  const auto& space = *problem->space;
-  auto to = target;
-  for (std::size_t k = 0; k < squared<D>; ++k) {
-    if (space.found[k]) to[k] = deformation[k];  // until it is found
-  }
-  carry_affinely(deformation, to, coordinates);
-  deformation = to;
-  if (!space.bound_to_axes()) cell = cell_at(deformation);
-  if (!space.identity) place_fixed();
-  list_neighbours();
-}
-
-// Moves positions affinely from one F to another; where the space is bound to axes, fluctuations keep
-// their components.
-template <int D>
-void Increment<D>::carry_affinely(const Tensor<D>& from, const Tensor<D>& to,
-                                  std::vector<double>& positions) const {
-  const auto n = particles();
-  if (problem->space->bound_to_axes()) {
-    Tensor<D> change{};
-    for (std::size_t k = 0; k < squared<D>; ++k) change[k] = to[k] - from[k];
-    move_with<D>(problem->space->reference.data(), change, n, positions.data());
-    return;
-  }
-  map_positions<D>(product<D>(to, inverse<D>(from)), n, positions.data());
-}
-
-// Where F has a particle that does not fluctuate.
-template <int D>
-double Increment<D>::affine_place(std::size_t p, std::size_t direction) const {
-  const auto& space = *problem->space;
-  const bool bound = space.bound_to_axes();
-  const double* x = bound ? space.reference.data() : problem->packing->position.data();
-  const auto n = particles();
-  const double offset = bound ? space.offset[direction * n + p] : 0;
-  return dot<D>(deformation.data() + dim * direction, x + p, n) + offset;
+  losses_.end_break();
+  motion_.deform(target);
+  list_contacts();
 }
 
 template <int D>
-Vec<D> Increment<D>::drift() const {
-  Vec<D> result{};
-  for (std::size_t k = 0; k < dim; ++k) {
-    const int anchor = problem->space->anchor[k];
-    if (anchor < 0) continue;
-    const auto p = static_cast<std::size_t>(anchor);
-    result[k] = coordinates[k * particles() + p] - affine_place(p, k);
-  }
-  return result;
-}
-
-// No rounding adds up from increment to increment: prescribed particles are where F puts them,
-// boundary particles average to F, and what may move as a whole goes back.
-template <int D>
-void Increment<D>::place_fixed() {
-  const auto& space = *problem->space;
-  const auto n = particles();
-  const auto moved = drift();
-  for (std::size_t k = 0; k < dim; ++k) {
-    double* x = coordinates.data() + k * n;
-    for (std::size_t p = 0; p < n; ++p) {
-      const bool fixed = (space.fixed[static_cast<std::size_t>(space.node[p])] & fixed_bit(k)) != 0;
-      x[p] = fixed ? affine_place(p, k) : x[p] - moved[k];
-    }
-  }
+void Increment<D>::list_contacts() {
+  const double gap = tuned::listing_gap * (0.5 * motion_.mean_branch());
+  candidates_.list(*problem_, motion_, gap, history_);
+  build_list();
 }
 
 template <int D>
-void Increment<D>::load_records() {
-  grainlaw::core::load_records(coordinates.data(), problem->law->rotating(), std::span(records));
+void Increment<D>::build_list() {
+  build_contacts<D>(candidates_.pairs(), candidates_.weights(), problem_->packing->radius,
+                    problem_->space->node, problem_->nodes(), *problem_->law, motion_.cell(),
+                    history_.from(motion_), contacts_);
 }
 
 template <int D>
-void Increment<D>::store_records() {
-  grainlaw::core::store_records(std::span<const ParticleRecord<D>>(records),
-                                problem->law->rotating(), coordinates.data());
-}
-
-template <int D>
-void Increment<D>::update_forces() {
-  load_records();
-  evaluate_contacts<D>(records, *problem->law, contacts, forces);
-  project();
-}
-
-template <int D>
-void Increment<D>::update_forces_advancing() {
-  load_records();
-  dissipated += advance_contacts<D>(records, *problem->law, contacts, forces);
-  restart_turns();
-  project();
-}
-
-template <int D>
-void Increment<D>::project() {
-  reduce(forces);
-  put_residual(forces.data(), node_radius, problem->law->rotating(), node_residual.data());
-  if (!problem->space->finds_deformation) return;
-  double* of_rows = node_residual.data() + node_unknowns();
-  for (std::size_t i = 0; i < dim; ++i) {
-    std::copy_n(&forces[nodes() + i].x, dim, of_rows + dim * i);
-  }
+bool Increment<D>::keep_neighbours() {
+  if (!candidates_.outdated(motion_.coordinates())) return false;
+  list_contacts();
+  return true;
 }
 
 template <int D>
 double Increment<D>::overlap(std::size_t c) const {
-  return contacts.rest_of(c) - std::sqrt(branch_square(c));
+  return contacts_.rest_of(c) - std::sqrt(branch_square(c));
 }
 
 template <int D>
-double Increment<D>::relative_scale() const {
-  return std::max(mean_force, problem->force_floor);
+void Increment<D>::refresh_masses() {
+  motion_.load_records();
+  sum_masses();
+  masses_.put(*problem_, motion_);
+}
+
+template <int D>
+void Increment<D>::sum_masses() {
+  scale_.take(masses_.sum(*problem_, motion_, contacts_));
+}
+
+template <int D>
+void Increment<D>::look(ContactSides<D>& sides) {
+  if constexpr (ContactSides<D>::available) {
+    scale_.take(sides.look(motion_.records(), *problem_->law, tuned::mass_factor, contacts_));
+  }
+}
+
+template <int D>
+void Increment<D>::update_forces(History history) {
+  motion_.load_records();
+  find_forces(history);
+  put_residual(forces_.data(), motion_.node_radius(), problem_->law->rotating(), residual_.data());
+  double* of_rows = residual_.data() + problem_->node_unknowns();
+  for (std::size_t i = 0; i < problem_->rows(); ++i) {
+    std::copy_n(&forces_[problem_->nodes() + i].x, dim, of_rows + dim * i);
+  }
+}
+
+template <int D>
+void Increment<D>::find_forces(History history) {
+  if (history == History::advancing) {
+    losses_.dissipate(advance_contacts<D>(motion_.records(), *problem_->law, contacts_, forces_));
+    motion_.restart_turns();
+  } else {
+    sum_forces(forces_);
+  }
+  reduce(forces_);
+}
+
+template <int D>
+void Increment<D>::find_contact_forces() {
+  core::find_contact_forces<D>(motion_.records(), *problem_->law, contacts_);
+}
+
+template <int D>
+void Increment<D>::sum_forces(std::span<ForceRecord<D>> forces) {
+  evaluate_contacts<D>(motion_.records(), *problem_->law, contacts_, forces);
+  if (motion_.drag().acts()) motion_.drag().subtract_from(forces, motion_.records());
+}
+
+// From forces on nodes to what is left of them: nothing on what is prescribed, nothing that the
+// average constraint carries (with the present masses), and behind the nodes a record for every row
+// of F with what the prescribed stresses leave to move it.
+template <int D>
+void Increment<D>::reduce(std::span<ForceRecord<D>> forces) const {
+  const auto& space = *problem_->space;
+  if (space.identity) return;
+  for (std::size_t q = 0; q < problem_->nodes(); ++q) {
+    const unsigned char fixed = space.fixed[q];
+    if (fixed == 0) continue;
+    for (std::size_t k = 0; k < Dimension<D>::unknowns; ++k) {
+      if ((fixed & fixed_bit(k)) != 0) (&forces[q].x)[k] = 0;
+    }
+  }
+  masses_.take_out_averages(space, forces);
+  if (space.finds_deformation) take_found_stress(forces);
+}
+
+// V (P* - P) with V P = - sum f (x) L.
+template <int D>
+void Increment<D>::take_found_stress(std::span<ForceRecord<D>> forces) const {
+  const auto& space = *problem_->space;
+  Tensor<D> force{};
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const double* f = &contacts_.forces[c].x;
+    if (std::all_of(f, f + dim, [](double component) { return component == 0; })) continue;
+    const auto branch = fixed_branch(c);
+    for (std::size_t k = 0; k < squared<D>; ++k) force[k] += f[k / dim] * branch[k % dim];
+  }
+  for (std::size_t k = 0; k < squared<D>; ++k) {
+    force[k] = space.found[k] ? (force[k] + space.reference_volume * space.stress[k]) /
+                                    motion_.deformation_scale()
+                              : 0;
+  }
+  for (std::size_t i = 0; i < dim; ++i) {
+    ForceRecord<D>& row = forces[problem_->nodes() + i];
+    row = {};
+    std::copy_n(force.data() + dim * i, dim, &row.x);
+  }
 }
 
 template <int D>
 double Increment<D>::residual_norm() const {
-  if (touching == 0) return std::numeric_limits<double>::infinity();
-  const auto m = nodes();
-  const double* r = residual().data();
+  if (scale_.touching() == 0) return std::numeric_limits<double>::infinity();
+  const auto m = problem_->nodes();
+  const double* r = residual_.data();
   double largest = 0;
   double sum = 0;  // catches NaN, which max does not
 #pragma omp simd reduction(max : largest) reduction(+ : sum)
@@ -216,9 +164,9 @@ double Increment<D>::residual_norm() const {
     largest = std::max(largest, std::abs(r[q]));
     sum += r[q];
   }
-  if (problem->law->rotating()) {
+  if (problem_->law->rotating()) {
     const double* moment = r + dim * m;
-    const double* radius = node_radius.data();
+    const double* radius = motion_.node_radius().data();
     for (std::size_t k = 0; k < spins; ++k, moment += m) {
 #pragma omp simd reduction(max : largest) reduction(+ : sum)
       for (std::size_t q = 0; q < m; ++q) {
@@ -228,43 +176,17 @@ double Increment<D>::residual_norm() const {
       }
     }
   }
-  if (problem->space->finds_deformation) {
-    for (std::size_t k = node_unknowns(); k < unknowns(); ++k) {
+  if (problem_->space->finds_deformation) {
+    for (std::size_t k = problem_->node_unknowns(); k < problem_->unknowns(); ++k) {
       largest = std::max(largest, std::abs(r[k]));
       sum += r[k];
     }
-    if (!(determinant<D>(deformation) > 0)) return std::numeric_limits<double>::infinity();
+    if (!(determinant<D>(motion_.deformation()) > 0)) {
+      return std::numeric_limits<double>::infinity();
+    }
   }
   if (!std::isfinite(sum)) return std::numeric_limits<double>::infinity();
-  return largest / relative_scale();
-}
-
-template <int D>
-void Increment<D>::move(std::span<const double> step, double factor) {
-  const auto& space = *problem->space;
-  const auto n = particles();
-  const auto m = nodes();
-  for (std::size_t k = 0; k < dim; ++k) {
-    const double* dz = step.data() + k * m;
-    double* z = coordinates.data() + k * n;
-    for (std::size_t p = 0; p < n; ++p) z[p] += factor * dz[space.node[p]];
-  }
-  if (problem->law->rotating()) {
-    add_spins<D>(step.data() + dim * m, m, space.node, factor, coordinates.data() + dim * n);
-  }
-  if (!space.finds_deformation) return;
-  Tensor<D> change{};
-  for (std::size_t k = 0; k < squared<D>; ++k) {
-    if (space.found[k]) change[k] = factor * step[node_unknowns() + k] / deformation_scale_;
-    deformation[k] += change[k];
-  }
-  move_with<D>(space.reference.data(), change, n, coordinates.data());
-}
-
-template <int D>
-void Increment<D>::restart_turns() {
-  if (!problem->law->rotating()) return;
-  turned_.restart(records, coordinates.data() + dim * particles());
+  return largest / scale_.relative();
 }
 
 template class Increment<2>;

@@ -85,16 +85,16 @@ double force_as_given(const Problem<D>& problem, const Configuration<D>& given,
                       Workspace<D>& workspace) {
   workspace.increment.begin(problem, given, identity<D>());
   workspace.increment.refresh_masses();
-  return workspace.increment.mean_force;
+  return workspace.increment.scale().mean_force();
 }
 
 // What a packing without an equilibrium is like, and what to look at first.
 template <int D>
 std::string unsettled(const Increment<D>& increment) {
   constexpr double soft = 30, stiff = 1e7;  // kn / p that are hardly meant
-  const Packing& packing = *increment.problem->packing;
+  const Packing& packing = *increment.problem().packing;
   const double r = mean_radius(packing.radius);
-  const double kn = increment.problem->law->stiffness(r, r);
+  const double kn = increment.problem().law->stiffness(r, r);
   const auto stress = piola_stress(increment);
   const double pressure = -1.0 / D * trace<D>(stress);
   const double ratio = kn / (pressure * depth<D>(packing));
@@ -144,6 +144,7 @@ std::uint64_t fingerprint_of(const Material<D>& material) {
       add(rules, sizeof rules);
     }
   }
+  if (material.solver.viscosity.time > 0) add("drag", 4);  // saves the last move
   add(material.packing.cell.data(), sizeof material.packing.cell);
   add_all(material.packing.radius);
   add_all(material.packing.position);
@@ -204,6 +205,7 @@ std::shared_ptr<const Material<D>> make_material(MaterialDescription description
   direct.found = {};
   SolverOptions options = material->solver;
   options.method = Method::chain;
+  options.viscosity.time = 0;
   const double tolerance = std::min(options.tolerance, tightest_needed);
   Problem<D> problem{&material->packing, &material->law, &direct,
                      relative_floor * (may_be_free ? unloaded_force : least_force), tolerance};
@@ -237,8 +239,8 @@ std::shared_ptr<const Material<D>> make_material(MaterialDescription description
     throw Error(outcome.status, fmt::format("the packing found no equilibrium at F = I: residual "
                                             "{:.3g} after {} relaxation steps, expected {:.3g}; {}",
                                             workspace.increment.residual_norm(),
-                                            workspace.increment.relaxation_steps, request.tolerance,
-                                            unsettled(workspace.increment)));
+                                            workspace.increment.cost.relaxation_steps,
+                                            request.tolerance, unsettled(workspace.increment)));
   }
   const auto stress = free ? Tensor<D>{} : piola_stress(workspace.increment);
   workspace.increment.advance_history();
@@ -246,11 +248,11 @@ std::shared_ptr<const Material<D>> make_material(MaterialDescription description
   material->initial.stress = stress;
   material->initial.dissipated = material->initial.broken_bonds = 0;
   material->initial_mean_force =
-      free ? unloaded_force : std::max(workspace.increment.mean_force, least_force);
+      free ? unloaded_force : std::max(workspace.increment.scale().mean_force(), least_force);
   if (material->space.finds_deformation) {
     problem.force_floor = relative_floor * material->initial_mean_force;
     load_to_stress(material->space, request, workspace, material->initial);
-    material->initial_mean_force = std::max(workspace.increment.mean_force, least_force);
+    material->initial_mean_force = std::max(workspace.increment.scale().mean_force(), least_force);
   }
   return material;
 }

@@ -1,5 +1,6 @@
 #include "material/material_file.hpp"
 
+#include "base/constants.hpp"
 #include "base/error.hpp"
 #include "io/text_file.hpp"
 #include "io/toml_table.hpp"
@@ -67,6 +68,21 @@ SolverOptions read_solver(TomlTable table, const BoundaryOptions& boundary) {
     table.fail(
         "contacts_lost", "\"stress_free\" with a boundary under a stress",
         "\"error\": without contacts nothing carries what \"T\" or boundary.stress asks for");
+  Viscosity& viscosity = solver.viscosity;
+  table.optional("viscous_time", number_at_least(0), viscosity.time);
+  for (const char* key : {"viscous_inertia", "viscous_steps", "viscous_increment"}) {
+    if (viscosity.time == 0 && table.has(key))
+      table.fail(key, "a value", "none but with viscous_time > 0");
+  }
+  table.optional("viscous_inertia", number_between(0, 1), viscosity.inertia);
+  table.optional("viscous_increment", number_at_least(0), viscosity.increment);
+  table.optional("viscous_steps", integer_between(1, tuned::most_subincrements), viscosity.steps);
+  if (viscosity.time > 0 && solver.method != Method::chain)
+    table.fail("viscous_time", fmt::format("{:g} with another method", viscosity.time),
+               "method = \"chain\"");
+  if (viscosity.time > 0 && solver.loose_tolerance > 0)
+    table.fail("loose_tolerance", fmt::format("{:g} with viscous_time", solver.loose_tolerance),
+               "0: with drag every increment is balanced");
   solver.published = read_published(table.optional_table("published"));
   if (solver.method != Method::published && table.has("published"))
     table.fail("published", "a table", "none but with method = \"published\"");

@@ -70,6 +70,14 @@ Tensor<D> product(const Tensor<D>& a, const Tensor<D>& b) {
   return result;
 }
 
+// a + share (b - a)
+template <int D>
+Tensor<D> between(const Tensor<D>& a, const Tensor<D>& b, double share) {
+  Tensor<D> f{};
+  for (std::size_t k = 0; k < squared<D>; ++k) f[k] = a[k] + share * (b[k] - a[k]);
+  return f;
+}
+
 template <int D>
 Tensor<D> transpose(const Tensor<D>& a) {
   Tensor<D> result{};

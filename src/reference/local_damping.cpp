@@ -13,15 +13,16 @@ namespace {
 // Masses of particles and their inertia, summed over the particles of a node (component-major).
 template <int D>
 void physical_masses(const Increment<D>& increment, std::vector<double>& mass) {
-  const auto& packing = *increment.problem->packing;
-  const auto m = increment.nodes();
-  mass.assign(increment.unknowns(), 0.0);
+  const Problem<D>& problem = increment.problem();
+  const auto& packing = *problem.packing;
+  const auto m = problem.nodes();
+  mass.assign(problem.unknowns(), 0.0);
   for (std::size_t p = 0; p < packing.size(); ++p) {
-    const auto q = static_cast<std::size_t>(increment.problem->space->node[p]);
+    const auto q = static_cast<std::size_t>(problem.space->node[p]);
     const double r = packing.radius[p];
     const double own = particle_mass<D>(packing.density, r, packing.thickness);
     for (std::size_t k = 0; k < D; ++k) mass[k * m + q] += own;
-    if (!increment.problem->law->rotating()) continue;
+    if (!problem.law->rotating()) continue;
     constexpr double share = D == 2 ? 0.5 : 0.4;  // of m R^2
     for (std::size_t k = D; k < Dimension<D>::unknowns; ++k) mass[k * m + q] += share * own * r * r;
   }
@@ -30,19 +31,20 @@ void physical_masses(const Increment<D>& increment, std::vector<double>& mass) {
 // Found components of F as stable with the time step as they are with the relaxation's unit step.
 template <int D>
 void mass_of_deformation(const Increment<D>& increment, double dt, std::vector<double>& mass) {
-  for (std::size_t k = increment.node_unknowns(); k < increment.unknowns(); ++k) {
-    mass[k] = dt * dt * increment.mass[k];
+  const auto pseudo_mass = increment.masses().of_unknowns();
+  for (std::size_t k = increment.problem().node_unknowns(); k < mass.size(); ++k) {
+    mass[k] = dt * dt * pseudo_mass[k];
   }
 }
 
 // Critical step of the lightest particle on its stiffest contact, min sqrt(m / kn) [s].
 template <int D>
 double critical_step(const Increment<D>& increment) {
-  const auto& packing = *increment.problem->packing;
+  const auto& packing = *increment.problem().packing;
   double smallest = 1e300;
   for (const double r : packing.radius) {
     const double own = particle_mass<D>(packing.density, r, packing.thickness);
-    smallest = std::min(smallest, own / increment.problem->law->stiffness(r, r));
+    smallest = std::min(smallest, own / increment.problem().law->stiffness(r, r));
   }
   return std::sqrt(smallest);
 }
@@ -55,8 +57,8 @@ double energy_ratio(const Increment<D>& increment, const std::vector<double>& ma
   for (std::size_t k = 0; k < velocity.size(); ++k) {
     kinetic += 0.5 * mass[k] * velocity[k] * velocity[k];
   }
-  const double potential = stored_energy(increment.contacts, increment.coordinates,
-                                         increment.particles(), *increment.problem->law);
+  const double potential = stored_energy(increment.contacts(), increment.motion().coordinates(),
+                                         increment.problem().particles(), *increment.problem().law);
   return kinetic / std::max(potential, 1e-300);
 }
 
@@ -66,12 +68,13 @@ template <int D>
 bool relax_published(Increment<D>& increment, double tolerance, const PublishedOptions& options,
                      std::span<const unsigned char> frozen, ReferenceMemory& memory) {
   constexpr long check_interval = 20;
-  const auto& space = *increment.problem->space;
-  const std::size_t size = increment.unknowns();
-  const std::size_t nodes = increment.nodes();
+  const Problem<D>& problem = increment.problem();
+  const auto& space = *problem.space;
+  const std::size_t size = problem.unknowns();
+  const std::size_t nodes = problem.nodes();
   const auto is_frozen = [&](std::size_t k) {
     if (frozen.empty()) return false;
-    return k >= increment.node_unknowns() || (frozen[k % nodes] >> (k / nodes) & 1U) != 0;
+    return k >= problem.node_unknowns() || (frozen[k % nodes] >> (k / nodes) & 1U) != 0;
   };
   auto& mass = memory.mass;
   physical_masses(increment, mass);
@@ -82,23 +85,23 @@ bool relax_published(Increment<D>& increment, double tolerance, const PublishedO
   double last_ratio = 0;
   bool fallen = false;
   for (long step = 0; step < options.max_steps; ++step) {
-    increment.update_forces_advancing();
+    increment.update_forces(History::advancing);
     const double* r = increment.residual().data();
     if (step % check_interval == 0) {
       increment.advance_history();
       increment.keep_neighbours();
       increment.refresh_masses();
-      increment.update_forces_advancing();
+      increment.update_forces(History::advancing);
       if (space.finds_deformation) mass_of_deformation(increment, dt, mass);
       double largest = 0;
       for (std::size_t k = 0; k < size; ++k) {
         if (is_frozen(k)) continue;
-        const bool rotation = k >= D * nodes && k < increment.node_unknowns();
-        const double lever = !rotation ? 1.0 : increment.node_radius[k % nodes];
+        const bool rotation = k >= D * nodes && k < problem.node_unknowns();
+        const double lever = !rotation ? 1.0 : increment.motion().node_radius()[k % nodes];
         largest = std::max(largest, std::abs(r[k]) / lever);
       }
-      if (increment.touching == 0 || !std::isfinite(largest)) return false;
-      if (largest < tolerance * increment.relative_scale()) return true;
+      if (increment.scale().touching() == 0 || !std::isfinite(largest)) return false;
+      if (largest < tolerance * increment.scale().relative()) return true;
       if (options.energy_tolerance > 0) {
         const double ratio = energy_ratio(increment, mass, memory.velocity);
         fallen = fallen || ratio < last_ratio;
@@ -117,8 +120,8 @@ bool relax_published(Increment<D>& increment, double tolerance, const PublishedO
     } else if (space.averages()) {
       if constexpr (D == 2) AverageMasses::hold(space, nodes, memory.velocity, mass);
     }
-    increment.move(memory.velocity, dt);
-    ++increment.relaxation_steps;
+    increment.motion().move(memory.velocity, dt);
+    ++increment.cost.relaxation_steps;
   }
   return false;
 }

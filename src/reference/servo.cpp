@@ -1,6 +1,5 @@
 #include "reference/servo.hpp"
 
-#include "contact/contact_forces.hpp"
 #include "packing/geometry.hpp"
 
 #include <algorithm>
@@ -16,19 +15,21 @@ class Servo {
   Servo(Increment<2>& increment, const PublishedOptions& options, double tolerance,
         ReferenceMemory& memory)
       : increment_(increment),
-        space_(*increment.problem->space),
-        packing_(*increment.problem->packing),
+        problem_(increment.problem()),
+        motion_(increment.motion()),
+        space_(*problem_.space),
+        packing_(*problem_.packing),
         options_(options),
         servo_(space_.options.servo),
         tolerance_(tolerance),
         memory_(memory),
-        nodes_(increment.nodes()) {
+        nodes_(problem_.nodes()) {
     smallest_ = 1e300;
     for (std::size_t q = 0; q < nodes_; ++q) {
-      if (space_.boundary[q]) smallest_ = std::min(smallest_, increment.node_radius[q]);
+      if (space_.boundary[q]) smallest_ = std::min(smallest_, motion_.node_radius()[q]);
     }
     dt_ = options.time_step_ratio *
-          std::sqrt(mass_of(smallest_) / increment.problem->law->stiffness(smallest_, smallest_));
+          std::sqrt(mass_of(smallest_) / problem_.law->stiffness(smallest_, smallest_));
     // The relaxations move what is not of the boundary, and what turns freely there.
     memory.servo.frozen.assign(nodes_, 0);
     for (std::size_t q = 0; q < nodes_; ++q) {
@@ -51,25 +52,25 @@ class Servo {
     double tolerance = tolerance_;
     int without_step = 0;
     for (int correction = 0; correction <= servo_.max_corrections; ++correction) {
-      const long steps = increment_.relaxation_steps;
+      const long steps = increment_.cost.relaxation_steps;
       if (!relax_published(increment_, tolerance, options_, memory_.servo.frozen, memory_)) {
         return false;
       }
-      without_step = increment_.relaxation_steps > steps ? 0 : without_step + 1;
+      without_step = increment_.cost.relaxation_steps > steps ? 0 : without_step + 1;
       if (without_step == stalled) {
         tolerance *= tighter;
         without_step = 0;
       }
-      memory_.correction.assign(increment_.unknowns(), 0.0);
+      memory_.correction.assign(problem_.unknowns(), 0.0);
       const double residual =
           std::sqrt(correct_shared() + correct_averaged() + correct_deformation());
       if (residual <= servo_.tolerance && off_average() <= servo_.tolerance_deformation) {
         return true;
       }
-      increment_.move(memory_.correction);
+      motion_.move(memory_.correction);
       increment_.advance_history();
       increment_.keep_neighbours();
-      ++increment_.servo_corrections;
+      ++increment_.cost.servo_corrections;
     }
     return false;
   }
@@ -86,8 +87,7 @@ class Servo {
 
   // Displacement by force; gains scale with 1/M.
   [[nodiscard]] double compliance(double radius) const {
-    return smallest_ * smallest_ / (radius * radius) /
-           increment_.problem->law->stiffness(radius, radius);
+    return smallest_ * smallest_ / (radius * radius) / problem_.law->stiffness(radius, radius);
   }
 
   [[nodiscard]] const double* reference() const {
@@ -109,9 +109,8 @@ class Servo {
     for (const int q : packing_.frame->boundary) {
       const auto p = static_cast<std::size_t>(q);
       for (std::size_t i = 0; i < 2; ++i) {
-        const double w = increment_.start[i * n + p] - place(p, i, increment_.start_deformation);
-        increment_.coordinates[i * n + p] =
-            place(p, i, increment_.deformation) + servo_.inheritance * w;
+        const double w = motion_.start()[i * n + p] - place(p, i, motion_.start_deformation());
+        motion_.coordinate(i, p) = place(p, i, motion_.deformation()) + servo_.inheritance * w;
       }
     }
   }
@@ -127,7 +126,7 @@ class Servo {
     double sum = 0;
     for (std::size_t q = 0; q < nodes_; ++q) {
       if (!space_.boundary[q]) continue;
-      const double radius = increment_.node_radius[q];
+      const double radius = motion_.node_radius()[q];
       for (std::size_t k = 0; k < 2; ++k) {
         if ((space_.fixed[q] >> k & 1U) != 0 || averaged(q, k)) continue;
         // The boundary force a balances the contact forces, so a+ + a- = -r and du = -g (a+ + a-).
@@ -137,7 +136,7 @@ class Servo {
       }
       const bool turned =
           space_.boundary[q] != turns_freely && (space_.fixed[q] & fixed_rotation<2>) == 0;
-      if (!increment_.problem->law->rotating() || !turned) continue;
+      if (!problem_.law->rotating() || !turned) continue;
       const double moment = r[2 * nodes_ + q];
       memory_.correction[2 * nodes_ + q] =
           servo_.gain_moment * compliance(radius) / (radius * radius) * moment;
@@ -151,7 +150,7 @@ class Servo {
     const auto n = packing_.size();
     const double* x = reference();
     std::array<double, 4> p{};
-    const auto& list = increment_.contacts;
+    const auto& list = increment_.contacts();
     for (std::size_t c = 0; c < list.size(); ++c) {
       const auto i = static_cast<std::size_t>(list.i[c]);
       const auto j = static_cast<std::size_t>(list.j[c]);
@@ -172,9 +171,8 @@ class Servo {
     std::array<double, 4> stress{};
     const bool published = !found(0) || !found(1);
     if (published) {
-      memory_.servo.raw.resize(increment_.forces.size());
-      evaluate_contacts<2>(increment_.records, *increment_.problem->law, increment_.contacts,
-                           memory_.servo.raw);
+      memory_.servo.raw.resize(increment_.forces().size());
+      increment_.sum_forces(memory_.servo.raw);
       stress = measured_stress();
     }
     double sum = 0;
@@ -183,7 +181,7 @@ class Servo {
       double* step = memory_.correction.data() + i * nodes_;
       for (const auto node : average.node) {
         const auto q = static_cast<std::size_t>(node);
-        const double radius = increment_.node_radius[q];
+        const double radius = motion_.node_radius()[q];
         double missing = increment_.residual()[i * nodes_ + q];
         if (!found(i)) {
           missing = stress[2 * i] * area_[q][0] + stress[2 * i + 1] * area_[q][1] +
@@ -220,9 +218,9 @@ class Servo {
   // Found components of F by the stress that is missing, as stiff as all contacts together.
   double correct_deformation() {
     double sum = 0;
-    for (std::size_t k = increment_.node_unknowns(); k < increment_.unknowns(); ++k) {
+    for (std::size_t k = problem_.node_unknowns(); k < problem_.unknowns(); ++k) {
       const double missing = increment_.residual()[k];
-      memory_.correction[k] = servo_.gain_force * missing / increment_.mass[k];
+      memory_.correction[k] = servo_.gain_force * missing / increment_.masses().of_unknowns()[k];
       sum += std::pow(missing / force_scale(smallest_), 2);
     }
     return sum;
@@ -243,7 +241,7 @@ class Servo {
 
   [[nodiscard]] double fluctuation(std::size_t node, std::size_t i) const {
     const auto p = particle_[node];
-    return increment_.coordinates[i * packing_.size() + p] - place(p, i, increment_.deformation);
+    return motion_.coordinates()[i * packing_.size() + p] - place(p, i, motion_.deformation());
   }
 
   // |F - (1/V) sum x (x) A| over the components that are given.
@@ -264,6 +262,8 @@ class Servo {
   static constexpr char turns_freely = 2;
 
   Increment<2>& increment_;
+  const Problem<2>& problem_;
+  Motion<2>& motion_;
   const BoundarySpace<2>& space_;
   const Packing& packing_;
   const PublishedOptions& options_;

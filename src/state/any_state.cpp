@@ -40,6 +40,10 @@ AnyMaterial make_any_material(MaterialDescription description) {
 AnyState::AnyState(const AnyMaterial& material)
     : state_(std::visit([](const auto& one) { return state_of(one); }, material)) {}
 
+AnyState::AnyState(const AnyState& other) = default;
+AnyState::AnyState(AnyState&& other) noexcept = default;
+AnyState::~AnyState() = default;
+
 void AnyState::check_deformation(const double* F) const {
   std::visit([&]<int D>(const State<D>& state) { check<D>(state.effective(F)); }, state_);
 }
@@ -47,6 +51,10 @@ void AnyState::check_deformation(const double* F) const {
 grainlaw_status AnyState::evaluate(const double* F, TangentKind kind, double* P, double* A,
                                    grainlaw_report& report) {
   return std::visit([&](auto& state) { return state.evaluate(F, kind, P, A, report); }, state_);
+}
+
+void AnyState::set_time_step(double step) {
+  std::visit([=](auto& state) { state.set_time_step(step); }, state_);
 }
 
 bool AnyState::commit() {

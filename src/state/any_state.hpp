@@ -25,6 +25,9 @@ using AnyConfiguration = std::variant<Configuration<2>, Configuration<3>>;
 class AnyState {
  public:
   explicit AnyState(const AnyMaterial& material);
+  AnyState(const AnyState& other);
+  AnyState(AnyState&& other) noexcept;
+  ~AnyState();
 
   [[nodiscard]] int dimension() const { return state_.index() == 0 ? 2 : 3; }
 
@@ -35,6 +38,7 @@ class AnyState {
   // As State has them.
   grainlaw_status evaluate(const double* F, TangentKind kind, double* P, double* A,
                            grainlaw_report& report);
+  void set_time_step(double step);
   bool commit();
   void revert();
   [[nodiscard]] bool has_trial() const;

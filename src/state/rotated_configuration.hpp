@@ -19,6 +19,15 @@ void rotate_configuration(const SplitIncrement<D>& increment, const Tensor<D>& F
   add_turn(increment, particles, configuration.coordinates);
   turn_springs(increment, configuration.contacts);
   configuration.deformation = F;
+  if (configuration.move.empty()) return;
+  const Tensor<D>& r = increment.rotation;
+  map_positions<D>(r, particles, configuration.move.data());
+  if constexpr (D == 3) {
+    if (configuration.move.size() > D * particles)
+      map_positions<D>(r, particles, configuration.move.data() + D * particles);
+  }
+  configuration.move_stretch =
+      product<D>(product<D>(r, configuration.move_stretch), transpose<D>(r));
 }
 
 }  // namespace grainlaw::core

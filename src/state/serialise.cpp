@@ -3,7 +3,8 @@
 //   F [dim*dim]  P [dim*dim]  dissipated  [broken bonds]  coordinates [as many as the material has]
 //   contacts: i32 i  i32 j  i16 shift[dim]  u8 1 sliding, 2 bonded  double tangential force, of spheres three  [moment]
 //   [gap of the bond]
-// Doubles; those in brackets only with a law that has bonds, and moments.
+//   [G - 1 and move of the last part with drag]
+// Doubles; those in brackets only with a law that has bonds, and moments, and with drag.
 //   u64 XXH3 of everything before
 #include "state/serialise.hpp"
 
@@ -25,11 +26,20 @@ constexpr std::size_t plain_contact_size =
     2 * sizeof(std::int32_t) + D * sizeof(std::int16_t) +
     sizeof(std::uint8_t) + Dimension<D>::tangents * sizeof(double);
 
+// Numbers of the last move, places and rotations as vectors.
+template <int D>
+std::size_t move_size(const Material<D>& material) {
+  if (material.solver.viscosity.time == 0) return 0;
+  return D == 3 ? Dimension<D>::unknowns * material.packing.size()
+                : material.initial.coordinates.size();
+}
+
 template <int D>
 std::size_t size_without_contacts(const Material<D>& material) {
   return header_size + checksum_size +
          sizeof(double) * (2 * squared<D> + (material.law.bonds() ? 2 : 1) +
-                           material.initial.coordinates.size());
+                           material.initial.coordinates.size() + move_size(material) +
+                           (move_size(material) > 0 ? squared<D> : 0));
 }
 
 template <int D>
@@ -88,6 +98,12 @@ void save_configuration(const Material<D>& material, const Configuration<D>& con
       out.put(configuration.bond_gaps.empty() ? 0.0 : configuration.bond_gaps[c]);
     }
   }
+  if (const std::size_t size = move_size(material); size > 0) {
+    for (const double component : configuration.move_stretch) out.put(component);
+    for (std::size_t k = 0; k < size; ++k) {
+      out.put(configuration.move.empty() ? 0.0 : configuration.move[k]);
+    }
+  }
   out.end();
 }
 
@@ -125,6 +141,11 @@ Configuration<D> load_configuration(const Material<D>& material, std::span<const
     for (double& component : contact.tangential_force) component = in.get_finite();
     for (std::size_t k = 0; k < spins; ++k) found.moments.push_back(in.get_finite());
     if (material.law.bonds()) found.bond_gaps.push_back(in.get_finite());
+  }
+  if (const std::size_t size = move_size(material); size > 0) {
+    for (double& component : found.move_stretch) component = in.get_finite();
+    found.move.resize(size);
+    for (double& component : found.move) component = in.get_finite();
   }
   const auto none = [](double gap) { return gap == 0; };
   if (std::all_of(found.bond_gaps.begin(), found.bond_gaps.end(), none)) found.bond_gaps.clear();

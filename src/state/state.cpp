@@ -72,9 +72,9 @@ void guess_from_trial(const Configuration<D>& from, const Configuration<D>& tria
 
 template <int D>
 void add_cost(const Increment<D>& increment, grainlaw_report& report) {
-  report.relaxation_steps += increment.relaxation_steps;
-  report.servo_corrections += increment.servo_corrections;
-  report.factorisations += increment.factorisations;
+  report.relaxation_steps += increment.cost.relaxation_steps;
+  report.servo_corrections += increment.cost.servo_corrections;
+  report.factorisations += increment.cost.factorisations;
 }
 
 // Forward differences of P, each from the same history (Guo & Zhao 2014, eq. 8, as dP/dF).
@@ -211,6 +211,9 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
   request.tolerance = material.solver.tolerance;
   request.loose_tolerance = material.solver.loose_tolerance;
   request.sensitivities = kind == TangentKind::exact;
+  if (const double usual = material.solver.viscosity.increment; usual > 0 && time_step_ > 0) {
+    request.duration = time_step_ / usual;
+  }
   if (had_trial && material.solver.start == Start::trial) {
     guess_from_trial(committed_, trial_, particles, w, request);
     request.guess_loose = trial_loose_;
@@ -222,6 +225,12 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
   report.subincrements = outcome.subincrements;
   report.history_advanced = outcome.history_advanced ? 1 : 0;
   report.residual = w.increment.residual_norm();
+  const auto& drag = w.increment.motion().drag();
+  if (drag.acts()) {
+    report.unbalanced =
+        drag.largest(w.increment.motion().records()) / w.increment.scale().relative();
+    report.viscous_work = w.increment.losses().dragged();
+  }
   if (outcome.status != GRAINLAW_OK) {
     describe(report, grainlaw_status_text(outcome.status));
     return outcome.status;
@@ -247,7 +256,11 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
 
   w.increment.advance_history();
   w.increment.export_to(committed_, trial_);
-  report.broken_bonds = static_cast<int>(std::lround(w.increment.broken_bonds));
+  if (drag.acts()) {
+    copy_with_room(w.move, trial_.move, little);
+    trial_.move_stretch = drag.how().stretch;
+  }
+  report.broken_bonds = static_cast<int>(std::lround(w.increment.losses().broken_bonds()));
   report.contacts = static_cast<int>(trial_.contacts.size());
   report.sliding = static_cast<int>(std::count_if(trial_.contacts.begin(), trial_.contacts.end(),
                                                   [](const auto& c) { return c.sliding; }));

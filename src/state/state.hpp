@@ -32,6 +32,9 @@ class State {
   // F with the components that are found, not given, as they are committed.
   [[nodiscard]] Tensor<D> effective(const double* F) const;
 
+  // Of the increments from now on, in the host's time.
+  void set_time_step(double step) { time_step_ = step; }
+
   bool commit();  // false: there is no trial
   void revert() { has_trial_ = false; }
   [[nodiscard]] bool has_trial() const { return has_trial_; }
@@ -48,6 +51,7 @@ class State {
   Configuration<D> committed_;
   Configuration<D> trial_;
   bool has_trial_ = false;
+  double time_step_ = 0;         // 0: none was told
   bool trial_loose_ = false;     // ended at the loose tolerance
   bool trial_advanced_ = false;  // by advancing history
 };

@@ -24,16 +24,16 @@ void BorderedSystem::find_columns(const BoundarySpace<2>& space) {
 // The columns of a group, and the residual behind the last of them.
 void BorderedSystem::set_right_side(const Increment<2>& increment, const Stiffness<2>& stiffness,
                                     std::size_t group, std::span<const double> residual) {
-  const auto& space = *increment.problem->space;
-  const auto nodes = increment.nodes();
-  const std::size_t b = increment.node_unknowns() / nodes;
+  const auto& space = *increment.problem().space;
+  const auto nodes = increment.problem().nodes();
+  const std::size_t b = increment.problem().node_unknowns() / nodes;
   std::fill(right_.begin(), right_.end(), ByDeformation<2>{});
   DeformationChange<2> change{};
   const std::size_t first = group * lanes;
   const std::size_t last = std::min(first + lanes, size_);
   for (std::size_t c = first; c < last; ++c) {
     if (columns_[c].kind == Kind::deformation) {
-      change[columns_[c].direction].lane[c - first] = 1 / increment.deformation_scale();
+      change[columns_[c].direction].lane[c - first] = 1 / increment.motion().deformation_scale();
     }
   }
   if (space.finds_deformation) add_residual_changes<2>(increment, stiffness, change, {}, right_);
@@ -66,8 +66,8 @@ BorderedSystem::Values BorderedSystem::values_of(const Increment<2>& increment,
                                                  std::span<const TouchingContact<2>> touching,
                                                  std::span<const ContactChange<2>> changes,
                                                  std::span<const ByDeformation<2>> motion) const {
-  const auto& space = *increment.problem->space;
-  const std::size_t b = increment.node_unknowns() / increment.nodes();
+  const auto& space = *increment.problem().space;
+  const std::size_t b = increment.problem().node_unknowns() / increment.problem().nodes();
   Values values{};
   for (std::size_t f = 0; f < size_; ++f) {
     const auto& column = columns_[f];
@@ -87,7 +87,7 @@ BorderedSystem::Values BorderedSystem::values_of(const Increment<2>& increment,
     for (std::size_t f = 0; f < size_; ++f) {
       const auto& column = columns_[f];
       if (column.kind != Kind::deformation) continue;
-      const double length = branch[column.direction % 2] / increment.deformation_scale();
+      const double length = branch[column.direction % 2] / increment.motion().deformation_scale();
       const ByDeformation<2>& force =
           column.direction < 2 ? changes[c].force[0] : changes[c].force[1];
       for (std::size_t l = 0; l < lanes; ++l) values[f].lane[l] -= force.lane[l] * length;
@@ -98,10 +98,10 @@ BorderedSystem::Values BorderedSystem::values_of(const Increment<2>& increment,
 
 bool BorderedSystem::respond(Increment<2>& increment, Stiffness<2>& stiffness, double shift,
                              std::span<const double> residual) {
-  const auto& space = *increment.problem->space;
+  const auto& space = *increment.problem().space;
   find_columns(space);
   const std::size_t count = size_ + (residual.empty() ? 0 : 1);
-  resize_with_room(right_, increment.node_unknowns());
+  resize_with_room(right_, increment.problem().node_unknowns());
   const auto touching = stiffness.touching();
   for (std::size_t group = 0; group * lanes < count; ++group) {
     auto& response = response_[group];
@@ -112,7 +112,7 @@ bool BorderedSystem::respond(Increment<2>& increment, Stiffness<2>& stiffness, d
     const std::size_t first = group * lanes;
     for (std::size_t c = first; c < std::min(first + lanes, size_); ++c) {
       if (columns_[c].kind != Kind::deformation) continue;
-      change[columns_[c].direction].lane[c - first] = 1 / increment.deformation_scale();
+      change[columns_[c].direction].lane[c - first] = 1 / increment.motion().deformation_scale();
     }
     if (space.finds_deformation) {
       resize_with_room(changes_, touching.size());
@@ -127,9 +127,10 @@ bool BorderedSystem::respond(Increment<2>& increment, Stiffness<2>& stiffness, d
   }
   for (std::size_t f = 0; f < size_; ++f) {
     // The load on the anchors is what kn makes of their average.
-    if (columns_[f].kind == Kind::anchors) matrix_[f][f] -= 1 / increment.mean_stiffness();
+    if (columns_[f].kind == Kind::anchors) matrix_[f][f] -= 1 / increment.masses().mean_stiffness();
     if (columns_[f].kind != Kind::deformation) continue;
-    matrix_[f][f] += shift * increment.mass[increment.node_unknowns() + columns_[f].direction];
+    const std::size_t row = increment.problem().node_unknowns() + columns_[f].direction;
+    matrix_[f][f] += shift * increment.masses().of_unknowns()[row];
   }
   return true;
 }
@@ -168,11 +169,11 @@ bool BorderedSystem::solve(Increment<2>& increment, Stiffness<2>& stiffness, dou
   for (std::size_t f = 0; f < size_; ++f) {
     values[f].lane[0] = matrix_[f][size_];
     if (columns_[f].kind != Kind::deformation) continue;
-    values[f].lane[0] -= residual[increment.node_unknowns() + columns_[f].direction];
+    values[f].lane[0] -= residual[increment.problem().node_unknowns() + columns_[f].direction];
   }
   if (!eliminate(values)) return false;
-  const auto nodes = increment.nodes();
-  const std::size_t b = increment.node_unknowns() / nodes;
+  const auto nodes = increment.problem().nodes();
+  const std::size_t b = increment.problem().node_unknowns() / nodes;
   const auto response = [&](std::size_t column, std::size_t place) {
     return response_[column / lanes][place].lane[column % lanes];
   };
@@ -183,10 +184,11 @@ bool BorderedSystem::solve(Increment<2>& increment, Stiffness<2>& stiffness, dou
       step[k * nodes + q] = sum;
     }
   }
-  for (std::size_t k = increment.node_unknowns(); k < increment.unknowns(); ++k) step[k] = 0;
+  const std::size_t rows = increment.problem().node_unknowns();
+  std::fill(step.begin() + static_cast<std::ptrdiff_t>(rows), step.end(), 0.0);
   for (std::size_t c = 0; c < size_; ++c) {
     if (columns_[c].kind != Kind::deformation) continue;
-    step[increment.node_unknowns() + columns_[c].direction] = values[c].lane[0];
+    step[rows + columns_[c].direction] = values[c].lane[0];
   }
   return true;
 }
@@ -208,7 +210,8 @@ bool BorderedSystem::complete(const Increment<2>& increment,
     }
     if (columns_[c].kind != Kind::deformation) continue;
     for (std::size_t l = 0; l < lanes; ++l) {
-      change[columns_[c].direction].lane[l] = values[c].lane[l] / increment.deformation_scale();
+      change[columns_[c].direction].lane[l] =
+          values[c].lane[l] / increment.motion().deformation_scale();
     }
   }
   return true;

@@ -26,12 +26,12 @@ ContactLoop contact_loop(const Increment<2>& increment,
                          std::span<const TouchingContact<2>> touching,
                          const DeformationChange<2>& change, const HistoryChange<2>& history) {
   return {touching,
-          inverse<2>(increment.deformation),
+          inverse<2>(increment.motion().deformation()),
           change.data(),
           history.turn,
           history.force,
-          increment.contacts.tangential_stiffness.data(),
-          increment.problem->space->bound_to_axes() ? &increment : nullptr};
+          increment.contacts().tangential_stiffness.data(),
+          increment.problem().space->bound_to_axes() ? &increment : nullptr};
 }
 
 // The branch that F deforms [m].
@@ -149,7 +149,7 @@ Lanes moment_change_of(const Increment<2>& increment, const ContactLoop& loop,
                  moment.by_spin * spin;
   if (history.moment != nullptr && !moment.capped) {
     change += load(history.moment[contact.index].lane) +
-              increment.contacts.bending_stiffness[contact.index] *
+              increment.contacts().bending_stiffness[contact.index] *
                   load(history.spin[contact.index].lane);
   }
   return change;
@@ -174,7 +174,7 @@ template <>
 void add_residual_changes<2>(const Increment<2>& increment, const Stiffness<2>& stiffness,
                              const DeformationChange<2>& change, const HistoryChange<2>& history,
                              std::span<Quad> residual) {
-  const auto& law = *increment.problem->law;
+  const auto& law = *increment.problem().law;
   const auto loop = contact_loop(increment, stiffness.touching(), change, history);
   right_sides(loop, law.rotating(), residual.data()->lane);
   if (law.moments()) add_moment_changes(increment, loop, stiffness.moments(), history, residual);
@@ -186,7 +186,7 @@ void find_contact_changes<2>(const Increment<2>& increment,
                              const DeformationChange<2>& change, const HistoryChange<2>& history,
                              std::span<const Quad> motion, std::span<ContactChange<2>> changes) {
   all_changes(contact_loop(increment, touching, change, history),
-              increment.problem->law->rotating(), motion.data()->lane, changes.data());
+              increment.problem().law->rotating(), motion.data()->lane, changes.data());
 }
 
 template <>

@@ -14,16 +14,19 @@ constexpr std::size_t width = 4;
 
 // Branches where the history starts, and in the reference that F deforms.
 struct StartBranches {
+  static Tensor<2> cell_of(const Packing& packing) {
+    return packing.frame ? Tensor<2>{} : tensor_of<2>(packing.cell);
+  }
   explicit StartBranches(const Increment<2>& of)
       : increment(of),
-        f(of.start_deformation),
+        f(of.motion().start_deformation()),
         inverse(grainlaw::core::inverse<2>(f)),
-        cell(of.problem->packing->frame ? Tensor<2>{} : tensor_of<2>(of.problem->packing->cell)) {}
+        cell(cell_of(*of.problem().packing)) {}
 
   [[nodiscard]] Vec<2> of(std::size_t c) const {
-    const auto& list = increment.contacts;
+    const auto& list = increment.contacts();
     const Vec<2> shift = product<2>(cell, Vec<2>{list.shift[0][c], list.shift[1][c]});
-    return branch<2>(increment.start.data(), increment.particles(),
+    return branch<2>(increment.motion().start().data(), increment.problem().particles(),
                      static_cast<std::size_t>(list.i[c]), static_cast<std::size_t>(list.j[c]), f,
                      shift);
   }
@@ -40,8 +43,8 @@ void HistoryDerivatives<2>::carry(const Increment<2>& increment,
                                   std::span<const ContactChange<2>> changes,
                                   std::span<const ByDeformation<2>> moment_changes,
                                   std::span<const std::int32_t> place) {
-  const auto& list = increment.contacts;
-  const bool moments = increment.problem->law->moments();
+  const auto& list = increment.contacts();
+  const bool moments = increment.problem().law->moments();
   carried_force_.clear();
   carried_moment_.clear();
   for (std::size_t c = 0; c < list.size(); ++c) {
@@ -62,15 +65,15 @@ void HistoryDerivatives<2>::carry(const Increment<2>& increment,
 void HistoryDerivatives<2>::start(const Increment<2>& increment,
                                   std::span<const ByDeformation<2>> motion,
                                   const DeformationChange<2>& change) {
-  const auto& list = increment.contacts;
-  const auto& node = increment.problem->space->node;
-  const auto& law = *increment.problem->law;
+  const auto& list = increment.contacts();
+  const auto& node = increment.problem().space->node;
+  const auto& law = *increment.problem().law;
   const bool rotating = law.rotating();
   const bool moments = law.moments();
   const bool hertzian = law.hertzian();
   const std::size_t b = rotating ? 3 : 2;
   const StartBranches branches(increment);
-  const bool bound_to_axes = increment.problem->space->bound_to_axes();
+  const bool bound_to_axes = increment.problem().space->bound_to_axes();
   resize_with_room(turn_, list.size());
   resize_with_room(force_, list.size());
   if (hertzian) resize_with_room(overlap_, list.size());
@@ -102,8 +105,8 @@ void HistoryDerivatives<2>::start(const Increment<2>& increment,
     }
     force_[c] = {};
     if (moments) moment_[c] = {};
-    const auto key = key_of(increment.pairs[c]);
-    const auto& history = increment.history;
+    const auto key = key_of(increment.pairs()[c]);
+    const auto& history = increment.history().contacts();
     while (h < history.size() && key_of(history[h]) < key) ++h;
     if (h == history.size() || key_of(history[h]) != key) continue;
     for (std::size_t k = 0; k < width; ++k) {
@@ -117,8 +120,8 @@ void HistoryDerivatives<2>::start(const Increment<2>& increment,
 // The list starts from force / overlap^(1/4); here that change, and the one of the turn, become those
 // of a linear spring with the stiffness that the list names.
 void HistoryDerivatives<2>::rescale(const Increment<2>& increment) {
-  const auto& list = increment.contacts;
-  const auto& law = *increment.problem->law;
+  const auto& list = increment.contacts();
+  const auto& law = *increment.problem().law;
   const bool moments = law.moments();
   const StartBranches branches(increment);
   for (std::size_t c = 0; c < list.size(); ++c) {

@@ -27,7 +27,7 @@ void for_each_link(const BoundarySpace<2>& space, Visit&& visit) {
 // A negative number stands for a link where others have that of a contact.
 template <>
 void Stiffness<2>::link_anchors(const Increment<2>& increment) {
-  const auto& space = *increment.problem->space;
+  const auto& space = *increment.problem().space;
   std::size_t links = 0;
   for_each_link(space, [&](std::size_t link, std::size_t i, std::size_t a, std::size_t b) {
     const auto& node = space.average[i].node;
@@ -39,8 +39,8 @@ void Stiffness<2>::link_anchors(const Increment<2>& increment) {
 
 template <>
 void Stiffness<2>::add_anchors(const Increment<2>& increment) {
-  const auto& space = *increment.problem->space;
-  const double kn = increment.mean_stiffness();
+  const auto& space = *increment.problem().space;
+  const double kn = increment.masses().mean_stiffness();
   std::array<double, 2> mean{};
   const auto product = [&](const auto& r, const auto& s) {
     return kn * ((r[0] - mean[0]) * (s[0] - mean[0]) + (r[1] - mean[1]) * (s[1] - mean[1]));

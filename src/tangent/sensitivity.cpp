@@ -12,8 +12,8 @@ namespace {
 template <int D>
 DeformationChange<D> change_at(double share, const Increment<D>& increment,
                                const DeformationChange<D>& found) {
-  const auto& space = *increment.problem->space;
-  DeformationChange<D> change = directions<D>(increment.committed_deformation);
+  const auto& space = *increment.problem().space;
+  DeformationChange<D> change = directions<D>(increment.motion().committed_deformation());
   for (std::size_t k = 0; k < squared<D>; ++k) {
     if (space.found[k]) {
       change[k] = found[k];
@@ -46,8 +46,8 @@ void push_forward(const Tensor<D>& f, const Tensor<D>& f0, std::size_t b,
 template <int D>
 bool Sensitivity<D>::solve(Increment<D>& increment, double share, double start_share,
                            Stiffness<D>& stiffness) {
-  const auto& space = *increment.problem->space;
-  const auto& law = *increment.problem->law;
+  const auto& space = *increment.problem().space;
+  const auto& law = *increment.problem().law;
   HistoryChange<D> history;
   if (carried_) {
     history_.start(increment, carried_motion_,
@@ -58,12 +58,13 @@ bool Sensitivity<D>::solve(Increment<D>& increment, double share, double start_s
   const auto touching = stiffness.touching();
   change_ = change_at<D>(share, increment, {});
 
-  const auto b = static_cast<std::size_t>(increment.problem->components());
-  resize_with_room(motion_, increment.node_unknowns());
-  right_.assign(increment.node_unknowns(), ByDeformation<D>{});
+  const auto b = static_cast<std::size_t>(increment.problem().components());
+  resize_with_room(motion_, increment.problem().node_unknowns());
+  right_.assign(increment.problem().node_unknowns(), ByDeformation<D>{});
   add_residual_changes<D>(increment, stiffness, change_, history, right_);
+  if (increment.motion().drag().acts()) drag_.add_to(increment, change_, right_);
   if (!space.identity) {
-    for (std::size_t q = 0; q < increment.nodes(); ++q) {
+    for (std::size_t q = 0; q < increment.problem().nodes(); ++q) {
       for (std::size_t k = 0; k < b; ++k) {
         if ((space.fixed[q] & fixed_bit(k)) != 0) right_[q * b + k] = {};
       }
@@ -80,7 +81,7 @@ bool Sensitivity<D>::solve(Increment<D>& increment, double share, double start_s
     resize_with_room(moment_changes_, Dimension<D>::spins * touching.size());
     find_moment_changes<D>(increment, stiffness, change_, history, motion_, moment_changes_);
   }
-  resize_with_room(place_, increment.contacts.size());
+  resize_with_room(place_, increment.contacts().size());
   std::fill(place_.begin(), place_.end(), -1);
   for (std::size_t k = 0; k < touching.size(); ++k) {
     place_[touching[k].index] = static_cast<std::int32_t>(k);
@@ -93,7 +94,7 @@ template <>
 bool Sensitivity<2>::complete(Increment<2>& increment, const HistoryChange<2>& history,
                               Stiffness<2>& stiffness) {
   const auto touching = stiffness.touching();
-  if (increment.problem->space->finds_deformation) {
+  if (increment.problem().space->finds_deformation) {
     find_contact_changes<2>(increment, touching, change_, history, motion_, changes_);
   }
   return border_.prepare(increment, stiffness) &&
@@ -111,21 +112,22 @@ void Sensitivity<D>::carry(const Increment<D>& increment) {
 template <int D>
 void Sensitivity<D>::carry_free(const Increment<D>& increment, double share) {
   change_ = change_at<D>(share, increment, {});
-  motion_.assign(increment.node_unknowns(), ByDeformation<D>{});
+  motion_.assign(increment.problem().node_unknowns(), ByDeformation<D>{});
   carry(increment);
 }
 
-// As Increment::carry_start moves it: what is not held goes on from its last start, with the mean of
+// As Motion::start_here moves it: what is not held goes on from its last start, with the mean of
 // the others.
 template <int D>
 void Sensitivity<D>::carry_motion(const Increment<D>& increment) {
   constexpr std::size_t width = Dimension<D>::lanes;
   using simd::load;
-  const auto& node = increment.problem->space->node;
-  const auto b = static_cast<std::size_t>(increment.problem->components());
-  if (!carried_) carried_motion_.assign(increment.node_unknowns(), ByDeformation<D>{});
-  if (!increment.problem->space->bound_to_axes()) {
-    push_forward<D>(increment.deformation, increment.start_deformation, b, carried_motion_);
+  const auto& node = increment.problem().space->node;
+  const auto b = static_cast<std::size_t>(increment.problem().components());
+  if (!carried_) carried_motion_.assign(increment.problem().node_unknowns(), ByDeformation<D>{});
+  if (!increment.problem().space->bound_to_axes()) {
+    push_forward<D>(increment.motion().deformation(), increment.motion().start_deformation(), b,
+                    carried_motion_);
   }
   increment.find_held(held_);
   for (std::size_t k = 0; k < D; ++k) {
@@ -138,7 +140,7 @@ void Sensitivity<D>::carry_motion(const Increment<D>& increment) {
       ++count;
     }
     const simd::Lanes<width> mean = count > 0 ? sum / count : sum;
-    for (std::size_t q = 0; q < increment.nodes(); ++q) {
+    for (std::size_t q = 0; q < increment.problem().nodes(); ++q) {
       const std::size_t at = q * b + k;
       if ((held_[q] & fixed_bit(k)) != 0) {
         carried_motion_[at] = motion_[at];
@@ -147,7 +149,7 @@ void Sensitivity<D>::carry_motion(const Increment<D>& increment) {
       }
     }
   }
-  for (std::size_t q = 0; q < increment.nodes(); ++q) {
+  for (std::size_t q = 0; q < increment.problem().nodes(); ++q) {
     for (std::size_t k = D; k < b; ++k) carried_motion_[q * b + k] = motion_[q * b + k];
   }
 }

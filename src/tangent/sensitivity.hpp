@@ -4,6 +4,7 @@
 #include "increment/increment.hpp"
 #include "tangent/bordered_system.hpp"
 #include "tangent/contact_change.hpp"
+#include "tangent/drag_change.hpp"
 #include "tangent/stiffness.hpp"
 
 #include <vector>
@@ -15,7 +16,10 @@ namespace grainlaw::core {
 template <int D>
 class Sensitivity {
  public:
-  void reset() { carried_ = false; }
+  void reset() {
+    carried_ = false;
+    drag_.reset();
+  }
 
   // Solve K dz = dr/dF at a converged sub-increment that ends at `share` and began at
   // `start_share`. False when the stiffness is singular.
@@ -24,6 +28,8 @@ class Sensitivity {
   // Keep what the next sub-increment's history depends on; call before
   // Increment::continue_history().
   void carry(const Increment<D>& increment);
+  // Where a part with drag ends.
+  void carry_drag(const Increment<D>& increment) { drag_.carry(increment, motion_); }
   // The same where no contact carries, at a share of the way.
   void carry_free(const Increment<D>& increment, double share);
 
@@ -41,6 +47,7 @@ class Sensitivity {
   DeformationChange<D> change_{}, carried_change_{};  // of F; found components depend on the others
   BorderedSystem border_;
   HistoryDerivatives<D> history_;
+  DragDerivatives<D> drag_;
   std::vector<ByDeformation<D>> motion_, right_;  // per node and component
   std::vector<ByDeformation<D>> carried_motion_;  // at the start of the history
   std::vector<ContactChange<D>> changes_;         // per touching contact

@@ -38,8 +38,8 @@ struct Loop {
 Change change_of(const Loop& loop, const TouchingContact<3>& contact,
                  const ByDeformation<3>* motion) {
   constexpr std::size_t b = Dimension<3>::unknowns;
-  const auto& list = loop.increment.contacts;
-  const auto& law = *loop.increment.problem->law;
+  const auto& list = loop.increment.contacts();
+  const auto& law = *loop.increment.problem().law;
   const auto& s = contact.stiffness;
   const Vec<3> reference = grainlaw::core::product<3>(loop.pull_back, contact.point.branch);
   Change result{};
@@ -103,7 +103,7 @@ Change change_of(const Loop& loop, const TouchingContact<3>& contact,
 
 Loop loop_of(const Increment<3>& increment, const DeformationChange<3>& change,
              const HistoryChange<3>& history) {
-  return {increment, inverse<3>(increment.deformation), change, history};
+  return {increment, inverse<3>(increment.motion().deformation()), change, history};
 }
 
 void put(const Triple& from, std::array<ByDeformation<3>, 3>& to) {
@@ -118,7 +118,7 @@ void add_residual_changes<3>(const Increment<3>& increment, const Stiffness<3>& 
                              std::span<ByDeformation<3>> residual) {
   constexpr std::size_t b = Dimension<3>::unknowns;
   const Loop loop = loop_of(increment, change, history);
-  const bool rotating = increment.problem->law->rotating();
+  const bool rotating = increment.problem().law->rotating();
   for (const auto& contact : stiffness.touching()) {
     const Change found = change_of(loop, contact, nullptr);
     const double radius_i = contact.lever_i * contact.reach;

@@ -13,7 +13,7 @@ void HistoryDerivatives<3>::carry(const Increment<3>& increment,
                                   std::span<const ContactChange<3>> changes,
                                   std::span<const ByDeformation<3>> /*moment_changes*/,
                                   std::span<const std::int32_t> place) {
-  const auto& list = increment.contacts;
+  const auto& list = increment.contacts();
   carried_force_.clear();
   for (std::size_t c = 0; c < list.size(); ++c) {
     if (!increment.carries(c)) continue;
@@ -30,12 +30,12 @@ void HistoryDerivatives<3>::start(const Increment<3>& increment,
                                   std::span<const ByDeformation<3>> motion,
                                   const DeformationChange<3>& change) {
   constexpr std::size_t width = Dimension<3>::lanes;
-  const auto& list = increment.contacts;
-  const auto& law = *increment.problem->law;
-  const auto& history = increment.history;
+  const auto& list = increment.contacts();
+  const auto& law = *increment.problem().law;
+  const auto& history = increment.history().contacts();
   const std::size_t b = Dimension<3>::unknowns;
-  const Tensor<3> cell = tensor_of<3>(increment.problem->packing->cell);
-  const Tensor<3> pull_back = inverse<3>(increment.start_deformation);
+  const Tensor<3> cell = tensor_of<3>(increment.problem().packing->cell);
+  const Tensor<3> pull_back = inverse<3>(increment.motion().start_deformation());
   resize_with_room(normal_, list.size());
   resize_with_room(force_, list.size());
   std::size_t h = 0;
@@ -44,11 +44,11 @@ void HistoryDerivatives<3>::start(const Increment<3>& increment,
     const auto j = static_cast<std::size_t>(list.j[c]);
     const Vec<3> shift =
         product<3>(cell, Vec<3>{list.shift[0][c], list.shift[1][c], list.shift[2][c]});
-    const Vec<3> l = branch<3>(increment.start.data(), increment.particles(), i, j,
-                               increment.start_deformation, shift);
+    const Vec<3> l = branch<3>(increment.motion().start().data(), increment.problem().particles(),
+                               i, j, increment.motion().start_deformation(), shift);
     const Vec<3> reference = product<3>(pull_back, l);
     const double d = std::sqrt(square<3>(l));
-    const auto key = key_of(increment.pairs[c]);
+    const auto key = key_of(increment.pairs()[c]);
     while (h < history.size() && key_of(history[h]) < key) ++h;
     const bool known = h < history.size() && key_of(history[h]) == key;
     const double overlap = list.reach[c] - d;

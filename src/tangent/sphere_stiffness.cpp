@@ -66,7 +66,7 @@ void Stiffness<3>::add_moments() {}
 template <>
 void Stiffness<3>::hold_free_spins(const Increment<3>& increment) {
   constexpr unsigned char two = 2, more = 3;
-  const std::size_t n = increment.nodes();
+  const std::size_t n = increment.problem().nodes();
   resize_with_room(contacts_of_node_, n);
   resize_with_room(count_of_node_, n);
   std::fill(count_of_node_.begin(), count_of_node_.end(), static_cast<unsigned char>(0));
@@ -89,9 +89,9 @@ void Stiffness<3>::hold_free_spins(const Increment<3>& increment) {
     const double square_length = square<3>(chord);
     if (!(square_length > 0)) continue;
     const auto c = touching_[static_cast<std::size_t>(contacts_of_node_[q][0])].index;
-    const double r = increment.node_radius[q];
-    const double hold =
-        tuned::free_spin_hold * increment.contacts.tangential_stiffness[c] * r * r / square_length;
+    const double r = increment.motion().node_radius()[q];
+    const double hold = tuned::free_spin_hold * increment.contacts().tangential_stiffness[c] * r *
+                        r / square_length;
     for (std::size_t k = 0; k < 3; ++k) {
       for (std::size_t l = 0; l < 3; ++l) {
         matrix_.block(q)[3 + l].lane[3 + k] += hold * chord[k] * chord[l];

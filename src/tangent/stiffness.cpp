@@ -1,4 +1,5 @@
 #include "tangent/stiffness.hpp"
+#include "tangent/drag_change.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,13 +18,14 @@ constexpr std::int32_t on_the_diagonal = -1;
 
 template <int D>
 void Stiffness<D>::find_touching(const Increment<D>& increment) {
-  const auto& list = increment.contacts;
-  const auto& node = increment.problem->space->node;
-  const auto& law = *increment.problem->law;
+  const auto& list = increment.contacts();
+  const auto& node = increment.problem().space->node;
+  const auto& law = *increment.problem().law;
   touching_.clear();
   for (std::size_t c = 0; c < list.size(); ++c) {
     if (increment.surely_open(c)) continue;
-    const auto point = contact_point(list, c, increment.coordinates, increment.particles(), law);
+    const auto point = contact_point(list, c, increment.motion().coordinates(),
+                                     increment.problem().particles(), law);
     if (point.status == ContactStatus::open) continue;
     auto& contact = touching_.emplace_back();
     contact.index = c;
@@ -38,8 +40,9 @@ void Stiffness<D>::find_touching(const Increment<D>& increment) {
   moments_.clear();
   if (!law.moments()) return;
   for (const auto& contact : touching_) {
-    moments_.push_back(contact_moment(list, contact.index, contact.point, increment.coordinates,
-                                      increment.particles(), law));
+    moments_.push_back(contact_moment(list, contact.index, contact.point,
+                                      increment.motion().coordinates(),
+                                      increment.problem().particles(), law));
   }
   keep_room(moments_);
 }
@@ -47,8 +50,8 @@ void Stiffness<D>::find_touching(const Increment<D>& increment) {
 // Whether the graph was made in this increment, from these contacts, and holds all that touch.
 template <int D>
 bool Stiffness<D>::graph_serves(const Increment<D>& increment) const {
-  const auto& list = increment.contacts;
-  if (increment.factorisations == 0 || listed_i_.size() != list.size() ||
+  const auto& list = increment.contacts();
+  if (increment.cost.factorisations == 0 || listed_i_.size() != list.size() ||
       !std::equal(listed_i_.begin(), listed_i_.end(), list.i.begin()) ||
       !std::equal(listed_j_.begin(), listed_j_.end(), list.j.begin())) {
     return false;
@@ -60,8 +63,8 @@ bool Stiffness<D>::graph_serves(const Increment<D>& increment) const {
 
 template <int D>
 void Stiffness<D>::find_graph(const Increment<D>& increment) {
-  const auto& list = increment.contacts;
-  const auto& node = increment.problem->space->node;
+  const auto& list = increment.contacts();
+  const auto& node = increment.problem().space->node;
   resize_with_room(listed_i_, list.size());
   resize_with_room(listed_j_, list.size());
   std::copy_n(list.i.begin(), list.size(), listed_i_.begin());
@@ -77,7 +80,7 @@ void Stiffness<D>::find_graph(const Increment<D>& increment) {
     if (a != b) pairs_.push_back({{a, b}, static_cast<std::int32_t>(c)});
   }
   if constexpr (D == 2) {
-    if (increment.problem->space->averages()) link_anchors(increment);
+    if (increment.problem().space->averages()) link_anchors(increment);
   }
   keep_room(pairs_);
   if (!std::is_sorted(pairs_.begin(), pairs_.end())) std::sort(pairs_.begin(), pairs_.end());
@@ -102,25 +105,31 @@ void Stiffness<D>::assemble(const Increment<D>& increment, double shift) {
     if (factors_ == Factors::of_matrix) factors_ = Factors::of_earlier_matrix;
   } else {
     find_graph(increment);
-    matrix_.reset(increment.nodes(), increment.problem->components(), graph_);
+    matrix_.reset(increment.problem().nodes(), increment.problem().components(), graph_);
     factors_ = Factors::none;
   }
   add_contacts();
   if (!moments_.empty()) add_moments();
   add_masses(increment, shift);
+  const bool drag = increment.motion().drag().acts();
+  if (drag) add_drag(increment);
   if constexpr (D == 3) {
-    increment.problem->law->rotating() ? hold_free_spins(increment) : hold_rotations(increment);
+    if (!increment.problem().law->rotating()) {
+      hold_rotations(increment);
+    } else if (!drag) {
+      hold_free_spins(increment);
+    }
   }
-  if (increment.problem->space->identity) return;
+  if (increment.problem().space->identity) return;
   if constexpr (D == 2) {
-    if (increment.problem->space->averages()) add_anchors(increment);
+    if (increment.problem().space->averages()) add_anchors(increment);
   }
   hold_fixed_nodes(increment);
 }
 
 template <int D>
 void Stiffness<D>::hold_fixed_nodes(const Increment<D>& increment) {
-  const auto& fixed = increment.problem->space->fixed;
+  const auto& fixed = increment.problem().space->fixed;
   const auto b = static_cast<std::size_t>(matrix_.components);
   const auto clear = [&](std::size_t index, unsigned char bits, bool rows) {
     Column* block = matrix_.block(index);
@@ -154,7 +163,25 @@ void Stiffness<D>::add_masses(const Increment<D>& increment, double factor) {
   for (std::size_t q = 0; q < matrix_.nodes; ++q) {
     Column* block = matrix_.block(q);
     for (std::size_t k = 0; k < b; ++k) {
-      block[k].lane[k] += factor * increment.mass[k * matrix_.nodes + q];
+      block[k].lane[k] += factor * increment.masses().of_unknowns()[k * matrix_.nodes + q];
+    }
+  }
+}
+
+template <int D>
+void Stiffness<D>::add_drag(const Increment<D>& increment) {
+  const auto b = static_cast<std::size_t>(matrix_.components);
+  constexpr std::size_t spins = Dimension<D>::spins;
+  for (std::size_t q = 0; q < matrix_.nodes; ++q) {
+    Column* block = matrix_.block(q);
+    const double* stiffness = &increment.motion().drag().stiffness(q).x;
+    for (std::size_t k = 0; k < D; ++k) block[k].lane[k] += stiffness[k];
+    const double radius = increment.motion().node_radius()[q];
+    const auto turn = rotation_by_spin<D>(increment, q);
+    for (std::size_t k = 0; k + D < b; ++k) {
+      for (std::size_t l = 0; l + D < b; ++l) {
+        block[D + l].lane[D + k] += radius * radius * stiffness[D + k] * turn[k * spins + l];
+      }
     }
   }
 }

@@ -33,7 +33,7 @@ struct TouchingContact {
 
 // What one increment of deformation left here serves the rest of it: the graph while all contacts
 // that touch are in it, the factors for solve_together(). Nothing is carried from one increment to the
-// next that could change a bit there: Increment::factorisations is zero when one begins.
+// next that could change a bit there: Increment::cost has no factorisations when one begins.
 template <int D>
 class Stiffness {
  public:
@@ -49,7 +49,7 @@ class Stiffness {
   // Add to what was assembled, against the rotation of a node, as much as its mass.
   void hold_rotation(const Increment<D>& increment, std::size_t node) {
     for (std::size_t k = D; k < Dimension<D>::unknowns; ++k) {
-      matrix_.block(node)[k].lane[k] += increment.mass[k * matrix_.nodes + node];
+      matrix_.block(node)[k].lane[k] += increment.masses().of_unknowns()[k * matrix_.nodes + node];
     }
   }
 
@@ -87,6 +87,7 @@ class Stiffness {
   void link_anchors(const Increment<D>& increment);
   void add_anchors(const Increment<D>& increment);
   void add_masses(const Increment<D>& increment, double factor);
+  void add_drag(const Increment<D>& increment);
   bool solve_together_by_factors(const Increment<D>& increment, std::span<const Together<width>> b,
                                  std::span<Together<width>> x);
   bool solve_by_gmres(const Increment<D>& increment);

@@ -65,14 +65,15 @@ void add_to(std::span<Register> to, const std::vector<Register>& values) {
 
 template <int D>
 void Stiffness<D>::factorise(Increment<D>& increment) {
-  const bool first = increment.factorisations++ == 0;
+  const bool first = increment.cost.factorisations++ == 0;
   lu_.analyse(matrix_, !first);
   gmres_.reserve(matrix_.nodes);
   const auto b = static_cast<std::size_t>(matrix_.components);
   resize_with_room(ground_, matrix_.nodes);
   for (std::size_t q = 0; q < matrix_.nodes; ++q) {
     for (std::size_t k = 0; k < b; ++k) {
-      ground_[q].lane[k] = tuned::grounding * increment.mass[k * matrix_.nodes + q];
+      ground_[q].lane[k] =
+          tuned::grounding * increment.masses().of_unknowns()[k * matrix_.nodes + q];
     }
   }
   factors_ = lu_.factorise(matrix_, ground_) ? Factors::of_matrix : Factors::none;
@@ -93,7 +94,7 @@ bool Stiffness<D>::solve(const Increment<D>& increment, std::span<const double> 
   }
   const double scale = std::max(largest_of(right_, nodes), std::numeric_limits<double>::min());
   // Of a right-hand side that is rounding alone nothing can be solved for.
-  const double enough = std::max(tuned::usable_solution, increment.rounding_force() / scale);
+  const double enough = std::max(tuned::usable_solution, increment.scale().rounding() / scale);
   const auto defect = [&] {
     matrix_.residual(right_, solution_, check_);
     return largest_of(check_, nodes) / scale;
@@ -122,7 +123,7 @@ bool Stiffness<D>::solve_by_gmres(const Increment<D>& increment) {
   matrix_.residual(right_, solution_, check_);
   return largest_of(check_, matrix_.nodes) <=
          std::max(tuned::usable_solution * largest_of(right_, matrix_.nodes),
-                  increment.rounding_force());
+                  increment.scale().rounding());
 }
 
 // The worst of the residuals counts.
@@ -131,7 +132,7 @@ bool Stiffness<D>::solve_together_by_factors(const Increment<D>& increment,
                                              std::span<const Together<width>> b,
                                              std::span<Together<width>> x) {
   const bool earlier = factors_ == Factors::of_earlier_matrix;
-  const double floor = increment.rounding_force() / tuned::usable_solution;
+  const double floor = increment.scale().rounding() / tuned::usable_solution;
   const auto scale = largest_by_lane(b);
   const auto defect = [&] {
     matrix_.residual_together(b, x, check_together_);

@@ -37,6 +37,7 @@ TEST(bad_pointer, null_is_refused_by_every_function) {
   refused(grainlaw_evaluate(nullptr, F, 0, nullptr, nullptr, nullptr), "evaluate state");
   refused(grainlaw_evaluate(state.get(), nullptr, 0, nullptr, nullptr, nullptr), "evaluate F");
   refused(grainlaw_commit(nullptr), "commit");
+  refused(grainlaw_state_set_time_step(nullptr, 1), "set_time_step");
   refused(grainlaw_revert(nullptr), "revert");
 
   std::size_t size = 0;
@@ -77,6 +78,7 @@ TEST(bad_handle, of_the_other_kind_or_dead_is_told) {
     refused(grainlaw_state_clone(handle, &created), "clone");
     refused(grainlaw_evaluate(handle, compressed.data(), 0, nullptr, nullptr, nullptr), "evaluate");
     refused(grainlaw_commit(handle), "commit");
+    refused(grainlaw_state_set_time_step(handle, 1), "set_time_step");
     refused(grainlaw_revert(handle), "revert");
     refused(grainlaw_state_save(handle, nullptr, &size), "save");
     refused(grainlaw_state_load(handle, &value, sizeof value), "load");

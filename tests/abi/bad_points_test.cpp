@@ -57,6 +57,7 @@ TEST_F(bad_points, null_pointers_are_refused) {
       grainlaw_points_evaluate(nullptr, &value, 0, nullptr, nullptr, nullptr, nullptr, 1, nullptr),
       "evaluate set");
   refused(grainlaw_points_commit(nullptr), "commit");
+  refused(grainlaw_points_set_time_step(nullptr, 1), "set_time_step");
   refused(grainlaw_points_revert(nullptr), "revert");
   refused(grainlaw_points_save(nullptr, nullptr, &size), "save set");
   refused(grainlaw_points_save(set_.get(), nullptr, nullptr), "save size");
@@ -87,6 +88,7 @@ TEST_F(bad_points, a_handle_of_another_kind_or_dead_is_told) {
         grainlaw_points_evaluate(handle, &value, 0, nullptr, nullptr, nullptr, nullptr, 1, nullptr),
         "evaluate");
     refused(grainlaw_points_commit(handle), "commit");
+    refused(grainlaw_points_set_time_step(handle, 1), "set_time_step");
     refused(grainlaw_points_revert(handle), "revert");
     refused(grainlaw_points_save(handle, nullptr, &size), "save");
     refused(grainlaw_points_load(handle, &value, sizeof value, nullptr, 0), "load");

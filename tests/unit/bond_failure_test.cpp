@@ -45,8 +45,8 @@ struct Pair {
     from.moments = {0};
     increment.begin(problem, from, identity);
   }
-  double& x(std::size_t p) { return increment.coordinates[p]; }
-  double& turn(std::size_t p) { return increment.coordinates[4 + p]; }
+  double& x(std::size_t p) { return increment.motion().coordinate(0, p); }
+  double& turn(std::size_t p) { return increment.motion().coordinate(2, p); }
 };
 
 // Breaks at `limit`, not before it.
@@ -57,8 +57,8 @@ void expect_breaks_at(double limit, Move&& move) {
     move(pair, share * limit);
     EXPECT_EQ(pair.increment.overloads_bonds(), share > 1);
     EXPECT_EQ(pair.increment.break_bonds(), share > 1);
-    EXPECT_EQ(pair.increment.contacts.bonded(0), share < 1);
-    EXPECT_EQ(pair.increment.broken_bonds, share > 1 ? 1 : 0);
+    EXPECT_EQ(pair.increment.contacts().bonded(0), share < 1);
+    EXPECT_EQ(pair.increment.losses().broken_bonds(), share > 1 ? 1 : 0);
     EXPECT_FALSE(pair.increment.overloads_bonds());
   }
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace grainlaw::core::test {
@@ -23,35 +24,41 @@ struct Scene {
         problem(material->problem()) {
     increment.begin(problem, material->initial, F);
     increment.refresh_masses();
+    contacts = increment.contacts();
     arrange(true);
     totals = look();
   }
 
   void arrange(bool at_rest) {
-    sides.arrange(increment.contacts, material->packing, increment.least_masses(), at_rest);
+    sides.arrange(contacts, material->packing, increment.masses().least(), at_rest);
   }
 
   ContactTotals look() {
-    return sides.look(increment.records, material->law, tuned::mass_factor, increment.contacts);
+    return sides.look(records(), material->law, tuned::mass_factor, contacts);
+  }
+
+  [[nodiscard]] std::span<ParticleRecord> records() { return increment.motion().records(); }
+  [[nodiscard]] std::vector<ParticleRecord> places() {
+    return {records().begin(), records().end()};
   }
 
   // Residual by the law where the records are.
   [[nodiscard]] std::vector<ForceRecord> residual() {
-    std::vector<ForceRecord> result(increment.nodes());
-    evaluate_contacts<2>(increment.records, material->law, increment.contacts, result);
+    std::vector<ForceRecord> result(problem.nodes());
+    evaluate_contacts<2>(records(), material->law, contacts, result);
     return result;
   }
 
   // The same by a step from rest, which moves particles by gain r / m.
   [[nodiscard]] std::vector<ForceRecord> step() {
-    auto before = increment.records;
+    auto before = places();
     sides.move(before);
     measured = sides.step(material->law, 0, gain);
-    auto after = increment.records;
+    auto after = places();
     sides.move(after);
-    std::vector<ForceRecord> result(increment.nodes());
+    std::vector<ForceRecord> result(problem.nodes());
     for (std::size_t p = 0; p < result.size(); ++p) {
-      const auto& m = increment.mass_records[p];
+      const auto& m = increment.masses().records()[p];
       result[p] = {(after[p].x - before[p].x) * m.x / gain, (after[p].y - before[p].y) * m.y / gain,
                    (after[p].roll - before[p].roll) * m.roll / gain};
     }
@@ -61,6 +68,7 @@ struct Scene {
   std::shared_ptr<const Material> material;
   Problem problem;
   Increment increment;
+  ContactList contacts;
   ContactSides sides;
   ContactTotals totals{};
   ContactSides::Measured measured{};
@@ -102,8 +110,8 @@ TEST(contact_sides, carry_the_forces_of_the_law_at_their_place) {
         const double force = scene.totals.force / scene.totals.weights;
         EXPECT_LE(largest_difference(scene.step(), expected), 1e-8 * force) << count;
         EXPECT_NEAR(scene.measured.largest, largest(expected), 1e-10 * force) << count;
-        EXPECT_EQ(scene.totals.touching, scene.increment.touching);
-        EXPECT_NEAR(force, scene.increment.mean_force, 1e-12 * force);
+        EXPECT_EQ(scene.totals.touching, scene.increment.scale().touching());
+        EXPECT_NEAR(force, scene.increment.scale().mean_force(), 1e-12 * force);
       }
     }
   }
@@ -114,10 +122,10 @@ TEST(contact_sides, follow_the_law_to_first_order_of_the_moves) {
   for (const auto& law : laws()) {
     Scene scene(small_packing(), law, {1.0004, 2e-4, 0, 0.999});
     const auto at_place = scene.step();
-    auto there = scene.increment.records;
+    auto there = scene.places();
     scene.sides.move(there);
     const auto changed = scene.step();
-    scene.increment.records = there;
+    std::copy(there.begin(), there.end(), scene.records().begin());
     const double change = largest_difference(changed, at_place);
     EXPECT_GT(change, 0);
     EXPECT_LE(largest_difference(changed, scene.residual()), 4e-3 * change);
@@ -131,7 +139,7 @@ TEST(contact_sides, give_every_particle_its_force_in_whatever_order_they_lie) {
   for (std::size_t p = reversed.size(); p > 0; --p) {
     reversed.order.push_back(static_cast<std::int32_t>(p - 1));
   }
-  scene.sides.arrange(scene.increment.contacts, reversed, scene.increment.least_masses(), true);
+  scene.sides.arrange(scene.contacts, reversed, scene.increment.masses().least(), true);
   scene.look();
   EXPECT_EQ(largest_difference(scene.step(), expected), 0);
 }
@@ -141,13 +149,13 @@ TEST(contact_sides, keep_their_velocities_in_a_new_list) {
     Scene scene(small_packing(), rough_law(), {1.0004, 2e-4, 0, 0.999});
     const auto& law = scene.material->law;
     for (int k = 0; k < 5; ++k) scene.sides.step(law, 0.9, gain);
-    scene.sides.move(scene.increment.records);
+    scene.sides.move(scene.records());
     if (anew) scene.arrange(false);
     scene.look();
     scene.sides.step(law, 0.9, gain);
-    scene.sides.move(scene.increment.records);
+    scene.sides.move(scene.records());
     std::vector<std::array<double, 3>> places;
-    for (const auto& at : scene.increment.records) places.push_back({at.x, at.y, at.roll});
+    for (const auto& at : scene.records()) places.push_back({at.x, at.y, at.roll});
     return places;
   };
   EXPECT_EQ(moved(true), moved(false));

@@ -26,7 +26,7 @@ Found solve_from_relaxed(int increments, RelaxationMemory* settling) {
     increment.refresh_masses();
     const bool relaxed = relax(increment, 5e-4, 5000, History::committed, relaxation);
     if (relaxed && pseudo_transient_newton(increment, 1e-8, 50, newton, settling)) ++found.solved;
-    found.factorisations += increment.factorisations;
+    found.factorisations += increment.cost.factorisations;
     advance(state, F);
   }
   return found;

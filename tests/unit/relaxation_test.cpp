@@ -233,7 +233,7 @@ long steps_of_shear(bool may_extrapolate) {
   long steps = 0;
   lead_shear(40, 2e-4, [&](Increment& increment) {
     EXPECT_TRUE(relax(increment, 1e-9, step_limit, History::committed, memory, 0, may_extrapolate));
-    steps += increment.relaxation_steps;
+    steps += increment.cost.relaxation_steps;
   });
   return steps;
 }
@@ -254,7 +254,7 @@ TEST(relaxation, what_flutters_on_is_given_up_before_its_limit) {
       return;
     }
     EXPECT_GT(increment.residual_norm(), 5e-4);
-    EXPECT_LT(increment.relaxation_steps, limit);
+    EXPECT_LT(increment.cost.relaxation_steps, limit);
     ++given_up;
   });
   EXPECT_GT(given_up, 0);

@@ -38,21 +38,23 @@ struct Sheared {
   }
   bool turn_all(double least) {
     find();
-    mechanisms.see(increment, std::vector<double>(increment.unknowns(), 1.0), 0);
+    mechanisms.see(increment, std::vector<double>(increment.problem().unknowns(), 1.0), 0);
     return turn_seen(least);
   }
   [[nodiscard]] double moment(std::size_t p) const {  // as a force on the surface
-    return increment.residual()[2 * increment.nodes() + p] / increment.node_radius[p];
+    return increment.residual()[2 * increment.problem().nodes() + p] /
+           increment.motion().node_radius()[p];
   }
   [[nodiscard]] double turned(std::size_t p) const {  // length along the surface
-    return increment.coordinates[2 * increment.nodes() + p] * increment.node_radius[p];
+    return increment.motion().coordinates()[2 * increment.problem().nodes() + p] *
+           increment.motion().node_radius()[p];
   }
   [[nodiscard]] ContactPoint point(std::size_t c) const {
-    return contact_point(increment.contacts, c, increment.coordinates, increment.particles(),
-                         *problem.law);
+    return contact_point(increment.contacts(), c, increment.motion().coordinates(),
+                         increment.problem().particles(), *problem.law);
   }
   [[nodiscard]] std::size_t contact(int i, int j) const {
-    const auto& list = increment.contacts;
+    const auto& list = increment.contacts();
     for (std::size_t c = 0; c < list.size(); ++c) {
       if (list.i[c] == i && list.j[c] == j && point(c).status != ContactStatus::open) return c;
     }
@@ -77,7 +79,7 @@ struct Pair : Sheared {
   std::size_t stuck;
 
   Pair() : Sheared({0.5e-3, 0.5e-3, 2e-3}) {
-    increment.coordinates[2] -= 0.1 * overlap;  // its contacts carry different forces
+    increment.motion().coordinate(0, 2) -= 0.1 * overlap;  // its contacts carry different forces
     increment.update_forces();
     stuck = contact(0, 1);
     EXPECT_EQ(point(stuck).status, ContactStatus::sticking);
@@ -90,7 +92,7 @@ struct Pair : Sheared {
 
 TEST(mechanisms, a_disc_that_slides_on_all_others_turns_to_where_its_moment_vanishes) {
   Sheared sheared({1e-3, 1e-3});
-  const std::vector<double> places = sheared.increment.coordinates;
+  const std::vector<double> places = sheared.increment.motion().coordinates();
   ASSERT_EQ(sheared.point(0).status, ContactStatus::sliding);
   const double before = std::abs(sheared.moment(0));
   EXPECT_GT(before, 0);
@@ -101,7 +103,7 @@ TEST(mechanisms, a_disc_that_slides_on_all_others_turns_to_where_its_moment_vani
   for (const std::size_t p : {0U, 1U}) {
     EXPECT_LT(std::abs(sheared.moment(p)), 1e-9 * before);
     for (const std::size_t k : {p, 2 + p}) {
-      EXPECT_EQ(sheared.increment.coordinates[k], places[k]);
+      EXPECT_EQ(sheared.increment.motion().coordinates()[k], places[k]);
     }
   }
 }
@@ -126,9 +128,9 @@ TEST(mechanisms, what_other_motions_balance_is_left_to_them) {
 
 TEST(mechanisms, nothing_turns_for_less_than_asked_or_where_it_is_in_balance) {
   Sheared sheared({1e-3, 1e-3});
-  const std::vector<double> places = sheared.increment.coordinates;
+  const std::vector<double> places = sheared.increment.motion().coordinates();
   EXPECT_FALSE(sheared.turn(2 * std::abs(sheared.moment(0))));
-  EXPECT_EQ(sheared.increment.coordinates, places);
+  EXPECT_EQ(sheared.increment.motion().coordinates(), places);
   const double least = 1e-9 * std::abs(sheared.moment(0));
   EXPECT_TRUE(sheared.turn(least));
   EXPECT_FALSE(sheared.turn(least));

@@ -136,9 +136,11 @@ Increment<3>& moved_increment(const Material<3>& material, Problem<3>& problem) 
   increment.begin(problem, material.initial, {1.0005, 1e-4, 0, 0, 1.0004, -2e-4, 0, 0, 0.999});
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  const std::size_t n = increment.particles();
-  for (std::size_t k = 0; k < 3 * n; ++k) increment.coordinates[k] += 2e-7 * uniform(random);
-  for (std::size_t k = 3 * n; k < 6 * n; ++k) increment.coordinates[k] = 1e-3 * uniform(random);
+  const std::size_t n = problem.particles();
+  auto coordinates = increment.motion().coordinates();
+  for (std::size_t k = 0; k < 3 * n; ++k) coordinates[k] += 2e-7 * uniform(random);
+  for (std::size_t k = 3 * n; k < 6 * n; ++k) coordinates[k] = 1e-3 * uniform(random);
+  increment.motion().go_to(coordinates, increment.motion().deformation());
   increment.update_forces();
   increment.refresh_masses();
   increment.update_forces();
@@ -150,19 +152,19 @@ TEST(sphere_loops, have_the_forces_of_single_contacts) {
     const auto material = make_material<3>(turning ? describe() : locked(describe()));
     Problem<3> problem;
     auto& increment = moved_increment(*material, problem);
-    std::vector<double> force(3 * increment.particles(), 0.0);
+    std::vector<double> force(3 * increment.problem().particles(), 0.0);
     double scale = 0;
-    for (std::size_t c = 0; c < increment.contacts.size(); ++c) {
-      const auto point = contact_point(increment.contacts, c, increment.coordinates,
-                                       increment.particles(), material->law);
+    for (std::size_t c = 0; c < increment.contacts().size(); ++c) {
+      const auto point = contact_point(increment.contacts(), c, increment.motion().coordinates(),
+                                       increment.problem().particles(), material->law);
       if (point.status == ContactStatus::open) continue;
       const Vec<3> f = point.force_on_j();
       scale = std::max(scale, length<3>(f));
       for (std::size_t k = 0; k < 3; ++k) {
-        force[k * increment.particles() + static_cast<std::size_t>(increment.contacts.j[c])] +=
-            f[k];
-        force[k * increment.particles() + static_cast<std::size_t>(increment.contacts.i[c])] -=
-            f[k];
+        force[k * increment.problem().particles() +
+              static_cast<std::size_t>(increment.contacts().j[c])] += f[k];
+        force[k * increment.problem().particles() +
+              static_cast<std::size_t>(increment.contacts().i[c])] -= f[k];
       }
     }
     for (std::size_t k = 0; k < force.size(); ++k) {
@@ -173,13 +175,13 @@ TEST(sphere_loops, have_the_forces_of_single_contacts) {
 
 // Touching contacts of every node.
 std::vector<int> contacts_of_nodes(const Increment<3>& increment, const ContactLaw& law) {
-  std::vector<int> count(increment.nodes(), 0);
-  for (std::size_t c = 0; c < increment.contacts.size(); ++c) {
-    const auto point =
-        contact_point(increment.contacts, c, increment.coordinates, increment.particles(), law);
+  std::vector<int> count(increment.problem().nodes(), 0);
+  for (std::size_t c = 0; c < increment.contacts().size(); ++c) {
+    const auto point = contact_point(increment.contacts(), c, increment.motion().coordinates(),
+                                     increment.problem().particles(), law);
     if (point.status == ContactStatus::open) continue;
-    ++count[static_cast<std::size_t>(increment.contacts.i[c])];
-    ++count[static_cast<std::size_t>(increment.contacts.j[c])];
+    ++count[static_cast<std::size_t>(increment.contacts().i[c])];
+    ++count[static_cast<std::size_t>(increment.contacts().j[c])];
   }
   return count;
 }
@@ -191,34 +193,34 @@ TEST(sphere_stiffness, is_the_derivative_of_the_residual) {
   Problem<3> problem;
   auto& increment = moved_increment(*material, problem);
   Stiffness<3> stiffness;
-  const std::size_t n = increment.particles();
+  const std::size_t n = increment.problem().particles();
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1, 1);
   std::vector<double> motion(6 * n);
   for (std::size_t k = 0; k < motion.size(); ++k) {
-    motion[k] = (k < 3 * n ? increment.node_radius[k % n] : 1.0) * uniform(random);
+    motion[k] = (k < 3 * n ? increment.motion().node_radius()[k % n] : 1.0) * uniform(random);
   }
   const auto count = contacts_of_nodes(increment, material->law);
   for (std::size_t k = 3 * n; k < motion.size(); ++k) {
     if (count[k % n] == 2) motion[k] = 0;
   }
-  const auto before = increment.coordinates;
+  const auto before = increment.motion().coordinates();
   std::array<std::vector<double>, 2> residual;
   constexpr double step = 1e-7;
   for (std::size_t side = 0; side < 2; ++side) {
-    increment.coordinates = before;
-    increment.move(motion, side == 0 ? step : -step);
+    increment.motion().go_to(before, increment.motion().deformation());
+    increment.motion().move(motion, side == 0 ? step : -step);
     increment.update_forces();
     residual[side].assign(increment.residual().begin(), increment.residual().end());
   }
-  increment.coordinates = before;
+  increment.motion().go_to(before, increment.motion().deformation());
   increment.update_forces();
   stiffness.assemble(increment, 0);
   double worst = 0;
   double scale = 0;
   const auto by_stiffness = stiffness.product(motion);
   for (std::size_t k = 0; k < motion.size(); ++k) {
-    const double lever = k < 3 * n ? 1.0 : increment.node_radius[k % n];
+    const double lever = k < 3 * n ? 1.0 : increment.motion().node_radius()[k % n];
     const double difference = (residual[1][k] - residual[0][k]) / (2 * step);
     worst = std::max(worst, std::abs(by_stiffness[k] - difference) / lever);
     scale = std::max(scale, std::abs(difference) / lever);

@@ -62,22 +62,6 @@ TEST(spheres, rotation_turns_stress_and_particles) {
   }
 }
 
-Tensor4<3> central_differences(State<3>& state, const Deformation& F, double step) {
-  Tensor4<3> tangent{};
-  for (std::size_t k = 0; k < 9; ++k) {
-    Deformation stress[2];
-    for (int side = 0; side < 2; ++side) {
-      Deformation at = F;
-      at[k] += side == 0 ? step : -step;
-      stress[side] = evaluate(state, at).stress;
-    }
-    for (std::size_t m = 0; m < 9; ++m) {
-      tangent[9 * m + k] = (stress[0][m] - stress[1][m]) / (2 * step);
-    }
-  }
-  return tangent;
-}
-
 TEST(spheres, tangent_matches_central_difference_also_through_parts) {
   for (const double limit : {1.0, 0.2}) {
     auto description = locked(describe(1e-11));

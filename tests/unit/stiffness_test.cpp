@@ -46,11 +46,11 @@ double largest(std::span<const double> values) {
 
 // Different on every unknown; translations of fixed nodes do not move.
 std::vector<double> some_motion(const Increment& increment, double size) {
-  std::vector<double> motion(increment.unknowns());
-  const auto nodes = increment.nodes();
-  const auto& space = *increment.problem->space;
+  std::vector<double> motion(increment.problem().unknowns());
+  const auto nodes = increment.problem().nodes();
+  const auto& space = *increment.problem().space;
   for (std::size_t k = 0; k < motion.size(); ++k) {
-    const double lever = k < 2 * nodes ? 1 : increment.node_radius[k % nodes];
+    const double lever = k < 2 * nodes ? 1 : increment.motion().node_radius()[k % nodes];
     motion[k] = size / lever * std::sin(1 + 0.7 * static_cast<double>(k));
     if (k < 2 * nodes && !space.identity && space.fixed[k % nodes]) motion[k] = 0;
   }
@@ -59,15 +59,15 @@ std::vector<double> some_motion(const Increment& increment, double size) {
 
 // -dr along the motion, by central differences.
 std::vector<double> force_change(Increment& increment, std::span<const double> motion) {
-  const auto before = increment.coordinates;
+  const auto before = increment.motion().coordinates();
   std::vector<double> change(motion.size());
   for (const double side : {1.0, -1.0}) {
-    increment.coordinates = before;
-    increment.move(motion, side);
+    increment.motion().go_to(before, increment.motion().deformation());
+    increment.motion().move(motion, side);
     increment.update_forces();
     for (std::size_t k = 0; k < change.size(); ++k) change[k] -= side * increment.residual()[k] / 2;
   }
-  increment.coordinates = before;
+  increment.motion().go_to(before, increment.motion().deformation());
   increment.update_forces();
   return change;
 }
@@ -77,20 +77,20 @@ TEST(stiffness, takes_the_change_of_the_residual_back_to_the_motion) {
     Solved solved(description);
     auto& increment = solved.increment();
     // Rattlers are at the point of touching: away from there no status changes.
-    increment.move(some_motion(increment, 1e-7));
+    increment.motion().move(some_motion(increment, 1e-7));
     constexpr double size = 1e-10;
     constexpr double shift = 0.1;  // holds what no contact holds
     const auto motion = some_motion(increment, size);
     auto right = force_change(increment, motion);
     for (std::size_t k = 0; k < right.size(); ++k)
-      right[k] += shift * increment.mass[k] * motion[k];
+      right[k] += shift * increment.masses().of_unknowns()[k] * motion[k];
     std::vector<double> x(motion.size());
     solved.stiffness().assemble(increment, shift);
     solved.stiffness().factorise(increment);
     ASSERT_TRUE(solved.stiffness().solve(increment, right, x));
-    const auto nodes = increment.nodes();
+    const auto nodes = increment.problem().nodes();
     for (std::size_t k = 0; k < x.size(); ++k) {
-      const double lever = k < 2 * nodes ? 1 : increment.node_radius[k % nodes];
+      const double lever = k < 2 * nodes ? 1 : increment.motion().node_radius()[k % nodes];
       EXPECT_NEAR(x[k] * lever, motion[k] * lever, 1e-4 * size) << k;
     }
   }
@@ -101,15 +101,16 @@ TEST(stiffness, solves_four_as_one_by_one) {
     Solved solved(description);
     auto& increment = solved.increment();
     auto& stiffness = solved.stiffness();
-    const auto nodes = increment.nodes();
-    const auto b = increment.unknowns() / nodes;
-    std::vector<double> right(increment.unknowns());
+    const auto nodes = increment.problem().nodes();
+    const auto b = increment.problem().unknowns() / nodes;
+    std::vector<double> right(increment.problem().unknowns());
     std::vector<double> x(right.size());
     std::vector<Together<4>> four(right.size());
     std::vector<Together<4>> solution(right.size());
     const auto right_side = [&](std::size_t lane) {
       const auto motion = some_motion(increment, static_cast<double>(1 + lane));
-      for (std::size_t k = 0; k < right.size(); ++k) right[k] = increment.mass[k] * motion[k];
+      for (std::size_t k = 0; k < right.size(); ++k)
+        right[k] = increment.masses().of_unknowns()[k] * motion[k];
     };
     for (std::size_t l = 0; l < 4; ++l) {
       right_side(l);

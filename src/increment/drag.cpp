@@ -1,0 +1,148 @@
+#include "increment/drag.hpp"
+
+#include "base/room.hpp"
+#include "base/simd.hpp"
+#include "increment/records.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace grainlaw::core {
+
+namespace {
+
+template <int D>
+using Record = simd::Lanes<Dimension<D>::lanes>;
+
+template <int D, class Struct>
+Record<D> load(const Struct& record) {
+  return simd::load<Dimension<D>::lanes>(&record.x);
+}
+
+// One contact's stiffness; nothing resists what does not turn.
+MassRecord<2> stiffness_of(const LeastMass<2>& least, double rate, bool rotating) {
+  return {rate * least.x, rate * least.y, rotating ? rate * least.roll : 0, 0};
+}
+MassRecord<3> stiffness_of(const LeastMass<3>& least, double rate, bool rotating) {
+  const double x = rate * least.x;
+  const double spin = rotating ? rate * least.spin : 0;
+  return {x, x, x, spin, spin, spin, {0, 0}};
+}
+
+}  // namespace
+
+template <int D>
+void Drag<D>::begin(const DragStart<D>& how, const BoundarySpace<D>& space, bool rotating,
+                    std::span<const LeastMass<D>> least, const std::vector<double>& start,
+                    const Tensor<D>& from, std::span<const double> affine,
+                    std::span<const double> move) {
+  how_ = how;
+  from_ = from;
+  copy_with_room(start, part_start_);
+  const std::size_t n = space.node.size();
+  const std::size_t nodes = space.nodes;
+  resize_with_room(particle_, nodes);
+  for (std::size_t p = 0; p < n; ++p) {
+    particle_[static_cast<std::size_t>(space.node[p])] = static_cast<std::int32_t>(p);
+  }
+  resize_with_room(expected_, nodes);
+  resize_with_room(move_, nodes);
+  resize_with_room(stiffness_, nodes);
+  const std::size_t components = affine.size() / n;
+  for (std::size_t q = 0; q < nodes; ++q) {
+    const auto p = static_cast<std::size_t>(particle_[q]);
+    stiffness_[q] = stiffness_of(least[q], how.rate, rotating);
+    expected_[q] = move_[q] = {};
+    const double radius = 1 / least[q].inverse_radius;
+    for (std::size_t k = 0; k < components; ++k) {
+      const double length = k < D ? 1 : radius;
+      const double last = move.empty() ? 0 : move[k * n + p];
+      (&move_[q].x)[k] = length * last;
+      (&expected_[q].x)[k] = length * (affine[k * n + p] + how.follow * last);
+    }
+  }
+}
+
+template <int D>
+void Drag<D>::follow_deformation(const BoundarySpace<D>& space, const Tensor<D>& change) {
+  const std::size_t n = space.node.size();
+  for (std::size_t q = 0; q < expected_.size(); ++q) {
+    const double* x = space.reference.data() + particle_[q];
+    for (std::size_t k = 0; k < D; ++k) {
+      (&expected_[q].x)[k] += dot<D>(change.data() + D * k, x, n);
+    }
+  }
+}
+
+template <int D>
+void Drag<D>::restart_turns(std::span<const Place> particles) {
+  if constexpr (D == 3) {
+    const std::size_t n = particles.size();
+    for (std::size_t q = 0; q < expected_.size(); ++q) {
+      const auto p = static_cast<std::size_t>(particle_[q]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double turned = (&particles[p].eta_x)[k];
+        (&expected_[q].eta_x)[k] -= turned;
+        part_start_[(3 + k) * n + p] -= turned / particles[p].radius;
+      }
+    }
+  }
+}
+
+template <int D>
+auto Drag<D>::excess(std::size_t q, std::span<const Place> particles) const -> Place {
+  Place result;
+  simd::store(&result.x,
+              load<D>(particles[static_cast<std::size_t>(particle_[q])]) - load<D>(expected_[q]));
+  return result;
+}
+
+template <int D>
+void Drag<D>::subtract_from(std::span<ForceRecord<D>> forces,
+                            std::span<const Place> particles) const {
+  for (std::size_t q = 0; q < expected_.size(); ++q) {
+    const auto distance =
+        load<D>(particles[static_cast<std::size_t>(particle_[q])]) - load<D>(expected_[q]);
+    simd::store(&forces[q].x, load<D>(forces[q]) - load<D>(stiffness_[q]) * distance);
+  }
+}
+
+template <int D>
+void Drag<D>::add_to(std::span<MassRecord<D>> masses, double factor) const {
+  for (std::size_t q = 0; q < expected_.size(); ++q) {
+    simd::store(&masses[q].x, load<D>(masses[q]) + factor * load<D>(stiffness_[q]));
+  }
+}
+
+template <int D>
+double Drag<D>::largest(std::span<const Place> particles) const {
+  Record<D> most{};
+  for (std::size_t q = 0; q < expected_.size(); ++q) {
+    const auto distance =
+        load<D>(particles[static_cast<std::size_t>(particle_[q])]) - load<D>(expected_[q]);
+    most = simd::largest(most, simd::magnitude(load<D>(stiffness_[q]) * distance));
+  }
+  return simd::most(most);
+}
+
+template <int D>
+double Drag<D>::work(std::span<const Place> particles, std::span<const double> affine) const {
+  const std::size_t n = particles.size();
+  const std::size_t components = affine.size() / n;
+  double sum = 0;
+  for (std::size_t q = 0; q < expected_.size(); ++q) {
+    const auto p = static_cast<std::size_t>(particle_[q]);
+    const Place distance = excess(q, particles);
+    for (std::size_t k = 0; k < components; ++k) {
+      const double length = k < D ? 1 : particles[p].radius;
+      const double moved = (&particles[p].x)[k] - length * affine[k * n + p];
+      sum += (&stiffness_[q].x)[k] * (&distance.x)[k] * moved;
+    }
+  }
+  return sum;
+}
+
+template class Drag<2>;
+template class Drag<3>;
+
+}  // namespace grainlaw::core
