@@ -8,8 +8,8 @@
 
 namespace verification {
 
-History::History(std::filesystem::path stem)
-    : stem_(std::move(stem)), csv_(stem_.string() + ".csv", record_columns()) {}
+History::History(std::filesystem::path stem, const std::vector<std::string>& columns)
+    : stem_(std::move(stem)), csv_(stem_.string() + ".csv", columns) {}
 
 bool History::draw_figure(const std::string& abscissa, const std::string& title) const {
   return draw_history(read_csv(csv_.path()), abscissa, title, stem_);
@@ -19,41 +19,105 @@ std::string History::summary(const Effort& unfinished) const {
   return history_summary(read_csv(csv_.path()), unfinished);
 }
 
+namespace {
+
+constexpr double percent = 100;
+constexpr double kilopascal = 1e-3;
+
+// Columns of a history in the units of pictures.
+class Columns {
+ public:
+  Columns(const CsvTable& table, std::string abscissa)
+      : table_(table), abscissa_(std::move(abscissa)) {
+    x_ = shear() ? column(abscissa_, 1) : column(axial_abscissa, percent);
+  }
+
+  [[nodiscard]] bool shear() const { return abscissa_ != axial_abscissa; }
+  [[nodiscard]] bool spheres() const {
+    return std::find(table_.names.begin(), table_.names.end(), "sigma33") != table_.names.end();
+  }
+  [[nodiscard]] std::string abscissa_text() const {
+    if (shear()) return "shear " + abscissa_ + " [-]";
+    return spheres() ? "axial strain 1 - F33 [%]" : "axial strain 1 - F22 [%]";
+  }
+  // "13" of F13.
+  [[nodiscard]] std::string sheared() const { return abscissa_.substr(1); }
+
+  [[nodiscard]] std::vector<double> column(const std::string& name, double unit) const {
+    std::vector<double> values = table_[name];
+    for (double& value : values) value *= unit;
+    return values;
+  }
+  [[nodiscard]] Curve curve(const std::string& title, const std::string& name, double unit,
+                            const char* colour, Stroke stroke = Stroke::solid) const {
+    return {title, x_, column(name, unit), colour, stroke};
+  }
+
+ private:
+  const CsvTable& table_;
+  std::string abscissa_;
+  std::vector<double> x_;
+};
+
+std::vector<Panel> stress_of_discs(const Columns& columns) {
+  return {{"Cauchy stress [kPa]",
+           {columns.curve("-σ11", "sigma11", -kilopascal, colour::blue),
+            columns.curve("-σ22", "sigma22", -kilopascal, colour::orange),
+            columns.curve("σ12", "sigma12", kilopascal, colour::green)},
+           1.3,
+           "top left"}};
+}
+
+std::vector<Panel> stress_of_spheres(const Columns& columns) {
+  Panel stress{"Cauchy stress [kPa]",
+               {columns.curve("-σ33, axial", "sigma33", -kilopascal, colour::orange),
+                columns.curve("-σ22", "sigma22", -kilopascal, colour::green),
+                columns.curve("-σ11", "sigma11", -kilopascal, colour::blue, Stroke::dashed)},
+               1.2,
+               "center right"};
+  if (columns.shear())
+    stress.curves.push_back(columns.curve("σ" + columns.sheared(), "sigma" + columns.sheared(),
+                                          kilopascal, colour::purple));
+  return {stress,
+          {"invariants [kPa]",
+           {columns.curve("deviatoric stress q", "deviatoric_stress", kilopascal, colour::purple),
+            columns.curve("mean pressure p", "mean_pressure", kilopascal, colour::black,
+                          Stroke::dashed)},
+           0.9,
+           "bottom right"}};
+}
+
+Panel fabric_of_spheres(const Columns& columns) {
+  return {"fabric [-]",
+          {columns.curve("33, axial", "fabric33", 1, colour::orange),
+           columns.curve("22", "fabric22", 1, colour::green),
+           columns.curve("11", "fabric11", 1, colour::blue, Stroke::dashed)},
+          0.9,
+          "center right"};
+}
+
+}  // namespace
+
 bool draw_history(const CsvTable& table, const std::string& abscissa, const std::string& title,
                   const std::filesystem::path& stem) {
   if (table.rows() == 0) return false;
-  constexpr double percent = 100;
-  constexpr double kilopascal = 1e-3;
-  const bool shear = abscissa == shear_abscissa;
-  const auto column = [&](const char* name, double unit) {
-    std::vector<double> values = table[name];
-    for (double& value : values) value *= unit;
-    return values;
-  };
-  const auto x = shear ? column("F12", 1) : column("axial_strain", percent);
-  const auto normal_1 = column("sigma11", -kilopascal);
-  const auto normal_2 = column("sigma22", -kilopascal);
-  const auto shear_stress = column("sigma12", kilopascal);
-  const auto volumetric = column("volumetric_strain", percent);
-  const auto coordination = column("coordination", 1);
-  const auto mechanical = column("coordination_no_rattlers", 1);
-  Figure figure{title, shear ? "shear F12 [-]" : "axial strain 1 - F22 [%]", {}};
-  figure.panels.push_back({"Cauchy stress [kPa]",
-                           {{"-σ11", x, normal_1, colour::blue, Stroke::solid},
-                            {"-σ22", x, normal_2, colour::orange, Stroke::solid},
-                            {"σ12", x, shear_stress, colour::green, Stroke::solid}},
-                           1.3,
-                           "top left"});
+  const Columns columns(table, abscissa);
+  const bool spheres = columns.spheres();
+  Figure figure{title, columns.abscissa_text(),
+                spheres ? stress_of_spheres(columns) : stress_of_discs(columns)};
+  const auto volumetric = columns.column("volumetric_strain", percent);
   const auto [least, most] = std::minmax_element(volumetric.begin(), volumetric.end());
   constexpr double isochoric = 1e-9;  // %, below this there is nothing to see
   if (*most - *least > isochoric)
     figure.panels.push_back({"volumetric strain, dilation + [%]",
-                             {{"", x, volumetric, colour::blue, Stroke::solid}},
+                             {columns.curve("", "volumetric_strain", percent, colour::blue)},
                              1});
   figure.panels.push_back({"coordination [-]",
-                           {{"all particles", x, coordination, colour::blue, Stroke::solid},
-                            {"without rattlers", x, mechanical, colour::orange, Stroke::dashed}},
+                           {columns.curve("all particles", "coordination", 1, colour::blue),
+                            columns.curve("without rattlers", "coordination_no_rattlers", 1,
+                                          colour::orange, Stroke::dashed)},
                            1});
+  if (spheres) figure.panels.push_back(fabric_of_spheres(columns));
   return draw(figure, stem);
 }
 

@@ -25,10 +25,14 @@ std::string history_summary(const CsvTable& table, const Effort& unfinished = {}
 
 class History {
  public:
-  // Opens stem.csv.
-  explicit History(std::filesystem::path stem);
+  // Opens stem.csv, of records of discs or of spheres.
+  explicit History(std::filesystem::path stem,
+                   const std::vector<std::string>& columns = record_columns());
 
-  void add(const Record& record) { csv_.row(record_values(record)); }
+  template <int D>
+  void add(const RecordOf<D>& record) {
+    csv_.row(record_values(record));
+  }
   bool draw_figure(const std::string& abscissa, const std::string& title) const;
   [[nodiscard]] std::string summary(const Effort& unfinished = {}) const;
 

@@ -27,8 +27,9 @@ Points make_points(const Material& material, std::size_t count) {
   return Points(points);
 }
 
-Evaluation evaluate(grainlaw_state* state, const Tensor& deformation, unsigned want) {
-  Evaluation result;
+template <int D>
+EvaluationOf<D> evaluate_of(grainlaw_state* state, const TensorOf<D>& deformation, unsigned want) {
+  EvaluationOf<D> result;
   result.status = grainlaw_evaluate(state, deformation.data(), want, result.stress.data(),
                                     want != 0 ? result.tangent.data() : nullptr, &result.report);
   if (result.status < 0) check(result.status, "evaluating an integration point");
@@ -56,29 +57,36 @@ double measure_scalar(const grainlaw_state* state, grainlaw_measure what) {
   return value.empty() ? 0 : value.front();
 }
 
-Tensor deformation_of(const grainlaw_state* state) {
-  const std::vector<double> f = measure(state, GRAINLAW_DEFORMATION_GRADIENT);
-  return to_tensor({f[0], f[1], f[2], f[3]});
+template <int D>
+TensorOf<D> deformation_gradient(const grainlaw_state* state) {
+  return TensorOf<D>::Map(measure(state, GRAINLAW_DEFORMATION_GRADIENT).data());
 }
 
-Tensor cauchy_stress(const Tensor& stress, const Tensor& deformation) {
-  return stress * deformation.transpose() / deformation.determinant();
-}
-
-Tangent cauchy_tangent(const Tensor& stress, const Tangent& tangent, const Tensor& deformation) {
+template <int D>
+TangentOf<D> cauchy_tangent(const TensorOf<D>& stress, const TangentOf<D>& tangent,
+                            const TensorOf<D>& deformation) {
   const double jacobian = deformation.determinant();
-  const Tensor inverse = deformation.inverse();
-  const Tensor sigma = cauchy_stress(stress, deformation);
-  Tangent result;
-  for (int i = 0; i < 2; ++i)
-    for (int j = 0; j < 2; ++j)
-      for (int k = 0; k < 2; ++k)
-        for (int l = 0; l < 2; ++l) {
+  const TensorOf<D> inverse = deformation.inverse();
+  const TensorOf<D> sigma = cauchy_stress_of<D>(stress, deformation);
+  TangentOf<D> result;
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j)
+      for (int k = 0; k < D; ++k)
+        for (int l = 0; l < D; ++l) {
           double sum = j == k ? stress(i, l) : 0;
-          for (int m = 0; m < 2; ++m) sum += tangent(2 * i + m, 2 * k + l) * deformation(j, m);
-          result(2 * i + j, 2 * k + l) = sum / jacobian - sigma(i, j) * inverse(l, k);
+          for (int m = 0; m < D; ++m) sum += tangent(D * i + m, D * k + l) * deformation(j, m);
+          result(D * i + j, D * k + l) = sum / jacobian - sigma(i, j) * inverse(l, k);
         }
   return result;
 }
+
+template EvaluationOf<2> evaluate_of<2>(grainlaw_state*, const TensorOf<2>&, unsigned);
+template EvaluationOf<3> evaluate_of<3>(grainlaw_state*, const TensorOf<3>&, unsigned);
+template TensorOf<2> deformation_gradient<2>(const grainlaw_state*);
+template TensorOf<3> deformation_gradient<3>(const grainlaw_state*);
+template TangentOf<2> cauchy_tangent<2>(const TensorOf<2>&, const TangentOf<2>&,
+                                        const TensorOf<2>&);
+template TangentOf<3> cauchy_tangent<3>(const TensorOf<3>&, const TangentOf<3>&,
+                                        const TensorOf<3>&);
 
 }  // namespace verification

@@ -14,10 +14,17 @@
 
 namespace verification {
 
-// 2 x 2 tensors and dP/dF in the row-major order of the C interface: component k = 2 i + J.
-using Tensor = Eigen::Matrix<double, 2, 2, Eigen::RowMajor>;
-using Vector4 = Eigen::Matrix<double, 4, 1>;
-using Tangent = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+// D x D tensors and dP/dF in the row-major order of the C interface: component k = D i + J.
+template <int D>
+using TensorOf = Eigen::Matrix<double, D, D, Eigen::RowMajor>;
+template <int D>
+using ComponentsOf = Eigen::Matrix<double, D * D, 1>;
+template <int D>
+using TangentOf = Eigen::Matrix<double, D * D, D * D, Eigen::RowMajor>;
+// Of discs.
+using Tensor = TensorOf<2>;
+using Vector4 = ComponentsOf<2>;
+using Tangent = TangentOf<2>;
 
 // A computation that did not succeed: the command ends with exit code 1.
 struct ComputationError : std::runtime_error {
@@ -60,16 +67,23 @@ State make_state(const Material& material);
 State clone(const grainlaw_state* state);
 Points make_points(const Material& material, std::size_t count);
 
-struct Evaluation {
+template <int D>
+struct EvaluationOf {
   grainlaw_status status = GRAINLAW_OK;
-  Tensor stress = Tensor::Zero();     // first Piola-Kirchhoff stress P [Pa], tension positive
-  Tangent tangent = Tangent::Zero();  // dP/dF [Pa], when wanted
+  // First Piola-Kirchhoff stress P [Pa], tension positive, and, when wanted, dP/dF [Pa].
+  TensorOf<D> stress = TensorOf<D>::Zero();
+  TangentOf<D> tangent = TangentOf<D>::Zero();
   grainlaw_report report = grainlaw_report_default();
 };
+using Evaluation = EvaluationOf<2>;
 
 // One evaluation at the total deformation gradient; a recoverable failure is left in `status`,
 // anything worse throws ComputationError.
-Evaluation evaluate(grainlaw_state* state, const Tensor& deformation, unsigned want);
+template <int D>
+EvaluationOf<D> evaluate_of(grainlaw_state* state, const TensorOf<D>& deformation, unsigned want);
+inline Evaluation evaluate(grainlaw_state* state, const Tensor& deformation, unsigned want) {
+  return evaluate_of<2>(state, deformation, want);
+}
 
 // "exact" | "elastic" | "perturbed" as a bit of `want`.
 unsigned tangent_bit(const std::string& name);
@@ -79,22 +93,34 @@ std::vector<double> measure(const grainlaw_state* state, grainlaw_measure what);
 double measure_scalar(const grainlaw_state* state, grainlaw_measure what);
 
 // F of the trial: a boundary with prescribed stresses finds components of its own.
-Tensor deformation_of(const grainlaw_state* state);
+template <int D>
+TensorOf<D> deformation_gradient(const grainlaw_state* state);
+inline Tensor deformation_of(const grainlaw_state* state) { return deformation_gradient<2>(state); }
 
 // sigma = P F^T / det F [Pa].
-Tensor cauchy_stress(const Tensor& stress, const Tensor& deformation);
+template <int D>
+TensorOf<D> cauchy_stress_of(const TensorOf<D>& stress, const TensorOf<D>& deformation) {
+  return stress * deformation.transpose() / deformation.determinant();
+}
+inline Tensor cauchy_stress(const Tensor& stress, const Tensor& deformation) {
+  return cauchy_stress_of<2>(stress, deformation);
+}
 
 // dsigma_ij/dF_kL = (A_iMkL F_jM + P_iL delta_jk) / J - sigma_ij F^-1_Lk [Pa].
-Tangent cauchy_tangent(const Tensor& stress, const Tangent& tangent, const Tensor& deformation);
+template <int D>
+TangentOf<D> cauchy_tangent(const TensorOf<D>& stress, const TangentOf<D>& tangent,
+                            const TensorOf<D>& deformation);
 
-// The components of a tensor as a vector in the order 11, 12, 21, 22, and back.
-inline Vector4 to_vector(const Tensor& tensor) {
-  return {tensor(0, 0), tensor(0, 1), tensor(1, 0), tensor(1, 1)};
+// The components of a tensor as a vector, row by row, and back.
+template <int D>
+ComponentsOf<D> components_of(const TensorOf<D>& tensor) {
+  return ComponentsOf<D>::Map(tensor.data());
 }
-inline Tensor to_tensor(const Vector4& vector) {
-  Tensor tensor;
-  tensor << vector(0), vector(1), vector(2), vector(3);
-  return tensor;
+template <int D>
+TensorOf<D> tensor_of(const ComponentsOf<D>& components) {
+  return TensorOf<D>::Map(components.data());
 }
+inline Vector4 to_vector(const Tensor& tensor) { return components_of<2>(tensor); }
+inline Tensor to_tensor(const Vector4& vector) { return tensor_of<2>(vector); }
 
 }  // namespace verification

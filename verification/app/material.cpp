@@ -86,30 +86,36 @@ MaterialText material_text(const MaterialSource& source) {
   return {text.str(), source.base.empty() ? "." : source.base.string(), origin};
 }
 
-Material make_material(const MaterialSource& source) {
+int dimension_of(const MaterialSource& source) {
+  return unfold(source).changes["dimension"].value_or(0) == 3 ? 3 : 2;
+}
+
+Material make_material(const MaterialSource& source, int dimension) {
   std::array<char, 1024> message{};
   grainlaw_material* material = nullptr;
   grainlaw_status status = GRAINLAW_OK;
   std::string origin;
-  std::string_view found;
+  std::string_view told;
   if (source.changes.empty() && !source.file.empty()) {
     const std::string file = source.file.string();
     status = grainlaw_material_load(file.c_str(), &material, message.data(), message.size());
     origin = named(source);
-    found = message.data();
+    told = message.data();
   } else {
     const MaterialText description = material_text(source);
     origin = description.origin;
     status = grainlaw_material_parse(description.text.c_str(), description.base.c_str(), &material,
                                      message.data(), message.size());
-    found = without_line(message.data(), description.base);
+    told = without_line(message.data(), description.base);
   }
-  if (status > 0) throw ComputationError(fmt::format("{}: {}", origin, found));
+  if (status > 0) throw ComputationError(fmt::format("{}: {}", origin, told));
   if (status < 0)
-    throw InputError(fmt::format("{}: {} ({})", origin, found, grainlaw_status_text(status)));
+    throw InputError(fmt::format("{}: {} ({})", origin, told, grainlaw_status_text(status)));
   Material result(material);
-  if (grainlaw_material_dimension(material) != 2)
-    throw InputError(origin + ": the drivers are two-dimensional, the material is not");
+  if (const int found = grainlaw_material_dimension(material); found != dimension)
+    throw InputError(fmt::format(
+        "{}: dimension: found {}, expected {}{}", origin, found, dimension,
+        found == 3 ? ": this is a command of the plane; `grainlaw point` leads spheres" : ""));
   return result;
 }
 

@@ -44,9 +44,12 @@ struct MaterialText {
 };
 MaterialText material_text(const MaterialSource& source);
 
-// Throws InputError for a wrong description, ComputationError when there is no equilibrium at F =
-// I.
-Material make_material(const MaterialSource& source);
+// 3 when the description says so, else 2: what is wrong is told when the material is made.
+int dimension_of(const MaterialSource& source);
+
+// Throws InputError for a wrong description, or one of another dimension, ComputationError when there
+// is no equilibrium at F = I.
+Material make_material(const MaterialSource& source, int dimension = 2);
 
 // `tolerance` of a table: what stresses or forces are brought to. Where the material starts from its last
 // trial they are known to its solver.tolerance alone: the default is no smaller, and less is refused.

@@ -25,19 +25,26 @@ void Effort::add(const Effort& other) {
   history_advanced += other.history_advanced;
 }
 
-Record make_record(const grainlaw_state* state, const Tensor& deformation, const Tensor& stress,
-                   const grainlaw_report& report) {
-  Record record;
+template <int D>
+RecordOf<D> make_record(const grainlaw_state* state, const TensorOf<D>& deformation,
+                        const TensorOf<D>& stress, const grainlaw_report& report) {
+  RecordOf<D> record;
   record.deformation = deformation;
   record.stress = stress;
-  record.cauchy = cauchy_stress(stress, deformation);
+  record.cauchy = cauchy_stress_of<D>(stress, deformation);
   record.void_ratio = measure_scalar(state, GRAINLAW_VOID_RATIO);
   record.coordination = measure_scalar(state, GRAINLAW_COORDINATION);
   record.coordination_no_rattlers = measure_scalar(state, GRAINLAW_COORDINATION_NO_RATTLERS);
   record.fabric_intensity = measure_scalar(state, GRAINLAW_FABRIC_INTENSITY);
   record.anisotropy = measure_scalar(state, GRAINLAW_ANISOTROPY);
   record.mean_overlap = measure_scalar(state, GRAINLAW_MEAN_OVERLAP);
-  record.mean_rotation = measure_scalar(state, GRAINLAW_MEAN_ROTATION);
+  const std::vector<double> rotation = measure(state, GRAINLAW_MEAN_ROTATION);
+  if constexpr (D == 2) {
+    record.mean_rotation = rotation[0];
+  } else {
+    record.mean_rotation = std::hypot(rotation[0], rotation[1], rotation[2]);
+    record.fabric = TensorOf<D>::Map(measure(state, GRAINLAW_FABRIC).data());
+  }
   record.elastic_energy = measure_scalar(state, GRAINLAW_ELASTIC_ENERGY);
   record.dissipated_energy = measure_scalar(state, GRAINLAW_DISSIPATED_ENERGY);
   record.broken_bonds = measure_scalar(state, GRAINLAW_BROKEN_BONDS);
@@ -48,7 +55,9 @@ Record make_record(const grainlaw_state* state, const Tensor& deformation, const
   return record;
 }
 
-Record mean(const std::vector<Record>& records) {
+template <int D>
+RecordOf<D> mean(const std::vector<RecordOf<D>>& records) {
+  using Record = RecordOf<D>;
   Record sum;
   if (records.empty()) return sum;
   sum.deformation.setZero();
@@ -56,9 +65,9 @@ Record mean(const std::vector<Record>& records) {
     for (const Record& record : records) sum.*member += record.*member;
     sum.*member /= static_cast<double>(records.size());
   };
-  add(&Record::deformation);
-  add(&Record::stress);
-  add(&Record::cauchy);
+  for (const auto member :
+       {&Record::deformation, &Record::stress, &Record::cauchy, &Record::fabric})
+    add(member);
   for (const auto member :
        {&Record::void_ratio, &Record::coordination, &Record::coordination_no_rattlers,
         &Record::fabric_intensity, &Record::anisotropy, &Record::mean_overlap,
@@ -69,27 +78,48 @@ Record mean(const std::vector<Record>& records) {
   return sum;
 }
 
+template <int D>
 std::vector<std::string> record_columns() {
+  std::vector<std::string> columns{"step[-]", "axial_strain[-]", "volumetric_strain[-]",
+                                   "stress_ratio[-]"};
+  const auto tensor = [&](const std::string& name, const char* unit) {
+    for (int i = 1; i <= D; ++i)
+      for (int j = 1; j <= D; ++j)
+        columns.push_back(name + std::to_string(i) + std::to_string(j) + unit);
+  };
+  const auto add = [&](std::initializer_list<const char*> names) {
+    columns.insert(columns.end(), names.begin(), names.end());
+  };
+  if constexpr (D == 3)
+    add({"axial_stress[Pa]", "lateral_stress[Pa]", "mean_pressure[Pa]", "deviatoric_stress[Pa]"});
+  tensor("F", "[-]");
+  tensor("P", "[Pa]");
+  tensor("sigma", "[Pa]");
+  if constexpr (D == 3) tensor("fabric", "[-]");
   // clang-format off
-  return {"step[-]", "axial_strain[-]", "volumetric_strain[-]", "stress_ratio[-]",
-          "F11[-]", "F12[-]", "F21[-]", "F22[-]",
-          "P11[Pa]", "P12[Pa]", "P21[Pa]", "P22[Pa]",
-          "sigma11[Pa]", "sigma12[Pa]", "sigma21[Pa]", "sigma22[Pa]",
-          "void_ratio[-]", "coordination[-]", "coordination_no_rattlers[-]",
-          "fabric_intensity[-]", "anisotropy[-]", "mean_overlap[m]", "mean_rotation[rad]",
-          "elastic_energy[J]", "dissipated_energy[J]", "external_work[J]",
-          "contacts[-]", "sliding[-]", "status_changes[-]",
-          "newton_iterations[-]", "evaluations[-]", "step_cuts[-]", "loose_parts[-]",
-          "relaxation_steps[-]", "servo_corrections[-]", "factorisations[-]", "subincrements[-]",
-          "history_advanced[-]", "broken_bonds[-]", "escaped_particles[-]", "jumps_crossed[-]"};
+  add({"void_ratio[-]", "coordination[-]", "coordination_no_rattlers[-]",
+       "fabric_intensity[-]", "anisotropy[-]", "mean_overlap[m]", "mean_rotation[rad]",
+       "elastic_energy[J]", "dissipated_energy[J]", "external_work[J]",
+       "contacts[-]", "sliding[-]", "status_changes[-]",
+       "newton_iterations[-]", "evaluations[-]", "step_cuts[-]", "loose_parts[-]",
+       "relaxation_steps[-]", "servo_corrections[-]", "factorisations[-]", "subincrements[-]",
+       "history_advanced[-]", "broken_bonds[-]", "escaped_particles[-]", "jumps_crossed[-]"});
   // clang-format on
+  return columns;
 }
 
-std::vector<double> record_values(const Record& r) {
+template <int D>
+std::vector<double> record_values(const RecordOf<D>& r) {
   std::vector<double> values{static_cast<double>(r.step), r.axial_strain(), r.volumetric_strain(),
                              r.stress_ratio()};
-  for (const Tensor* tensor : {&r.deformation, &r.stress, &r.cauchy})
-    values.insert(values.end(), tensor->data(), tensor->data() + 4);
+  const auto tensor = [&](const TensorOf<D>& t) {
+    values.insert(values.end(), t.data(), t.data() + t.size());
+  };
+  if constexpr (D == 3)
+    values.insert(values.end(),
+                  {r.axial_stress(), r.lateral_stress(), r.mean_pressure(), r.deviatoric_stress()});
+  for (const TensorOf<D>* t : {&r.deformation, &r.stress, &r.cauchy}) tensor(*t);
+  if constexpr (D == 3) tensor(r.fabric);
   values.insert(values.end(),
                 {r.void_ratio, r.coordination, r.coordination_no_rattlers, r.fabric_intensity,
                  r.anisotropy, r.mean_overlap, r.mean_rotation, r.elastic_energy,
@@ -104,5 +134,16 @@ std::vector<double> record_values(const Record& r) {
   values.push_back(e.crossed);
   return values;
 }
+
+template RecordOf<2> make_record<2>(const grainlaw_state*, const TensorOf<2>&, const TensorOf<2>&,
+                                    const grainlaw_report&);
+template RecordOf<3> make_record<3>(const grainlaw_state*, const TensorOf<3>&, const TensorOf<3>&,
+                                    const grainlaw_report&);
+template RecordOf<2> mean<2>(const std::vector<RecordOf<2>>&);
+template RecordOf<3> mean<3>(const std::vector<RecordOf<3>>&);
+template std::vector<std::string> record_columns<2>();
+template std::vector<std::string> record_columns<3>();
+template std::vector<double> record_values<2>(const RecordOf<2>&);
+template std::vector<double> record_values<3>(const RecordOf<3>&);
 
 }  // namespace verification

@@ -3,6 +3,7 @@
 
 #include "app/library.hpp"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,9 @@ struct Effort {
   void add(const Effort& other);
 };
 
-struct Record {
+template <int D>
+struct RecordOf {
+  using Tensor = TensorOf<D>;
   int step = 0;
   Tensor deformation = Tensor::Identity();  // F [-]
   Tensor stress = Tensor::Zero();           // P [Pa], tension positive
@@ -35,11 +38,12 @@ struct Record {
   double coordination_no_rattlers = 0;
   double fabric_intensity = 0;
   double anisotropy = 0;
-  double mean_overlap = 0;       // [m]
-  double mean_rotation = 0;      // [rad]
-  double elastic_energy = 0;     // [J]
-  double dissipated_energy = 0;  // [J]
-  double external_work = 0;      // sum over the steps of V0 P:dF, trapezoid rule [J]
+  double mean_overlap = 0;         // [m]
+  double mean_rotation = 0;        // [rad]; of spheres the length of the mean rotation vector
+  Tensor fabric = Tensor::Zero();  // of spheres alone [-]
+  double elastic_energy = 0;       // [J]
+  double dissipated_energy = 0;    // [J]
+  double external_work = 0;        // sum over the steps of V0 P:dF, trapezoid rule [J]
   double contacts = 0;
   double sliding = 0;
   double status_changes = 0;
@@ -47,21 +51,40 @@ struct Record {
   double escaped_particles = 0;  // inner ones outside the polygon of a frame
   Effort effort;
 
-  // Compression positive: 1 - F22; dilation positive: det F - 1; -sigma22 / -sigma11.
-  [[nodiscard]] double axial_strain() const { return 1 - deformation(1, 1); }
+  // Axis 2 of discs and 3 of spheres is the axial one. Compression positive: 1 - F22 or 1 - F33;
+  // dilation positive: det F - 1.
+  [[nodiscard]] double axial_strain() const { return 1 - deformation(D - 1, D - 1); }
   [[nodiscard]] double volumetric_strain() const { return deformation.determinant() - 1; }
-  [[nodiscard]] double stress_ratio() const { return cauchy(1, 1) / cauchy(0, 0); }
+  // Compression positive [Pa]; lateral: -sigma11, of spheres the mean of -sigma11 and -sigma22.
+  [[nodiscard]] double axial_stress() const { return -cauchy(D - 1, D - 1); }
+  [[nodiscard]] double lateral_stress() const {
+    return D == 2 ? -cauchy(0, 0) : -0.5 * (cauchy(0, 0) + cauchy(1, 1));
+  }
+  [[nodiscard]] double stress_ratio() const { return axial_stress() / lateral_stress(); }
+  // p = -tr sigma / D, compression positive; q = sqrt(3/2 s:s), s the symmetric deviator of sigma,
+  // |axial - lateral| in a triaxial test [Pa].
+  [[nodiscard]] double mean_pressure() const { return -cauchy.trace() / D; }
+  [[nodiscard]] double deviatoric_stress() const {
+    const Tensor deviator =
+        Tensor(0.5 * (cauchy + cauchy.transpose())) + Tensor(mean_pressure() * Tensor::Identity());
+    return std::sqrt(1.5) * deviator.norm();
+  }
 };
+using Record = RecordOf<2>;
 
 // Measures of the state (its trial, or the committed one without a trial) at F with P.
 // Counts of sliding contacts and status changes come from the report of the evaluation.
-Record make_record(const grainlaw_state* state, const Tensor& deformation, const Tensor& stress,
-                   const grainlaw_report& report);
+template <int D>
+RecordOf<D> make_record(const grainlaw_state* state, const TensorOf<D>& deformation,
+                        const TensorOf<D>& stress, const grainlaw_report& report);
 
 // Mean over points of everything but step, effort and deformation's derived numbers.
-Record mean(const std::vector<Record>& records);
+template <int D>
+RecordOf<D> mean(const std::vector<RecordOf<D>>& records);
 
+template <int D = 2>
 std::vector<std::string> record_columns();
-std::vector<double> record_values(const Record& record);
+template <int D>
+std::vector<double> record_values(const RecordOf<D>& record);
 
 }  // namespace verification

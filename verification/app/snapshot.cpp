@@ -5,16 +5,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <map>
+#include <sstream>
 #include <system_error>
 
 namespace verification {
 namespace {
 
-// The point array of that name of a .vtp file of ASCII arrays, one value per line.
+// The point array of that name of a .vtp file of ASCII arrays, one point per line: of vectors their
+// lengths.
 std::vector<double> read_point_array(const std::string& path, const std::string& name) {
   std::ifstream file(path);
   std::string line;
@@ -22,8 +24,13 @@ std::vector<double> read_point_array(const std::string& path, const std::string&
   while (std::getline(file, line) && line.find(wanted) == std::string::npos) {
   }
   std::vector<double> values;
-  while (std::getline(file, line) && line.find('<') == std::string::npos)
-    values.push_back(std::strtod(line.c_str(), nullptr));
+  while (std::getline(file, line) && line.find('<') == std::string::npos) {
+    std::istringstream words(line);
+    std::array<double, 3> v{};
+    int count = 0;
+    while (count < 3 && words >> v[static_cast<std::size_t>(count)]) ++count;
+    values.push_back(count > 1 ? std::hypot(v[0], v[1], v[2]) : v[0]);
+  }
   return values;
 }
 
@@ -57,7 +64,11 @@ Snapshot take_snapshot(const grainlaw_state* state, const std::filesystem::path&
   snapshot.y = particles["y"];
   snapshot.radius = particles["r"];
   snapshot.boundary = boundary_in_order(particles);
-  snapshot.cell = {cell["H00"][0], cell["H01"][0], cell["H10"][0], cell["H11"][0]};
+  if (has_column(particles, "z")) snapshot.z = particles["z"];
+  const int dimension = snapshot.spheres() ? 3 : 2;
+  for (int i = 0; i < dimension; ++i)
+    for (int j = 0; j < dimension; ++j)
+      snapshot.cell.push_back(cell[fmt::format("H{}{}", i, j)][0]);
   snapshot.rotation = read_point_array(prefix + ".vtp", "rotation");
   if (snapshot.rotation.size() < snapshot.size())
     throw ComputationError(fmt::format("{}.vtp: {} rotations of {} particles", prefix,
@@ -76,8 +87,15 @@ Snapshot take_snapshot(const grainlaw_state* state, const std::filesystem::path&
     const auto i = static_cast<std::size_t>(contact.i);
     const auto j = static_cast<std::size_t>(contact.j);
     const double a = contacts["shift_x"][c], b = contacts["shift_y"][c];
-    contact.branch = {snapshot.x[j] - snapshot.x[i] + h[0] * a + h[1] * b,
-                      snapshot.y[j] - snapshot.y[i] + h[2] * a + h[3] * b};
+    if (snapshot.spheres()) {
+      const double e = contacts["shift_z"][c];
+      contact.branch = {snapshot.x[j] - snapshot.x[i] + h[0] * a + h[1] * b + h[2] * e,
+                        snapshot.y[j] - snapshot.y[i] + h[3] * a + h[4] * b + h[5] * e,
+                        snapshot.z[j] - snapshot.z[i] + h[6] * a + h[7] * b + h[8] * e};
+    } else {
+      contact.branch = {snapshot.x[j] - snapshot.x[i] + h[0] * a + h[1] * b,
+                        snapshot.y[j] - snapshot.y[i] + h[2] * a + h[3] * b, 0};
+    }
     contact.normal_force = contacts["fn"][c];
     contact.bonded = bonds && contacts["bonded"][c] != 0;
     snapshot.contacts.push_back(contact);
@@ -97,7 +115,7 @@ double normalised_overlap(const Snapshot& snapshot) {
   for (const SnapshotContact& contact : snapshot.contacts) {
     const double radii = snapshot.radius[static_cast<std::size_t>(contact.i)] +
                          snapshot.radius[static_cast<std::size_t>(contact.j)];
-    const double overlap = radii - std::hypot(contact.branch[0], contact.branch[1]);
+    const double overlap = radii - contact.length();
     if (overlap <= 0) continue;
     sum += overlap / (0.5 * radii);
     ++touching;

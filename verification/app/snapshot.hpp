@@ -5,6 +5,7 @@
 #include "app/library.hpp"
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -15,19 +16,25 @@ namespace verification {
 struct SnapshotContact {
   int i = 0;
   int j = 0;
-  std::array<double, 2> branch{};  // from the centre of i to that of j or of its image [m]
+  std::array<double, 3> branch{};  // from the centre of i to that of j or of its image [m]
   double normal_force = 0;         // [N], compression positive
   bool bonded = false;
+
+  [[nodiscard]] double length() const {  // of the branch [m]
+    return branch[2] == 0 ? std::hypot(branch[0], branch[1])
+                          : std::hypot(branch[0], branch[1], branch[2]);
+  }
 };
 
 struct Snapshot {
-  std::vector<double> x, y, radius;  // [m]
-  std::vector<double> rotation;      // since F = I [rad]
-  std::vector<int> boundary;         // of a frame: particles in order around it; else empty
-  std::array<double, 4> cell{};      // H, row-major [m]
+  std::vector<double> x, y, z, radius;  // [m]; z of spheres alone
+  std::vector<double> rotation;  // since F = I [rad]; of spheres the length of the rotation vector
+  std::vector<int> boundary;     // of a frame: particles in order around it; else empty
+  std::vector<double> cell;      // H, row-major [m]
   std::vector<SnapshotContact> contacts;
 
   [[nodiscard]] std::size_t size() const { return radius.size(); }
+  [[nodiscard]] bool spheres() const { return !z.empty(); }
 };
 
 // The trial of a state, or the committed one without a trial. Writes `stem`_particles.csv,
@@ -66,6 +73,7 @@ struct SnapshotPanel {
 // stem.svg and stem.png: discs, the frame and force chains, side by side at one scale. A bar between
 // two centres is as wide as a mean radius when it carries `force` [N]; 0: twice the mean normal
 // force of the first panel that has forces. Bonded contacts have another colour than frictional ones.
+// Spheres are seen along y, without contacts that carry less than the mean, and with twelve times the mean.
 bool draw_snapshots(const std::vector<SnapshotPanel>& panels, double force,
                     const std::string& title, const std::filesystem::path& stem);
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 
 namespace verification {
 namespace {
@@ -45,6 +46,34 @@ double mean_force(const Snapshot& snapshot) {
   double sum = 0;
   for (const SnapshotContact& contact : snapshot.contacts) sum += std::abs(contact.normal_force);
   return snapshot.contacts.empty() ? 0 : sum / static_cast<double>(snapshot.contacts.size());
+}
+
+// Spheres as they look from the front, along y: discs in the plane of x and z, the far ones first, and
+// the contacts that carry more than the mean force, which the others would hide.
+Snapshot seen_from_front(const Snapshot& snapshot) {
+  if (!snapshot.spheres()) return snapshot;
+  std::vector<int> order(snapshot.size()), place(snapshot.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return snapshot.y[static_cast<std::size_t>(a)] > snapshot.y[static_cast<std::size_t>(b)];
+  });
+  Snapshot seen;
+  for (const int p : order) {
+    const auto from = static_cast<std::size_t>(p);
+    place[from] = static_cast<int>(seen.size());
+    seen.x.push_back(snapshot.x[from]);
+    seen.y.push_back(snapshot.z[from]);
+    seen.radius.push_back(snapshot.radius[from]);
+  }
+  const double mean = mean_force(snapshot);
+  for (SnapshotContact contact : snapshot.contacts) {
+    if (std::abs(contact.normal_force) < mean) continue;
+    contact.i = place[static_cast<std::size_t>(contact.i)];
+    contact.j = place[static_cast<std::size_t>(contact.j)];
+    contact.branch = {contact.branch[0], contact.branch[2], 0};
+    seen.contacts.push_back(contact);
+  }
+  return seen;
 }
 
 std::string discs(const Snapshot& snapshot, bool of_boundary) {
@@ -117,17 +146,21 @@ long breaks(const std::string& text) { return std::count(text.begin(), text.end(
 
 }  // namespace
 
-bool draw_snapshots(const std::vector<SnapshotPanel>& panels, double force,
-                    const std::string& title, const std::filesystem::path& stem) {
-  if (panels.empty()) return true;
+bool draw_snapshots(const std::vector<SnapshotPanel>& all, double force, const std::string& title,
+                    const std::filesystem::path& stem) {
+  if (all.empty()) return true;
+  std::vector<SnapshotPanel> panels;
+  for (const SnapshotPanel& panel : all)
+    panels.push_back({panel.title, seen_from_front(panel.snapshot)});
   constexpr double pixels_wide = 860;
   constexpr double gap = 14, line = 17, foot = 8;  // pixels
   double heading = 56;
   for (const SnapshotPanel& panel : panels)
     heading = std::max(heading, 56 + line * static_cast<double>(breaks(panel.title)));
+  const bool spheres = all.front().snapshot.spheres();
   double unit = force;
   for (const SnapshotPanel& panel : panels)
-    if (unit == 0) unit = 2 * mean_force(panel.snapshot);
+    if (unit == 0) unit = (spheres ? 12 : 2) * mean_force(panel.snapshot);
   const double width_per_force = unit > 0 ? mean(panels.front().snapshot.radius) / unit : 0;
 
   std::vector<Extent> extents;

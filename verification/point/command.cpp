@@ -46,16 +46,22 @@ std::vector<PointScene> chosen(std::vector<PointScene> scenes, const std::string
 
 void write_ends(const std::vector<PointScene>& scenes, const std::vector<PointEnd>& ends,
                 const std::filesystem::path& path) {
-  std::string table =
-      "case,particles[-],steps[-],steps_wanted[-],F11[-],F12[-],F21[-],F22[-],"
+  const bool spheres = std::any_of(scenes.begin(), scenes.end(),
+                                   [](const PointScene& scene) { return scene.dimension == 3; });
+  const int dimension = spheres ? 3 : 2;
+  std::string table = "case,particles[-],steps[-],steps_wanted[-],";
+  for (int i = 1; i <= dimension; ++i)
+    for (int j = 1; j <= dimension; ++j) table += fmt::format("F{}{}[-],", i, j);
+  table +=
       "relaxation_steps[-],servo_corrections[-],factorisations[-],evaluations[-],"
       "history_advanced[-],cpu[s],status[-],end\n";
   for (std::size_t k = 0; k < scenes.size(); ++k) {
     const PointEnd& end = ends[k];
-    const Tensor& F = end.deformation;
-    table += fmt::format("{},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{},{},{},{},{},{:.4g},{},{}\n",
-                         csv_field(scenes[k].name), end.particles, end.steps, end.steps_wanted,
-                         F(0, 0), F(0, 1), F(1, 0), F(1, 1), end.effort.relaxation_steps,
+    table += fmt::format("{},{},{},{},", csv_field(scenes[k].name), end.particles, end.steps,
+                         end.steps_wanted);
+    for (int i = 0; i < dimension; ++i)
+      for (int j = 0; j < dimension; ++j) table += fmt::format("{:.9g},", end.deformation(i, j));
+    table += fmt::format("{},{},{},{},{},{:.4g},{},{}\n", end.effort.relaxation_steps,
                          end.effort.servo_corrections, end.effort.factorisations,
                          end.effort.evaluations, end.effort.history_advanced, end.cpu,
                          static_cast<int>(end.status), csv_field(end.text));

@@ -16,18 +16,25 @@ namespace {
 constexpr int patience = 4;
 
 // The prescribed measure (F, P or sigma) by component, and its derivative with respect to F.
+template <int D>
 struct Controlled {
-  Vector4 value;
-  Tangent derivative;
+  ComponentsOf<D> value;
+  TangentOf<D> derivative;
 };
 
-Controlled controlled(const std::array<Control, 4>& control, const Tensor& deformation,
-                      const Evaluation& evaluation) {
-  const Vector4 piola = to_vector(evaluation.stress);
-  const Vector4 sigma = to_vector(cauchy_stress(evaluation.stress, deformation));
-  const Tangent spatial = cauchy_tangent(evaluation.stress, evaluation.tangent, deformation);
-  Controlled result{to_vector(deformation), Tangent::Identity()};
-  for (int k = 0; k < 4; ++k) {
+template <int D>
+using Controls = std::array<Control, D * D>;
+
+template <int D>
+Controlled<D> controlled(const Controls<D>& control, const TensorOf<D>& deformation,
+                         const EvaluationOf<D>& evaluation) {
+  const ComponentsOf<D> piola = components_of<D>(evaluation.stress);
+  const ComponentsOf<D> sigma =
+      components_of<D>(cauchy_stress_of<D>(evaluation.stress, deformation));
+  const TangentOf<D> spatial =
+      cauchy_tangent<D>(evaluation.stress, evaluation.tangent, deformation);
+  Controlled<D> result{components_of<D>(deformation), TangentOf<D>::Identity()};
+  for (int k = 0; k < D * D; ++k) {
     if (control[static_cast<std::size_t>(k)] == Control::piola) {
       result.value(k) = piola(k);
       result.derivative.row(k) = evaluation.tangent.row(k);
@@ -39,12 +46,38 @@ Controlled controlled(const std::array<Control, 4>& control, const Tensor& defor
   return result;
 }
 
+template <int D>
+Controls<D> controls_of(const Segment& segment) {
+  Controls<D> control{};
+  for (std::size_t k = 0; k < control.size(); ++k) control[k] = segment.target[k].control;
+  return control;
+}
+
+// F with the components of the diagonal that follow multiplied by one factor, so that its determinant
+// is this one. F at which none is stays as it comes out: it is refused when it is evaluated.
+template <int D>
+TensorOf<D> with_volume(TensorOf<D> deformation, const std::array<bool, 3>& follows,
+                        double determinant) {
+  constexpr double rounding = 4e-16;
+  constexpr int most = 100;
+  const auto count = static_cast<double>(std::count(follows.begin(), follows.end(), true));
+  for (int k = 0; k < most; ++k) {
+    const double ratio = determinant / deformation.determinant();
+    if (!(ratio > 0) || std::abs(ratio - 1) <= rounding) break;
+    const double factor = std::pow(ratio, 1 / count);
+    for (int i = 0; i < D; ++i)
+      if (follows[static_cast<std::size_t>(i)]) deformation(i, i) *= factor;
+  }
+  return deformation;
+}
+
 }  // namespace
 
 // What one (part of a) step is to reach.
-struct PointDriver::Goal {
-  std::array<Control, 4> control{};
-  Vector4 value = Vector4::Zero();
+template <int D>
+struct PointDriverOf<D>::Goal {
+  Controls<D> control{};
+  ComponentsOf<D> value = ComponentsOf<D>::Zero();
   double scale = 1;  // of the stress residual [Pa]
   bool mixed = false;
 
@@ -53,38 +86,46 @@ struct PointDriver::Goal {
   }
 };
 
-struct PointDriver::Iterate : Attempt {
-  Tensor deformation = Tensor::Identity();
-  Evaluation evaluation;
-  Tensor far_deformation = Tensor::Identity();  // the iterate furthest from where the tangent of
-  double far = -1;                              // the last step has it, and how far [Pa]
+template <int D>
+struct PointDriverOf<D>::Iterate : Attempt {
+  TensorOf<D> deformation = TensorOf<D>::Identity();
+  EvaluationOf<D> evaluation;
+  // The iterate furthest from where the tangent of the last step has it, and how far [Pa].
+  TensorOf<D> far_deformation = TensorOf<D>::Identity();
+  double far = -1;
 };
 
-PointDriver::PointDriver(const Material& material, const PointOptions& options)
+template <int D>
+PointDriverOf<D>::PointDriverOf(const Material& material, const PointOptions& options)
     : options_(options),
       state_(make_state(material)),
       volume_(measure_scalar(state_.get(), GRAINLAW_REFERENCE_VOLUME)),
-      deformation_(Tensor::Identity()),
-      evaluation_(evaluate(state_.get(), deformation_, options.tangent)) {
+      deformation_(TensorOf<D>::Identity()),
+      evaluation_(evaluate_of<D>(state_.get(), deformation_, options.tangent)) {
   check(evaluation_.status, "evaluating the start at F = I");
-  deformation_ = deformation_of(state_.get());
-  record_ = make_record(state_.get(), deformation_, evaluation_.stress, evaluation_.report);
+  deformation_ = deformation_gradient<D>(state_.get());
+  record_ = make_record<D>(state_.get(), deformation_, evaluation_.stress, evaluation_.report);
   record_.effort.add(evaluation_.report);
   check(grainlaw_revert(state_.get()), "dropping the trial at F = I");
 }
 
-PointDriver::Goal PointDriver::goal_at(const Segment& segment, const Vector4& start,
-                                       double fraction) const {
+template <int D>
+typename PointDriverOf<D>::Goal PointDriverOf<D>::goal_at(const Segment& segment,
+                                                          const ComponentsOf<D>& start,
+                                                          double fraction) const {
   Goal goal;
-  goal.scale = std::max(cauchy_stress(evaluation_.stress, deformation_).norm(), 1.0);
-  for (std::size_t k = 0; k < 4; ++k) {
+  goal.control = controls_of<D>(segment);
+  goal.scale = std::max(cauchy_stress_of<D>(evaluation_.stress, deformation_).norm(), 1.0);
+  for (std::size_t k = 0; k < D * D; ++k) {
     const Target& target = segment.target[k];
     const auto i = static_cast<Eigen::Index>(k);
     const double end = target.increment ? start(i) + target.value : target.value;
-    goal.control[k] = target.control;
     goal.value(i) = start(i) + fraction * (end - start(i));
     goal.mixed = goal.mixed || target.control != Control::deformation;
   }
+  if (segment.isochoric())
+    goal.value = components_of<D>(with_volume<D>(tensor_of<D>(goal.value), segment.keeps_volume,
+                                                 tensor_of<D>(start).determinant()));
   return goal;
 }
 
@@ -92,21 +133,22 @@ PointDriver::Goal PointDriver::goal_at(const Segment& segment, const Vector4& st
 // prescribed increment over to the unknowns by the tangent of the last step. An exact tangent is
 // renewed at every iterate; any other serves as the start of Broyden's updates, which need no more
 // than a fair matrix.
-PointDriver::Iterate PointDriver::iterate(const Goal& goal, double tolerance) {
+template <int D>
+typename PointDriverOf<D>::Iterate PointDriverOf<D>::iterate(const Goal& goal, double tolerance) {
   Iterate result;
   const unsigned want = goal.mixed ? options_.tangent : 0;
-  const Controlled before = controlled(goal.control, deformation_, evaluation_);
-  Tangent matrix = before.derivative;  // rows of prescribed components of F are rows of I
-  Vector4 correction = matrix.fullPivLu().solve(goal.value - before.value);
-  Vector4 value = before.value;
-  Vector4 deformation = to_vector(deformation_);
+  const Controlled<D> before = controlled<D>(goal.control, deformation_, evaluation_);
+  TangentOf<D> matrix = before.derivative;  // rows of prescribed components of F are rows of I
+  ComponentsOf<D> correction = matrix.fullPivLu().solve(goal.value - before.value);
+  ComponentsOf<D> value = before.value;
+  ComponentsOf<D> deformation = components_of<D>(deformation_);
   double best = std::numeric_limits<double>::infinity();
   int best_iteration = 0;
   bool first = true;
   for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
     deformation += correction;
-    result.deformation = to_tensor(deformation);
-    result.evaluation = evaluate(state_.get(), result.deformation, want);
+    result.deformation = tensor_of<D>(deformation);
+    result.evaluation = evaluate_of<D>(state_.get(), result.deformation, want);
     effort_.add(result.evaluation.report);
     if (goal.mixed) ++effort_.iterations;
     if (result.evaluation.status != GRAINLAW_OK) {
@@ -117,14 +159,14 @@ PointDriver::Iterate PointDriver::iterate(const Goal& goal, double tolerance) {
       result.reason = message.empty() || message == text ? text : text + ": " + message;
       return result;
     }
-    result.deformation = deformation_of(state_.get());
-    const Controlled now = controlled(goal.control, result.deformation, result.evaluation);
-    const Vector4 residual = goal.value - now.value;
-    const Vector4 unforeseen =
+    result.deformation = deformation_gradient<D>(state_.get());
+    const Controlled<D> now = controlled<D>(goal.control, result.deformation, result.evaluation);
+    const ComponentsOf<D> residual = goal.value - now.value;
+    const ComponentsOf<D> unforeseen =
         now.value - before.value -
-        before.derivative * (to_vector(result.deformation) - to_vector(deformation_));
+        before.derivative * (components_of<D>(result.deformation) - components_of<D>(deformation_));
     double error = 0;
-    for (int k = 0; k < 4; ++k)
+    for (int k = 0; k < D * D; ++k)
       if (goal.stress(k)) error = std::max(error, std::abs(residual(k)) / goal.scale);
     if (unforeseen.norm() > result.far) {
       result.far = unforeseen.norm();
@@ -143,7 +185,7 @@ PointDriver::Iterate PointDriver::iterate(const Goal& goal, double tolerance) {
     if (result.evaluation.report.tangent_exact != 0 || first) {
       matrix = now.derivative;
     } else {
-      const Vector4 mismatch = now.value - value - matrix * correction;
+      const ComponentsOf<D> mismatch = now.value - value - matrix * correction;
       matrix += mismatch * correction.transpose() / correction.squaredNorm();
     }
     value = now.value;
@@ -157,8 +199,9 @@ PointDriver::Iterate PointDriver::iterate(const Goal& goal, double tolerance) {
 
 // The last step may have been under strain control alone, without a tangent; stress control starts
 // from one.
-void PointDriver::renew_tangent() {
-  const Evaluation again = evaluate(state_.get(), deformation_, options_.tangent);
+template <int D>
+void PointDriverOf<D>::renew_tangent() {
+  const EvaluationOf<D> again = evaluate_of<D>(state_.get(), deformation_, options_.tangent);
   if (again.status != GRAINLAW_OK)
     throw StepError(again.status, fmt::format("evaluating the tangent at the start of a segment, "
                                               "after step {}, failed: {}",
@@ -168,8 +211,9 @@ void PointDriver::renew_tangent() {
   has_tangent_ = true;
 }
 
-void PointDriver::accept(const Iterate& iterate, bool has_tangent) {
-  const Tensor change = iterate.deformation - deformation_;
+template <int D>
+void PointDriverOf<D>::accept(const Iterate& iterate, bool has_tangent) {
+  const TensorOf<D> change = iterate.deformation - deformation_;
   work_ +=
       0.5 * volume_ * (evaluation_.stress + iterate.evaluation.stress).cwiseProduct(change).sum();
   deformation_ = iterate.deformation;
@@ -178,11 +222,12 @@ void PointDriver::accept(const Iterate& iterate, bool has_tangent) {
 }
 
 // From an attempt that stalled before a jump, and from what it saw beyond.
-PointDriver::Iterate PointDriver::cross_jumps(const Goal& goal, Iterate last) {
+template <int D>
+typename PointDriverOf<D>::Iterate PointDriverOf<D>::cross_jumps(const Goal& goal, Iterate last) {
   for (int crossing = 0; crossing < most_crossings && last.stalled; ++crossing) {
     Iterate beyond = last;
     beyond.deformation = last.far_deformation;
-    beyond.evaluation = evaluate(state_.get(), beyond.deformation, options_.tangent);
+    beyond.evaluation = evaluate_of<D>(state_.get(), beyond.deformation, options_.tangent);
     effort_.add(beyond.evaluation.report);
     if (beyond.evaluation.status != GRAINLAW_OK) return last;
     accept(beyond, true);
@@ -194,11 +239,11 @@ PointDriver::Iterate PointDriver::cross_jumps(const Goal& goal, Iterate last) {
   return last;
 }
 
-void PointDriver::run(const Segment& segment, const PointObserver& observe,
-                      const CutObserver& observe_cut) {
-  std::array<Control, 4> control{};
-  for (std::size_t k = 0; k < 4; ++k) control[k] = segment.target[k].control;
-  const Vector4 start = controlled(control, deformation_, evaluation_).value;
+template <int D>
+void PointDriverOf<D>::run(const Segment& segment, const PointObserver& observe,
+                           const CutObserver& observe_cut) {
+  const ComponentsOf<D> start =
+      controlled<D>(controls_of<D>(segment), deformation_, evaluation_).value;
   if (goal_at(segment, start, 0).mixed && !has_tangent_) renew_tangent();
   for (int step = 1; step <= segment.steps; ++step) {
     if (options_.max_steps > 0 && record_.step >= options_.max_steps) return;
@@ -206,7 +251,7 @@ void PointDriver::run(const Segment& segment, const PointObserver& observe,
     effort_ = {};
     double done = 0;
     double fraction = 0;
-    Tensor committed;
+    TensorOf<D> committed;
     const auto attempt = [&](double next, bool loose) {
       fraction = (step - 1 + next) / segment.steps;
       const Goal goal = goal_at(segment, start, fraction);
@@ -226,12 +271,12 @@ void PointDriver::run(const Segment& segment, const PointObserver& observe,
       }
       return Attempt(last);
     };
-    const std::string name = fmt::format("step {} (from F22 = {:.6f}, F12 = {:.6f})", number,
-                                         deformation_(1, 1), deformation_(0, 1));
+    const std::string name = fmt::format("step {} (from F{}{} = {:.6f}, F12 = {:.6f})", number, D,
+                                         D, deformation_(D - 1, D - 1), deformation_(0, 1));
     const Parts parts = solve_in_parts(0, 1, name, options_.max_cuts, options_.loose_tolerance > 0,
                                        attempt, observe_cut);
     effort_.loose = parts.loose;
-    record_ = make_record(state_.get(), deformation_, evaluation_.stress, evaluation_.report);
+    record_ = make_record<D>(state_.get(), deformation_, evaluation_.stress, evaluation_.report);
     record_.step = number;
     record_.external_work = work_;
     record_.effort = std::exchange(effort_, {});
@@ -239,5 +284,8 @@ void PointDriver::run(const Segment& segment, const PointObserver& observe,
     check(grainlaw_commit(state_.get()), "committing a step");
   }
 }
+
+template class PointDriverOf<2>;
+template class PointDriverOf<3>;
 
 }  // namespace verification

@@ -23,26 +23,32 @@ struct PointOptions {
 };
 
 // What an observer sees at the end of every full step, before the trial is committed.
-struct PointStep {
-  grainlaw_state* state;         // committed: the (part of a) step before; trial: this one
-  Tensor committed_deformation;  // F of the committed state
-  const Evaluation& evaluation;  // of the trial
-  const Record& record;
+template <int D>
+struct PointStepOf {
+  grainlaw_state* state;              // committed: the (part of a) step before; trial: this one
+  TensorOf<D> committed_deformation;  // F of the committed state
+  const EvaluationOf<D>& evaluation;  // of the trial
+  const RecordOf<D>& record;
   double fraction;  // of the segment, 0..1
 };
-using PointObserver = std::function<void(const PointStep&)>;
+template <int D>
+using PointObserverOf = std::function<void(const PointStepOf<D>&)>;
 
-class PointDriver {
+template <int D>
+class PointDriverOf {
  public:
+  using PointStep = PointStepOf<D>;
+  using PointObserver = PointObserverOf<D>;
+
   // Starts at F = I. The material must outlive nothing: the state keeps it alive.
-  PointDriver(const Material& material, const PointOptions& options);
+  PointDriverOf(const Material& material, const PointOptions& options);
 
   // Runs one segment. Throws StepError, saying where, when a step fails at its smallest cut;
   // the parts before it stay done.
   void run(const Segment& segment, const PointObserver& observe,
            const CutObserver& observe_cut = {});
 
-  [[nodiscard]] const Record& record() const { return record_; }
+  [[nodiscard]] const RecordOf<D>& record() const { return record_; }
   // Of the step that did not end, after an error.
   [[nodiscard]] const Effort& unfinished() const { return effort_; }
   [[nodiscard]] grainlaw_state* state() const { return state_.get(); }
@@ -50,7 +56,7 @@ class PointDriver {
  private:
   struct Goal;
   struct Iterate;
-  Goal goal_at(const Segment& segment, const Vector4& start, double fraction) const;
+  Goal goal_at(const Segment& segment, const ComponentsOf<D>& start, double fraction) const;
   Iterate iterate(const Goal& goal, double tolerance);
   Iterate cross_jumps(const Goal& goal, Iterate last);
   void accept(const Iterate& iterate, bool has_tangent);
@@ -58,13 +64,17 @@ class PointDriver {
 
   PointOptions options_;
   State state_;
-  double volume_;          // at F = I [m3]
-  Tensor deformation_;     // committed F
-  Evaluation evaluation_;  // that led to it
-  Record record_;          // of the last step
-  Effort effort_;          // of the step that is being made
+  double volume_;               // at F = I [m3]
+  TensorOf<D> deformation_;     // committed F
+  EvaluationOf<D> evaluation_;  // that led to it
+  RecordOf<D> record_;          // of the last step
+  Effort effort_;               // of the step that is being made
   bool has_tangent_ = true;
   double work_ = 0;  // external, since F = I [J]
 };
+
+using PointStep = PointStepOf<2>;
+using PointObserver = PointObserverOf<2>;
+using PointDriver = PointDriverOf<2>;
 
 }  // namespace verification

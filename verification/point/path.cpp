@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -9,21 +10,28 @@
 namespace verification {
 namespace {
 
-constexpr std::array<const char*, 4> indices{"11", "12", "21", "22"};
+struct Key {
+  const char* prefix;
+  Target target;
+};
+constexpr std::array<Key, 4> keys{{{"F", {Control::deformation, false, 0}},
+                                   {"dF", {Control::deformation, true, 0}},
+                                   {"P", {Control::piola, false, 0}},
+                                   {"sigma", {Control::cauchy, false, 0}}}};
 
-Target read_target(SceneTable& segment, const char* index) {
-  struct Key {
-    const char* prefix;
-    Target target;
-  };
-  constexpr std::array<Key, 4> keys{{{"F", {Control::deformation, false, 0}},
-                                     {"dF", {Control::deformation, true, 0}},
-                                     {"P", {Control::piola, false, 0}},
-                                     {"sigma", {Control::cauchy, false, 0}}}};
+// "11", "12" and so on, row by row.
+std::vector<std::string> component_names(int dimension) {
+  std::vector<std::string> names;
+  for (int i = 1; i <= dimension; ++i)
+    for (int j = 1; j <= dimension; ++j) names.push_back(fmt::format("{}{}", i, j));
+  return names;
+}
+
+Target read_target(SceneTable& segment, const std::string& index) {
   Target target;
   std::string given;
   for (const Key& key : keys) {
-    const std::string name = std::string(key.prefix) + index;
+    const std::string name = key.prefix + index;
     if (segment.node(name) == nullptr) continue;
     if (!given.empty())
       segment.fail(name, "a second condition beside " + given, "one condition per component");
@@ -37,13 +45,13 @@ Target read_target(SceneTable& segment, const char* index) {
 // Follows a stretch through the segments, as far as it is prescribed.
 class Stretch {
  public:
-  void follow(const SceneTable& segment, const char* index, const Target& target) {
+  void follow(const SceneTable& segment, const std::string& index, const Target& target) {
     constexpr double least = 0.5;
     if (target.control != Control::deformation) {
       reached_.reset();
       return;
     }
-    const std::string key = (target.increment ? "dF" : "F") + std::string(index);
+    const std::string key = (target.increment ? "dF" : "F") + index;
     const std::optional<double> from = target.increment ? reached_ : 0;
     if (from)
       reached_ = *from + target.value;
@@ -61,34 +69,76 @@ class Stretch {
                              index));
   }
 
+  // What it comes to is found.
+  void lose() { reached_.reset(); }
+
  private:
   std::optional<double> reached_ = 1;
 };
 
-void check_tension(const SceneTable& segment, const char* index, const Target& target) {
+void check_tension(const SceneTable& segment, const std::string& index, const Target& target) {
   if (target.control == Control::deformation || !(target.value > 0)) return;
   segment.fail(
-      (target.control == Control::piola ? "P" : "sigma") + std::string(index),
+      (target.control == Control::piola ? "P" : "sigma") + index,
       fmt::format("{:g}, which is tension", target.value),
       fmt::format("a number <= 0, {:g} Pa for compression: contacts without bonds carry no "
                   "tension",
                   -target.value));
 }
 
+// A component of spheres in a scene of discs.
+void check_dimension(SceneTable& segment, int dimension) {
+  if (dimension == 3) return;
+  for (const std::string& index : component_names(3))
+    for (const Key& key : keys)
+      if (const std::string name = key.prefix + index;
+          index.find('3') != std::string::npos && segment.has(name))
+        segment.fail(name, "a component of three dimensions",
+                     "one of 11, 12, 21, 22: the material has dimension = 2");
+}
+
+// What of F follows in a segment with isochoric = true.
+std::array<bool, 3> read_following(SceneTable& segment, const Segment& read, int dimension) {
+  if (!segment.flag_or("isochoric", false)) return {};
+  std::array<bool, 3> following{};
+  const std::vector<std::string> names = component_names(dimension);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const std::string& index = names[k];
+    if (read.target[k].control != Control::deformation)
+      segment.fail("isochoric",
+                   fmt::format("true beside a stress, {}{}",
+                               read.target[k].control == Control::piola ? "P" : "sigma", index),
+                   "conditions on F alone: those of its diagonal that have none follow det F");
+    const bool given = segment.has("F" + index) || segment.has("dF" + index);
+    if (index[0] == index[1]) following[static_cast<std::size_t>(index[0] - '1')] = !given;
+  }
+  if (std::find(following.begin(), following.end(), true) == following.end())
+    segment.fail("isochoric", "true, and all of the diagonal of F is prescribed",
+                 "one of it without a condition, which follows det F");
+  return following;
+}
+
 }  // namespace
 
-std::vector<Segment> read_segments(SceneTable& scene, bool carries_tension) {
+std::vector<Segment> read_segments(SceneTable& scene, bool carries_tension, int dimension) {
   std::vector<Segment> segments;
-  std::array<Stretch, 2> stretch;
+  std::array<Stretch, 3> stretch;
+  const std::vector<std::string> names = component_names(dimension);
   for (SceneTable& table : scene.tables("segment")) {
     Segment segment;
     segment.steps = table.integer("steps", 1);
-    for (std::size_t k = 0; k < 4; ++k) segment.target[k] = read_target(table, indices[k]);
-    for (const std::size_t k : {0U, 3U}) {
+    check_dimension(table, dimension);
+    for (std::size_t k = 0; k < names.size(); ++k) segment.target[k] = read_target(table, names[k]);
+    segment.keeps_volume = read_following(table, segment, dimension);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i) {
+      const std::size_t k = i * static_cast<std::size_t>(dimension) + i;
       if (segment.target[k].control == Control::deformation && !segment.target[k].increment)
-        table.number(std::string("F") + indices[k], positive);
-      stretch[k / 3].follow(table, indices[k], segment.target[k]);
-      if (!carries_tension) check_tension(table, indices[k], segment.target[k]);
+        table.number("F" + names[k], positive);
+      if (segment.keeps_volume[i])
+        stretch[i].lose();
+      else
+        stretch[i].follow(table, names[k], segment.target[k]);
+      if (!carries_tension) check_tension(table, names[k], segment.target[k]);
     }
     table.close();
     segments.push_back(segment);
@@ -102,6 +152,14 @@ Segment drained_segment(double axial, double lateral, int steps) {
   segment.steps = steps;
   segment.target[0] = {Control::cauchy, false, lateral};
   segment.target[3] = {Control::deformation, true, axial};
+  return segment;
+}
+
+Segment triaxial_segment(double axial, double lateral, int steps) {
+  Segment segment;
+  segment.steps = steps;
+  segment.target[0] = segment.target[4] = {Control::cauchy, false, lateral};
+  segment.target[8] = {Control::deformation, true, axial};
   return segment;
 }
 

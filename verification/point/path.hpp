@@ -22,19 +22,28 @@ struct Target {
 };
 
 struct Segment {
-  std::array<Target, 4> target;  // 11, 12, 21, 22
+  std::array<Target, 9> target;  // row by row: 11, 12, 21, 22; of spheres 11, 12, 13, 21, ..., 33
   int steps = 1;
+  // Components of the diagonal of F that follow, by one factor, so that det F stays what it is at the
+  // start of the segment; then no stress is prescribed.
+  std::array<bool, 3> keeps_volume{};
+
+  [[nodiscard]] bool isochoric() const {
+    return keeps_volume[0] || keeps_volume[1] || keeps_volume[2];
+  }
 };
 
-// [[segment]]: steps, and per component one of F11 (end value), dF11 (increment), P11, sigma11 (end
-// value, Pa, tension positive). A component that is not named keeps its F. Throws InputError, also for
-// what cannot be meant: half of the length or less, as when a strain stands for a stretch, and a
-// normal stress in tension unless the contacts carry it.
-std::vector<Segment> read_segments(SceneTable& scene, bool carries_tension);
+// [[segment]]: steps, per component one of F11 (end value), dF11 (increment), P11, sigma11 (end
+// value, Pa, tension positive), and isochoric. A component that is not named keeps its F. Throws
+// InputError, also for what cannot be meant: half of the length or less, as when a strain stands for a
+// stretch, and a normal stress in tension unless the contacts carry it.
+std::vector<Segment> read_segments(SceneTable& scene, bool carries_tension, int dimension = 2);
 
 // Drained biaxial compression: F22 by `axial` (negative: compression), no shear, sigma11 =
 // `lateral`.
 Segment drained_segment(double axial, double lateral, int steps);
+// Drained triaxial compression of spheres: F33 by `axial`, no shear, sigma11 = sigma22 = `lateral`.
+Segment triaxial_segment(double axial, double lateral, int steps);
 // Simple shear: F12 by `shear`, everything else fixed.
 Segment shear_segment(double shear, int steps);
 

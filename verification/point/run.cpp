@@ -17,8 +17,10 @@
 namespace verification {
 namespace {
 
-double abscissa(const PointScene& scene, const Record& record) {
-  return scene.abscissa == shear_abscissa ? record.deformation(0, 1) : record.axial_strain();
+template <int D>
+double abscissa(const PointScene& scene, const RecordOf<D>& record) {
+  if (scene.abscissa == axial_abscissa) return record.axial_strain();
+  return record.deformation(scene.abscissa[1] - '1', scene.abscissa[2] - '1');
 }
 
 // What is written and drawn beside the history of a run.
@@ -33,7 +35,8 @@ class Observer {
     written.add("_particles.csv");
   }
 
-  void see(const grainlaw_state* state, const Record& record) {
+  template <int D>
+  void see(const grainlaw_state* state, const RecordOf<D>& record) {
     if (scene_.vtk_every > 0 && record.step % scene_.vtk_every == 0) {
       write_vtk(state, stem_, record.step);
       written_.add("_STEP.vtp");
@@ -53,7 +56,7 @@ class Observer {
                                       : scene_.pictures[panels_.size()];
       if (backwards ? strain > wanted + rounding : strain < wanted - rounding) break;
       if (!snapshot) snapshot = files_.take(state);
-      const char* name = scene_.abscissa == shear_abscissa ? "F12" : "axial strain";
+      const std::string name = scene_.abscissa == axial_abscissa ? "axial strain" : scene_.abscissa;
       panels_.push_back({fmt::format("{} = {:.3g}", name, strain), *snapshot});
     }
   }
@@ -73,9 +76,8 @@ class Observer {
   std::vector<SnapshotPanel> panels_;
 };
 
-}  // namespace
-
-void run_point(const PointScene& scene, const std::filesystem::path& stem, PointEnd& end) {
+template <int D>
+void run_path(const PointScene& scene, const std::filesystem::path& stem, PointEnd& end) {
   end = {};
   for (const Segment& segment : scene.segments) end.steps_wanted += segment.steps;
   const int whole = end.steps_wanted;
@@ -84,7 +86,7 @@ void run_point(const PointScene& scene, const std::filesystem::path& stem, Point
   double start = cpu_seconds();
   Material material;
   try {
-    material = make_material(scene.material);
+    material = make_material(scene.material, D);
   } catch (const ComputationError& error) {
     std::filesystem::remove(stem.string() + ".csv");  // of an earlier run
     end.cpu = cpu_seconds() - start;
@@ -95,11 +97,11 @@ void run_point(const PointScene& scene, const std::filesystem::path& stem, Point
     return;
   }
   Written written(stem);
-  History history(stem);
+  History history(stem, record_columns<D>());
   written.add(".csv");
   Observer observer(scene, stem, written);
   start = cpu_seconds();
-  PointDriver driver(material, scene.options);
+  PointDriverOf<D> driver(material, scene.options);
   end.cpu += cpu_seconds() - start;
   PackingStart begin = look_at_start(driver.state(), scene.material, stem.string() + "_state");
   for (std::string& text : far_targets(begin, scene.segments))
@@ -110,16 +112,16 @@ void run_point(const PointScene& scene, const std::filesystem::path& stem, Point
   observer.see(driver.state(), driver.record());
 
   std::optional<Progress> progress(scene.name);
-  const auto observe = [&](const PointStep& step) {
+  const auto observe = [&](const PointStepOf<D>& step) {
     end.cpu += cpu_seconds() - start;
-    const Record& record = step.record;
+    const RecordOf<D>& record = step.record;
     end.effort.add(record.effort);
     history.add(record);
     observer.see(step.state, record);
-    progress->update(
-        static_cast<double>(record.step) / end.steps_wanted,
-        fmt::format("sigma22 {:.1f} kPa, F22 {:.4f}, F12 {:.4f}", record.cauchy(1, 1) / 1e3,
-                    record.deformation(1, 1), record.deformation(0, 1)));
+    progress->update(static_cast<double>(record.step) / end.steps_wanted,
+                     fmt::format("sigma{0}{0} {1:.1f} kPa, F{0}{0} {2:.4f}, F12 {3:.4f}", D,
+                                 record.cauchy(D - 1, D - 1) / 1e3,
+                                 record.deformation(D - 1, D - 1), record.deformation(0, 1)));
     if (record.step < end.steps_wanted) Interrupt::check();
     start = cpu_seconds();
   };
@@ -146,7 +148,7 @@ void run_point(const PointScene& scene, const std::filesystem::path& stem, Point
   end.cpu += cpu_seconds() - start;
   end.effort.add(driver.unfinished());
   end.steps = driver.record().step;
-  end.deformation = driver.record().deformation;
+  end.deformation.template topLeftCorner<D, D>() = driver.record().deformation;
   if (end.steps == end.steps_wanted && end.steps < whole)
     end.text = fmt::format("left after step {} of {} as asked", end.steps, whole);
   progress.reset();
@@ -155,6 +157,12 @@ void run_point(const PointScene& scene, const std::filesystem::path& stem, Point
   fmt::print("{}: {}; {:.2f} s of CPU{}\n{}\n", scene.name, history.summary(driver.unfinished()),
              end.cpu, end.text == PointEnd().text ? "" : "\n  ended: " + end.text, written.text());
   if (stopped) std::rethrow_exception(stopped);
+}
+
+}  // namespace
+
+void run_point(const PointScene& scene, const std::filesystem::path& stem, PointEnd& end) {
+  scene.dimension == 3 ? run_path<3>(scene, stem, end) : run_path<2>(scene, stem, end);
 }
 
 }  // namespace verification

@@ -13,11 +13,12 @@ struct PointEnd {
   int particles = 0;  // all copies of a frame
   int steps = 0;
   int steps_wanted = 0;
-  Tensor deformation = Tensor::Identity();  // F of the last step [-]
-  Effort effort;                            // sum over the steps
-  double cpu = 0;                           // of the thread, pictures left out [s]
-  grainlaw_status status = GRAINLAW_OK;     // that ended it
-  std::string text = "done";                // or why it is not
+  // F of the last step, of discs that of plane strain [-].
+  TensorOf<3> deformation = TensorOf<3>::Identity();
+  Effort effort;                         // sum over the steps
+  double cpu = 0;                        // of the thread, pictures left out [s]
+  grainlaw_status status = GRAINLAW_OK;  // that ended it
+  std::string text = "done";             // or why it is not
 };
 
 // Writes stem.csv, .svg, .png and what the scene asks for beside them, and tells what the run took

@@ -18,6 +18,12 @@ std::vector<double> read_pictures(SceneTable& table) {
   return pictures;
 }
 
+std::vector<std::string_view> abscissae(int dimension) {
+  std::vector<std::string_view> names{axial_abscissa, shear_abscissa};
+  if (dimension == 3) names.insert(names.end(), {"F13", "F23"});
+  return names;
+}
+
 PointScene read_scene(SceneTable table, const std::string& name) {
   PointScene scene;
   scene.name = table.file_name_or("name", name);
@@ -29,8 +35,9 @@ PointScene read_scene(SceneTable table, const std::string& name) {
       table.integer_or("max_iterations", scene.options.max_iterations, 1);
   scene.options.max_cuts = table.integer_or("max_cuts", scene.options.max_cuts, 0);
   scene.options.loose_tolerance = table.number_or("loose_tolerance", 0, not_negative);
-  scene.segments = read_segments(table, carries_tension(scene.material));
-  scene.abscissa = table.choice_or("abscissa", axial_abscissa, {axial_abscissa, shear_abscissa});
+  scene.dimension = dimension_of(scene.material);
+  scene.segments = read_segments(table, carries_tension(scene.material), scene.dimension);
+  scene.abscissa = table.choice_or("abscissa", axial_abscissa, abscissae(scene.dimension));
   scene.vtk_every = table.integer_or("vtk_every", 0, 0);
   scene.pictures = read_pictures(table);
   scene.picture_force = table.number_or("picture_force", 0, not_negative);

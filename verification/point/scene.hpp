@@ -14,6 +14,7 @@ namespace verification {
 struct PointScene {
   std::string name;  // of the results
   MaterialSource material;
+  int dimension = 2;  // 2: discs, 3: spheres
   PointOptions options;
   std::vector<Segment> segments;
   std::string abscissa;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace verification {
 namespace {
@@ -50,6 +51,21 @@ std::vector<std::string> unusual_of(const PackingStart& start, const MaterialSou
   return unusual;
 }
 
+double thickness_of(const grainlaw_state* state, const Snapshot& snapshot) {
+  const auto& h = snapshot.cell;
+  return measure_scalar(state, GRAINLAW_VOLUME) / std::abs(h[0] * h[3] - h[1] * h[2]);
+}
+
+double mean_diameter(const Snapshot& snapshot) {
+  const double sum = std::accumulate(snapshot.radius.begin(), snapshot.radius.end(), 0.0);
+  return 2 * sum / static_cast<double>(snapshot.size());
+}
+
+// Where the diagonal of a tensor is among its components.
+std::vector<std::size_t> diagonal(int dimension) {
+  return dimension == 3 ? std::vector<std::size_t>{0, 4, 8} : std::vector<std::size_t>{0, 3};
+}
+
 }  // namespace
 
 bool carries_tension(const MaterialSource& source) {
@@ -70,7 +86,9 @@ PackingStart look_at_start(const grainlaw_state* state, const MaterialSource& so
                            const std::filesystem::path& stem) {
   PackingStart start;
   const std::vector<double> sigma = measure(state, GRAINLAW_CAUCHY_STRESS);
-  start.pressure = -0.5 * (sigma[0] + sigma[3]);
+  const bool spheres = sigma.size() == 9;
+  start.pressure = spheres ? -(sigma[0] + sigma[4] + sigma[8]) / 3 : -0.5 * (sigma[0] + sigma[3]);
+  start.dimension = spheres ? 3 : 2;
   start.void_ratio = measure_scalar(state, GRAINLAW_VOID_RATIO);
   const Snapshot snapshot = SnapshotFiles(stem).take(state);
   start.particles = static_cast<int>(snapshot.size());
@@ -78,15 +96,12 @@ PackingStart look_at_start(const grainlaw_state* state, const MaterialSource& so
   double force = 0, overlap = 0;
   for (const SnapshotContact& contact : snapshot.contacts) {
     const double depth = snapshot.radius[static_cast<std::size_t>(contact.i)] +
-                         snapshot.radius[static_cast<std::size_t>(contact.j)] -
-                         std::hypot(contact.branch[0], contact.branch[1]);
+                         snapshot.radius[static_cast<std::size_t>(contact.j)] - contact.length();
     if (!(depth > 0) || !(contact.normal_force > 0)) continue;
     force += contact.normal_force;
     overlap += depth;
   }
-  const auto& h = snapshot.cell;
-  const double thickness =
-      measure_scalar(state, GRAINLAW_VOLUME) / std::abs(h[0] * h[3] - h[1] * h[2]);
+  const double thickness = spheres ? mean_diameter(snapshot) : thickness_of(state, snapshot);
   if (overlap > 0 && start.pressure > 0)
     start.stiffness = force / overlap / (start.pressure * thickness);
   start.unusual = unusual_of(start, source);
@@ -97,14 +112,14 @@ std::vector<std::string> far_targets(const PackingStart& start, const std::vecto
   constexpr double far = 100;  // times the pressure, or a hundredth
   std::vector<std::string> texts;
   for (const Segment& segment : path)
-    for (const std::size_t k : {0U, 3U}) {
+    for (const std::size_t k : diagonal(start.dimension)) {
       const Target& target = segment.target[k];
       const double ratio = -target.value / start.pressure;
       if (target.control == Control::deformation || !(ratio > 0)) continue;
       if (ratio < far && ratio > 1 / far) continue;
       texts.push_back(fmt::format(
           "a target of {:.3g} Pa in direction {} for a packing under {:.3g} Pa: is it in Pa?",
-          target.value, k == 0 ? 1 : 2, start.pressure));
+          target.value, 1 + k / static_cast<std::size_t>(start.dimension + 1), start.pressure));
     }
   return texts;
 }
@@ -114,7 +129,7 @@ std::string smaller_steps(const PackingStart& start, const Segment& segment) {
   for (const Target& target : segment.target)
     if (target.control == Control::deformation && target.increment)
       strain = std::max(strain, std::abs(target.value) / segment.steps);
-  for (const std::size_t k : {0U, 3U})
+  for (const std::size_t k : diagonal(start.dimension))
     if (segment.target[k].control == Control::deformation && !segment.target[k].increment)
       strain = std::max(strain, std::abs(segment.target[k].value - 1) / segment.steps);
   const double hard = strain * start.stiffness;

@@ -15,12 +15,13 @@ namespace verification {
 bool carries_tension(const MaterialSource& source);
 
 struct PackingStart {
-  int particles = 0;     // all copies of a frame
-  double pressure = 0;   // mean, of the Cauchy stress at F = I [Pa]
-  double stiffness = 0;  // kn / (pressure x thickness), kn the mean of the contacts; Hertz-Mindlin:
-                         // their secant; 0 without pressure [-]
-  double void_ratio = 0;             // [-]
-  double overlap = 0;                // mean, of the contacts' mean radius [-]
+  int dimension = 2;
+  int particles = 0;      // all copies of a frame
+  double pressure = 0;    // mean, of the Cauchy stress at F = I [Pa]
+  double stiffness = 0;   // kn / (pressure x thickness), of spheres x mean diameter, kn the mean of
+                          // the contacts; Hertz-Mindlin: their secant; 0 without pressure [-]
+  double void_ratio = 0;  // [-]
+  double overlap = 0;     // mean, of the contacts' mean radius [-]
   std::vector<std::string> unusual;  // one text each
 
   // "mean pressure 1e+05 Pa, kn/p 300, void ratio 0.2, mean overlap 0.5 % of a radius; unusual: ..."
