@@ -1,0 +1,86 @@
+// A body of bricks: mesh, conditions, and a packing of spheres in every integration point.
+#pragma once
+
+#include "app/library.hpp"
+#include "app/record.hpp"
+#include "brick/mesh.hpp"
+
+#include <Eigen/Sparse>
+
+#include <string>
+#include <vector>
+
+namespace verification {
+
+struct BrickModel {
+  struct Displacement {
+    std::vector<int> nodes;
+    int component = 0;
+    double value = 0;  // at time 1, reached linearly [m]
+  };
+  struct Tie {
+    std::vector<int> nodes;
+    int component = 0;
+  };
+  struct Pressure {
+    std::vector<std::array<int, 4>> faces;
+    double value = 0;  // [Pa], compression positive; follows the deformed faces
+  };
+
+  BrickMesh mesh;
+  std::vector<Displacement> displacements;
+  std::vector<Tie> ties;
+  std::vector<Pressure> pressures;
+};
+
+// Which unknown every component of displacement is; of node n component i is 3 n + i.
+struct BrickUnknowns {
+  explicit BrickUnknowns(const BrickModel& model);
+
+  std::vector<int> number;  // -1: prescribed
+  Eigen::VectorXd end;      // prescribed displacement at time 1, else 0 [m]
+  int count = 0;
+
+  [[nodiscard]] Eigen::VectorXd reduce(const Eigen::VectorXd& force) const;
+  [[nodiscard]] Eigen::VectorXd expand(const Eigen::VectorXd& unknowns) const;
+};
+
+// Forces and stiffness of all components of displacement.
+struct BrickSystem {
+  Eigen::VectorXd residual;               // external minus internal force [N]
+  Eigen::SparseMatrix<double> stiffness;  // minus its derivative [N/m]
+  double scale = 1;                       // |internal force| [N]
+};
+
+// The integration points.
+class BrickField {
+ public:
+  BrickField(const BrickModel& model, const Material& material, int threads);
+
+  // Recoverable failures are returned; the answer is kept for assemble(). Throws ComputationError.
+  grainlaw_status evaluate(const Eigen::VectorXd& displacement, unsigned want);
+  [[nodiscard]] BrickSystem assemble(const Eigen::VectorXd& displacement) const;
+  void commit();
+  void revert();
+
+  // Means over the points, and what the points took since the last call.
+  RecordOf<3> record();
+  [[nodiscard]] const grainlaw_summary& summary() const { return summary_; }
+  [[nodiscard]] const grainlaw_state* state(std::size_t point) const;
+
+ private:
+  const BrickModel& model_;
+  int threads_;
+  Points set_;
+  std::vector<std::array<int, 8>> nodes_;
+  std::vector<BrickPoint> geometry_;
+  std::vector<TensorOf<3>> deformation_, stress_, committed_deformation_, committed_stress_;
+  std::vector<TangentOf<3>> tangent_;
+  std::vector<grainlaw_report> reports_;
+  grainlaw_summary summary_ = grainlaw_summary_default();
+  std::vector<Effort> efforts_;
+  std::vector<double> work_;  // [J] of a packing
+  double volume_ = 0;         // of a packing at F = I [m3]
+};
+
+}  // namespace verification

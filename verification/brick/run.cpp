@@ -1,0 +1,76 @@
+#include "brick/run.hpp"
+
+#include "app/history.hpp"
+#include "app/interrupt.hpp"
+#include "app/output.hpp"
+#include "app/progress.hpp"
+#include "app/written.hpp"
+#include "brick/scene.hpp"
+#include "point/start.hpp"
+
+#include <fmt/format.h>
+
+#include <ctime>
+#include <exception>
+#include <optional>
+
+namespace verification {
+namespace {
+
+// Of all threads [s].
+double cpu() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+}  // namespace
+
+void run_brick_scene(const SceneFile& file, const std::string& directory, int stop_after) {
+  const BrickScene scene = read_brick_scene(file);
+  const std::filesystem::path stem = output_stem(directory, scene.name);
+  const Material material = make_material(scene.material, 3);
+  const Interrupt interrupt;
+  const double start = cpu();
+  const PackingStart begin =
+      look_at_start(make_state(material).get(), scene.material, stem.string() + "_start");
+  warn(scene.name, begin);
+  BrickNewton solver(scene.model, material, scene.newton, scene.threads);
+  Written written(stem);
+  History history(stem, record_columns<3>());
+  written.add(".csv");
+  std::optional<Progress> progress(scene.name);
+  std::exception_ptr stopped;
+  std::string end;
+  int done = -1;
+  const auto fraction = [&] { return static_cast<double>(done) / scene.steps; };
+  try {
+    while (done < scene.steps && (stop_after < 0 || done < stop_after)) {
+      const int number = done + 1;
+      const BrickStep step =
+          solver.advance(static_cast<double>(number) / scene.steps, number,
+                         [&](double part, const std::string& reason) {
+                           progress->update(fraction(), describe_cut(number, part, reason));
+                           Interrupt::check();
+                         });
+      done = number;
+      history.add(step.record);
+      progress->update(fraction(),
+                       fmt::format("axial strain {:.2f} %, sigma33 {:.1f} kPa, {} iterations",
+                                   100 * step.record.axial_strain(), step.record.cauchy(2, 2) / 1e3,
+                                   step.record.effort.iterations));
+      if (done < scene.steps) Interrupt::check();
+    }
+  } catch (const StepError& error) {
+    end = error.what() + why_at_start(begin, done, "try more load steps or smaller loads");
+    stopped = std::make_exception_ptr(StepError(error.status, end));
+  } catch (const Interrupted& stop) {
+    stopped = std::current_exception();
+    end = fmt::format("{} after step {} of {}", stop.text(), done, scene.steps);
+  }
+  if (end.empty() && done < scene.steps)
+    end = fmt::format("left after step {} of {} as asked", done, scene.steps);
+  progress.reset();
+  if (done >= 0) written.add_pictures(history.draw_figure(scene.abscissa, scene.name));
+  fmt::print("{}: {}; {:.2f} s of CPU{}\n{}\n", scene.name, history.summary(), cpu() - start,
+             end.empty() ? "" : "\n  ended: " + end, written.text());
+  if (stopped) std::rethrow_exception(stopped);
+}
+
+}  // namespace verification
