@@ -28,6 +28,7 @@ constexpr double percent = 100;
 // A drained test; strains in %, axial compression and dilation positive, stresses in kPa.
 struct Curves {
   std::string name;
+  bool spheres = false;
   std::vector<double> strain, axial_stress, ratio, volumetric, coordination;
 
   [[nodiscard]] double stress_at(double at) const { return interpolate(strain, axial_stress, at); }
@@ -51,12 +52,16 @@ std::vector<double> scaled(const std::vector<double>& values, double factor) {
   return result;
 }
 
-// Of `grainlaw point` or `solve`; else with the columns of YADE's tables in scenes/reference.
+// Of `grainlaw point` or `solve`; else with the columns of YADE's tables in scenes/reference, which
+// tables of spheres have too.
 Curves read_curves(const std::string& name, const std::filesystem::path& path) {
   const CsvTable table = read_csv(path);
-  const bool own =
-      std::find(table.names.begin(), table.names.end(), "sigma22") != table.names.end();
+  const auto has = [&](const char* column) {
+    return std::find(table.names.begin(), table.names.end(), column) != table.names.end();
+  };
+  const bool own = has("sigma22") && !has("axial_stress");
   Curves curves{name,
+                has("sigma33"),
                 scaled(table["axial_strain"], percent),
                 own ? scaled(table["sigma22"], -1e-3) : scaled(table["axial_stress"], 1e-3),
                 own ? table["stress_ratio"] : std::vector<double>(),
@@ -88,7 +93,7 @@ void print_stresses(const std::vector<Curves>& runs, const std::filesystem::path
 
 // Largest relative difference of axial stress up to a strain before the peak, where the path does
 // not yet depend on round-off, at multiples of 0.1 %.
-void print_agreement(const Curves& a, const Curves& b) {
+double largest_difference(const Curves& a, const Curves& b) {
   constexpr double last = 1.0;  // %
   double worst = 0;
   for (int k = 1; k <= static_cast<int>(last * 10 + 0.5); ++k) {
@@ -97,7 +102,36 @@ void print_agreement(const Curves& a, const Curves& b) {
     // NaN, of a run that ended before, stays.
     worst = std::isnan(worst) || error <= worst ? worst : error;
   }
-  fmt::print("  {:<24} against {:<24} {:.2e} [-]\n", a.name, b.name, worst);
+  return worst;
+}
+
+void print_agreement(const Curves& a, const Curves& b) {
+  fmt::print("  {:<24} against {:<24} {:.2e} [-]\n", a.name, b.name, largest_difference(a, b));
+}
+
+// What a run has to agree with the first reference in; NaN: not asked.
+struct Bounds {
+  double stress = std::numeric_limits<double>::quiet_NaN();      // up to 1 % [%]
+  double peak = std::numeric_limits<double>::quiet_NaN();        // [%]
+  double volumetric = std::numeric_limits<double>::quiet_NaN();  // at 2 % [% of strain]
+};
+
+// One line for each bound that was asked for.
+void print_verdict(const Curves& run, const Curves& reference, const Bounds& bounds) {
+  const auto line = [&](const char* what, double difference, double bound) {
+    if (std::isnan(bound)) return;
+    fmt::print("  {:<24} {:<38} {:8.3f} %, expected at most {} %: {}\n", run.name, what, difference,
+               bound, difference <= bound ? "agrees" : "differs");
+  };
+  line("axial stress up to 1 % strain", percent * largest_difference(run, reference),
+       bounds.stress);
+  line("peak of the axial stress", percent * std::abs(run.peak() / reference.peak() - 1),
+       bounds.peak);
+  constexpr double at = 2;  // %
+  line("volumetric strain at 2 % (difference)",
+       std::abs(interpolate(run.strain, run.volumetric, at) -
+                interpolate(reference.strain, reference.volumetric, at)),
+       bounds.volumetric);
 }
 
 void draw_comparison(const std::string& title, const std::vector<Curves>& runs,
@@ -108,7 +142,12 @@ void draw_comparison(const std::string& title, const std::vector<Curves>& runs,
   constexpr std::array<Stroke, 5> strokes{Stroke::solid, Stroke::dashed, Stroke::solid,
                                           Stroke::thin, Stroke::thin};
   Figure figure{title, "axial strain [%]", {}};
-  Panel ratio{"stress ratio σ22 / σ11 [-]", {}, 1.5, "bottom right"};
+  const bool spheres =
+      std::any_of(runs.begin(), runs.end(), [](const Curves& run) { return run.spheres; });
+  Panel ratio{spheres ? "stress ratio axial / lateral [-]" : "stress ratio σ22 / σ11 [-]",
+              {},
+              1.5,
+              "bottom right"};
   Panel volumetric{"volumetric strain, dilation + [%]", {}, 1, ""};
   Panel coordination{"coordination number [-]", {}, 1, ""};
   // The first on top, so that the lines of the others do not hide it.
@@ -130,6 +169,7 @@ struct Arguments {
   std::string title = "Drained compression";
   std::string name = "comparison";
   std::string output = ".";
+  Bounds bounds;
 };
 
 void compare(const Arguments& arguments) {
@@ -155,6 +195,13 @@ void compare(const Arguments& arguments) {
   for (const Curves* reference : references)
     for (const Curves& run : runs)
       if (&run != reference) print_agreement(run, *reference);
+  const Bounds& bounds = arguments.bounds;
+  if (!(std::isnan(bounds.stress) && std::isnan(bounds.peak) && std::isnan(bounds.volumetric))) {
+    const Curves& reference = *references.front();
+    fmt::print("\nagainst {}\n", reference.name);
+    for (const Curves& run : runs)
+      if (&run != &reference) print_verdict(run, reference, bounds);
+  }
   draw_comparison(arguments.title, runs, stem);
 }
 
@@ -166,7 +213,13 @@ void add_compare_command(CLI::App& app) {
       app.add_subcommand("compare", "compare finished drained tests with each other");
   command->add_option("tables", arguments->tables, "NAME=TABLE.csv of each")->required();
   command->add_option("--against", arguments->against,
-                      "NAME of what others are measured by (the last)");
+                      "NAME of what others are measured by (the last); the first one for verdicts");
+  command->add_option("--stress-within", arguments->bounds.stress,
+                      "verdict: largest difference of the axial stress up to 1 % strain [%]");
+  command->add_option("--peak-within", arguments->bounds.peak,
+                      "verdict: difference of the peak [%]");
+  command->add_option("--volume-within", arguments->bounds.volumetric,
+                      "verdict: difference of the volumetric strain at 2 % strain [%]");
   command->add_option("--title", arguments->title, "of the picture")->capture_default_str();
   command->add_option("--name", arguments->name, "of the files")->capture_default_str();
   command->add_option("--output", arguments->output, "directory for the results")

@@ -115,7 +115,7 @@ Material make_material(const MaterialSource& source, int dimension) {
   if (const int found = grainlaw_material_dimension(material); found != dimension)
     throw InputError(fmt::format(
         "{}: dimension: found {}, expected {}{}", origin, found, dimension,
-        found == 3 ? ": this is a command of the plane; `grainlaw point` leads spheres" : ""));
+        found == 3 ? ": this command is of the plane, `point` and `solve` take spheres" : ""));
   return result;
 }
 

@@ -27,11 +27,12 @@ struct SnapshotContact {
 };
 
 struct Snapshot {
-  std::vector<double> x, y, z, radius;  // [m]; z of spheres alone
+  std::vector<double> x, y, radius;  // [m]
   std::vector<double> rotation;  // since F = I [rad]; of spheres the length of the rotation vector
   std::vector<int> boundary;     // of a frame: particles in order around it; else empty
   std::vector<double> cell;      // H, row-major [m]
   std::vector<SnapshotContact> contacts;
+  std::vector<double> z{};  // of spheres [m]
 
   [[nodiscard]] std::size_t size() const { return radius.size(); }
   [[nodiscard]] bool spheres() const { return !z.empty(); }
