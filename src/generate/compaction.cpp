@@ -3,8 +3,9 @@
 #include "base/error.hpp"
 #include "generate/anisotropic.hpp"
 #include "generate/compression.hpp"
+#include "generate/generator_checks.hpp"
 #include "generate/lubachevsky_stillinger.hpp"
-#include "generate/regular.hpp"
+#include "generate/regular_at_pressure.hpp"
 #include "generate/stress_control.hpp"
 #include "packing/geometry.hpp"
 
@@ -12,11 +13,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <optional>
-#include <random>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -26,15 +24,7 @@ namespace {
 
 // Beyond this kn / (p t) compression does not end at rest for every seed.
 constexpr double stiffest_compression = 1e3;
-// The most that neighbours may overlap, of their distance at first touch: contact laws of discs mean
-// small overlaps.
-constexpr double most_overlap = 0.2;
 constexpr double faded_force = 1e-3;  // of the mean force at the target
-
-[[noreturn]] void wrong(const char* name, double value, const std::string& expected) {
-  throw Error(GRAINLAW_BAD_PACKING,
-              fmt::format("generator: {} = {}, expected {}", name, value, expected));
-}
 
 // Divided once: packings made before keep their bits.
 double mean_of(const std::vector<double>& radius) {
@@ -57,63 +47,6 @@ double overlap_at(double pressure, const Packing& packing, const ContactLaw& law
 }
 
 double cell_area(const Packing& packing) { return determinant<2>(packing.cell.data()); }
-
-// p t / kn of equal discs, over their relative overlap: p V = 1/2 sum fn d.
-double largest_pressure(const GeneratorOptions& options, const ContactLaw& law, double radius) {
-  return most_overlap * law.stiffness(radius, radius) / options.thickness;
-}
-
-void check(const GeneratorOptions& options, const ContactLaw& law, double radius) {
-  const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
-  if (options.void_ratio != 0) {
-    if (!positive(options.void_ratio))
-      wrong("void_ratio", options.void_ratio, "a finite number > 0");
-  } else {
-    if (!positive(options.pressure)) wrong("pressure", options.pressure, "a finite number > 0");
-    const double most = largest_pressure(options, law, radius);
-    if (options.pressure > most)
-      wrong("pressure", options.pressure,
-            fmt::format("at most {:.6g} Pa, a fifth of kn / thickness", most));
-  }
-  if (!(options.friction >= 0) || !std::isfinite(options.friction))
-    wrong("friction", options.friction, "a number >= 0");
-}
-
-// The overlap of equal discs in a lattice under p t = share fn / distance [m].
-double lattice_overlap(const ContactLaw& law, double radius, double load, double share) {
-  double low = 0;
-  double high = most_overlap * 2 * radius;
-  for (int halving = 0; halving < 100; ++halving) {
-    const double overlap = 0.5 * (low + high);
-    const double force = share * law.normal_force(radius, radius, overlap);
-    (force > load * (2 * radius - overlap) ? high : low) = overlap;
-  }
-  return high;
-}
-
-// Square: p t = fn / d, hexagonal: p t = sqrt(3) fn / d.
-Packing make_regular(const GeneratorOptions& options, const ContactLaw& law) {
-  const double radius = options.radius_max;
-  const double diameter = 2 * radius;
-  const bool square = options.kind == GeneratorKind::square;
-  double overlap = options.overlap.value_or(0);
-  if (!options.overlap) {
-    check(options, law, radius);
-    overlap = lattice_overlap(law, radius, options.pressure * options.thickness,
-                              square ? 1 : std::numbers::sqrt3);
-  }
-  if (!(overlap >= 0 && overlap < most_overlap * diameter))
-    wrong("overlap", overlap, fmt::format("a length >= 0 and below {} m", most_overlap * diameter));
-  const double distance = diameter - overlap;
-  Packing packing = square ? square_lattice(options.columns, options.rows, radius, distance)
-                           : hexagonal_lattice(options.columns, options.rows, radius, distance);
-  std::mt19937_64 engine(options.seed);
-  if (options.radius_spread > 0)
-    for (double& r : packing.radius) r *= 1 + options.radius_spread * (2 * unit_double(engine) - 1);
-  packing.thickness = options.thickness;
-  packing.density = options.density;
-  return packing;
-}
 
 // Consolidation of loose discs.
 class Consolidation {
@@ -191,7 +124,7 @@ class Consolidation {
 };
 
 Packing make_random(const GeneratorOptions& options, const ContactLaw& material_law) {
-  check(options, material_law, 0.5 * (options.radius_min + options.radius_max));
+  check_target<2>(options, material_law, 0.5 * (options.radius_min + options.radius_max));
   ContactLaw law = material_law;
   law.friction = options.friction;
   if (law.bonds()) law.kind = LawKind::frictional;  // bonds come with F = I
@@ -205,10 +138,14 @@ Packing make_random(const GeneratorOptions& options, const ContactLaw& material_
 
 }  // namespace
 
+template <int D>
 Packing consolidate(const GeneratorOptions& options, const ContactLaw& law) {
-  const bool regular =
-      options.kind == GeneratorKind::square || options.kind == GeneratorKind::hexagonal;
-  return regular ? make_regular(options, law) : make_random(options, law);
+  if (options.regular()) return make_regular<D>(options, law);
+  if constexpr (D == 2) return make_random(options, law);
+  throw Error(GRAINLAW_BAD_PACKING, "generator: random packings of spheres are not made yet");
 }
+
+template Packing consolidate<2>(const GeneratorOptions&, const ContactLaw&);
+template Packing consolidate<3>(const GeneratorOptions&, const ContactLaw&);
 
 }  // namespace grainlaw::core

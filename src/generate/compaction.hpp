@@ -17,6 +17,7 @@ namespace grainlaw::core {
 // carries its contact forces. Same options, same machine: same bits. Throws Error: BAD_PACKING for
 // options out of range, when the discs bear no load at the target void ratio, and for a pressure that
 // would press discs into one another; NOT_CONVERGED.
+template <int D = 2>
 Packing consolidate(const GeneratorOptions& options, const ContactLaw& law);
 
 }  // namespace grainlaw::core

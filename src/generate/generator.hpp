@@ -4,6 +4,7 @@
 
 #include "packing/packing.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -12,7 +13,16 @@
 
 namespace grainlaw::core {
 
-enum class GeneratorKind { compaction, lubachevsky_stillinger, square, hexagonal };
+enum class GeneratorKind {
+  compaction,
+  lubachevsky_stillinger,
+  square,  // of discs
+  hexagonal,
+  sc,  // of spheres
+  bcc,
+  fcc,
+  hcp
+};
 
 struct GeneratorOptions {
   GeneratorKind kind = GeneratorKind::compaction;
@@ -39,10 +49,15 @@ struct GeneratorOptions {
   // Regular packings: discs in a row and rows of the periodic cell, all of radius_max.
   std::size_t columns = 0;
   std::size_t rows = 0;
+  std::array<std::size_t, 3> cells{1, 1, 1};  // of a lattice of spheres along each axis
   std::optional<double> overlap;  // of neighbours, instead of the pressure; 0: they touch [m]
   // Radii are drawn from (1 +- this) radius_max by the seed: a perfect lattice stays one under any
   // F, since the affine image is in equilibrium whether or not it is stable [-].
   double radius_spread = 0;
+
+  [[nodiscard]] bool regular() const {
+    return kind != GeneratorKind::compaction && kind != GeneratorKind::lubachevsky_stillinger;
+  }
 };
 
 // In [0, 1), from the engine's bits: they are fixed by the standard; what its distributions make of

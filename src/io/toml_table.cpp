@@ -103,6 +103,22 @@ Expectation<std::array<double, 2>> positive_range() {
           }};
 }
 
+Expectation<std::array<long, 3>> three_integers_between(long low, long high) {
+  return {fmt::format("three integers from {} to {}", low, high),
+          [each = integer_between(low, high)](
+              const toml::node& node) -> std::optional<std::array<long, 3>> {
+            const toml::array* array = node.as_array();
+            if (array == nullptr || array->size() != 3) return std::nullopt;
+            std::array<long, 3> result{};
+            for (std::size_t k = 0; k < 3; ++k) {
+              const auto value = each.read((*array)[k]);
+              if (!value) return std::nullopt;
+              result[k] = *value;
+            }
+            return result;
+          }};
+}
+
 TomlTable TomlTable::required_table(std::string_view key) {
   const toml::node* found = node(key);
   if (found == nullptr) fail(key, "nothing", "a table");

@@ -41,6 +41,7 @@ Expectation<bool> boolean();
 Expectation<std::string> text(std::string meaning);
 // [smallest, largest] with 0 < smallest <= largest.
 Expectation<std::array<double, 2>> positive_range();
+Expectation<std::array<long, 3>> three_integers_between(long low, long high);
 
 // One of some words, each of which stands for a value.
 template <class T>

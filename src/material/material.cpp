@@ -178,10 +178,8 @@ BoundarySpace<D> space_of(const Packing& packing, const BoundaryOptions& boundar
 
 template <int D>
 std::shared_ptr<const Material<D>> make_material(MaterialDescription description) {
-  if constexpr (D == 2) {
-    if (description.generator) {
-      description.packing = consolidate(*description.generator, description.law);
-    }
+  if (description.generator) {
+    description.packing = consolidate<D>(*description.generator, description.law);
   }
   auto material = std::make_shared<Material<D>>();
   material->packing = std::move(description.packing);

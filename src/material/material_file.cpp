@@ -132,14 +132,14 @@ MaterialDescription read_description(TomlTable& top, const std::filesystem::path
   description.solver = read_solver(top.optional_table("solver"), description.boundary);
   top.finish();
   if (dimension == 3) check_spheres(top, description);
+  description.packing.dimension = static_cast<int>(dimension);
 
   packing.require_either("particles", "generator");
-  if (dimension == 3 && packing.has("generator"))
-    packing.fail("generator", "a generator", "files of spheres: generators make discs");
   if (packing.has("generator")) {
-    description.generator = read_generator(packing);
+    description.generator = read_generator(packing, dimension);
     packing.optional("density", number_above(0), description.generator->density);
     packing.finish();
+    if (dimension == 3) return description;
     if (!thickness) top.fail("thickness", "nothing", "a number > 0 with a generator");
     description.generator->thickness = *thickness;
     return description;

@@ -6,12 +6,22 @@ namespace grainlaw::core {
 
 namespace {
 
-void read_regular(TomlTable& table, GeneratorOptions& generator) {
+void read_rows(TomlTable& table, GeneratorOptions& generator) {
   constexpr long most = 10000;
   table.required("columns", integer_between(2, most), generator.columns);
   table.required("rows", integer_between(2, most), generator.rows);
   if (generator.kind == GeneratorKind::hexagonal && generator.rows % 2 != 0)
     table.fail("rows", std::to_string(generator.rows), "an even number of rows");
+}
+
+void read_cells(TomlTable& table, GeneratorOptions& generator) {
+  constexpr long most = 100;
+  const auto cells = table.required("cells", three_integers_between(1, most));
+  for (std::size_t k = 0; k < 3; ++k) generator.cells[k] = static_cast<std::size_t>(cells[k]);
+}
+
+void read_regular(TomlTable& table, GeneratorOptions& generator, long dimension) {
+  dimension == 3 ? read_cells(table, generator) : read_rows(table, generator);
   table.required("radius", number_above(0), generator.radius_max);
   table.require_either("pressure", "overlap");
   table.optional("pressure", number_above(0), generator.pressure);
@@ -49,18 +59,21 @@ void read_random(TomlTable& table, GeneratorOptions& generator) {
 
 }  // namespace
 
-GeneratorOptions read_generator(TomlTable& table) {
+GeneratorOptions read_generator(TomlTable& table, long dimension) {
   GeneratorOptions generator;
-  generator.kind = table.required(
-      "generator",
-      one_of<GeneratorKind>({{"compaction", GeneratorKind::compaction},
-                             {"lubachevsky-stillinger", GeneratorKind::lubachevsky_stillinger},
-                             {"square", GeneratorKind::square},
-                             {"hexagonal", GeneratorKind::hexagonal}}));
-  const bool regular =
-      generator.kind == GeneratorKind::square || generator.kind == GeneratorKind::hexagonal;
-  if (regular) {
-    read_regular(table, generator);
+  const auto kinds = dimension == 3
+                         ? one_of<GeneratorKind>({{"sc", GeneratorKind::sc},
+                                                  {"bcc", GeneratorKind::bcc},
+                                                  {"fcc", GeneratorKind::fcc},
+                                                  {"hcp", GeneratorKind::hcp}})
+                         : one_of<GeneratorKind>(
+                               {{"compaction", GeneratorKind::compaction},
+                                {"lubachevsky-stillinger", GeneratorKind::lubachevsky_stillinger},
+                                {"square", GeneratorKind::square},
+                                {"hexagonal", GeneratorKind::hexagonal}});
+  generator.kind = table.required("generator", kinds);
+  if (generator.regular()) {
+    read_regular(table, generator, dimension);
   } else {
     read_random(table, generator);
   }

@@ -8,6 +8,6 @@ namespace grainlaw::core {
 
 // Every generator has its own keys; one of another generator counts as unknown. Throws Error
 // (BAD_MATERIAL). `density` and the thickness are read elsewhere.
-GeneratorOptions read_generator(TomlTable& table);
+GeneratorOptions read_generator(TomlTable& table, long dimension);
 
 }  // namespace grainlaw::core

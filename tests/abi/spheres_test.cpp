@@ -118,13 +118,42 @@ TEST(bad_spheres, what_is_plane_is_refused) {
   const std::string files = "particles = \"spheres.csv\"\ncell = \"cell.csv\"\n";
   expect_told(text_of(files, "thickness = 0.1\n"), "thickness");
   expect_told(text_of("generator = \"square\"\ncolumns = 2\nrows = 2\nradius = 0.5\noverlap = 0\n"),
-              "files of spheres");
+              "found 'square', expected one of \"sc\"");
   expect_told(text_of(files) + "[boundary]\ntype = \"frame-d\"\n", "periodic-cell");
   expect_told(text_of(files) + "rolling = { ratio = 1, friction = 0.1 }\n", "rolling");
   expect_told(text_of(files, "",
                       "law = \"bonded\"\nkn = 1e5\nratio = 0.8\nfriction = 0.5\n"
                       "bond = { normal_strength = 1, tangential_strength = 1 }\n"),
               "bonds are of discs");
+}
+
+TEST(bad_spheres, mistakes_in_generators_are_told) {
+  const auto told = [](const std::string& keys, const std::string& expected) {
+    expect_told(text_of("generator = \"bcc\"\nradius = 1e-3\n" + keys), expected);
+  };
+  told("pressure = 1e4\n", "packing.cells: found nothing, expected three integers from 1 to 100");
+  told("pressure = 1e4\ncells = [2, 2]\n", "packing.cells: found [ 2, 2 ]");
+  told("pressure = 1e4\ncells = [2, 0, 2]\n", "packing.cells: found [ 2, 0, 2 ]");
+  told("cells = [2, 2, 2]\n", "either pressure or overlap");
+  told("cells = [2, 2, 2]\npressure = 1e4\ncolumns = 2\n", "packing.columns: found an unknown key");
+  told("cells = [2, 2, 2]\npressure = 1e9\n", "at most 1e+07 Pa, a fifth of kn / diameter");
+  told("cells = [2, 2, 2]\noverlap = 3e-4\n", "a length >= 0 and below 0.000267");
+}
+
+TEST(spheres, lattice_from_a_material_file_is_led_and_written) {
+  const Material made = Material::parse(
+      text_of("generator = \"hcp\"\ncells = [3, 2, 2]\nradius = 1e-3\npressure = 1e6\n"), ".");
+  State state(made);
+  Space P{};
+  std::array<double, 81> A{};
+  const auto result = state.evaluate(sheared, P, GRAINLAW_WANT_TANGENT_EXACT, A);
+  ASSERT_TRUE(result) << result.report.message;
+  EXPECT_EQ(state.measure(GRAINLAW_COORDINATION)[0], 12);
+  state.commit();
+  const TemporaryDirectory directory;
+  state.write_packing((directory / "lattice").string());
+  state.write_vtk((directory / "lattice.vtp").string());
+  EXPECT_NE(read_text((directory / "lattice.vtp").string()).find("radius"), std::string::npos);
 }
 
 TEST(bad_spheres, mistakes_in_files_are_told) {
