@@ -31,44 +31,51 @@ double mean_of(const std::vector<double>& radius) {
   return std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
 }
 
-double solid_area(const Packing& packing) {
+// [m2, m3]
+template <int D>
+double solid_size(const Packing& packing) {
   double sum = 0;
-  for (const double r : packing.radius) sum += particle_size<2>(r);
+  for (const double r : packing.radius) sum += particle_size<D>(r);
   return sum;
 }
 
-// Overlap / radius of Hertz-Mindlin contacts at a pressure: with 2 n contacts of branches 2 R, p V =
-// sum fn 2 R / 2.
+// Overlap / radius of Hertz-Mindlin contacts at a pressure: with D n contacts of branches 2 R, p V =
+// sum fn 2 R / D.
+template <int D>
 double overlap_at(double pressure, const Packing& packing, const ContactLaw& law) {
   const double radius = mean_of(packing.radius);
-  const double force = pressure * packing.thickness * solid_area(packing) /
+  const double force = pressure * packing.thickness * solid_size<D>(packing) /
                        (2 * static_cast<double>(packing.size()) * radius);
   return std::pow(1.5 * force / law.coefficient(radius, radius), 2.0 / 3) / radius;
 }
 
-double cell_area(const Packing& packing) { return determinant<2>(packing.cell.data()); }
+template <int D>
+double cell_size(const Packing& packing) {
+  return determinant<D>(packing.cell.data());
+}
 
-// Consolidation of loose discs.
+// Consolidation of loose particles.
+template <int D>
 class Consolidation {
  public:
   Consolidation(const Packing& loose, const GeneratorOptions& options, const ContactLaw& law)
       : loose_(loose), options_(options), law_(law), radius_(mean_of(loose.radius)) {}
 
-  // Compression finds rest the easier the softer the discs are against the pressure; the way down
+  // Compression finds rest the easier the softer the particles are against the pressure; the way down
   // from there is another for each.
   Packing run() {
-    const double line_stiffness = law_.stiffness(radius_, radius_) / options_.thickness;  // [Pa]
+    const double line_stiffness = law_.stiffness(radius_, radius_) / depth<D>(loose_);  // [Pa]
     const bool to_pressure = !(options_.void_ratio > 0);
     std::vector<double> above;  // pressures to come down from
     for (const double stiffness : {1.0, 0.3, 0.1, 0.03}) {
       const double pressure = line_stiffness / (stiffness * stiffest_compression);
       if (!to_pressure || pressure > options_.pressure) above.push_back(pressure);
     }
-    // Compressed to a void ratio the discs may not have met yet, where those come down to it bear.
+    // Compressed to a void ratio the particles may not have met yet, where those come down to it bear.
     std::optional<Error> loose;
     if (!to_pressure || options_.pressure * stiffest_compression >= line_stiffness) {
       try {
-        return finish(compress(loose_, options_, law_), options_.pressure, false);
+        return finish(compress<D>(loose_, options_, law_), options_.pressure, false);
       } catch (const Error& error) {
         if (above.empty()) throw;
         if (error.status != GRAINLAW_NOT_CONVERGED) loose = error;
@@ -79,7 +86,7 @@ class Consolidation {
         GeneratorOptions soft = options_;
         soft.void_ratio = 0;
         soft.pressure = above[k];
-        return finish(compress(loose_, soft, law_), above[k], true);
+        return finish(compress<D>(loose_, soft, law_), above[k], true);
       } catch (const Error& error) {
         const bool last = k + 1 == above.size();
         if (loose && (last || error.status != GRAINLAW_NOT_CONVERGED)) throw *loose;
@@ -89,31 +96,29 @@ class Consolidation {
   }
 
  private:
-  Packing finish(Configuration<2> at, double pressure, bool unload) const {
+  Packing finish(Configuration<D> at, double pressure, bool unload) const {
     if (!unload && !(options_.anisotropy >= 0)) {
-      const BoundarySpace<2> space = make_cell_space<2>(loose_);
-      return packing_of({&loose_, &law_, &space}, at);
+      const BoundarySpace<D> space = make_cell_space<D>(loose_);
+      return packing_of<D>({&loose_, &law_, &space}, at);
     }
-    StressTarget target;
+    StressTarget<D> target;
     target.pressure = options_.pressure;
-    const double solid = solid_area(loose_);
+    const double solid = solid_size<D>(loose_);
     if (options_.void_ratio > 0) {
-      target.volume = (1 + options_.void_ratio) * solid / cell_area(loose_);
+      target.volume = (1 + options_.void_ratio) * solid / cell_size<D>(loose_);
     } else {
       pressure = options_.pressure;
     }
     const double mean_force =
-        pressure * options_.thickness * solid / (2 * static_cast<double>(loose_.size()) * radius_);
-    StressControl control(loose_, law_, std::move(at), faded_force * mean_force);
+        pressure * loose_.thickness * solid / (2 * static_cast<double>(loose_.size()) * radius_);
+    StressControl<D> control(loose_, law_, std::move(at), faded_force * mean_force);
     if (unload && !control.reach(target))
       throw Error(
           GRAINLAW_NOT_CONVERGED,
           fmt::format("generator: no packing at rest was found on unloading; pressure "
                       "{:.6g} Pa, void ratio {:.6g}; try another seed",
-                      control.pressure(), control.volume() * cell_area(loose_) / solid - 1));
-    if (options_.anisotropy >= 0)
-      consolidate_anisotropically(control, target, options_.anisotropy,
-                                  options_.anisotropy_direction);
+                      control.pressure(), control.volume() * cell_size<D>(loose_) / solid - 1));
+    if (options_.anisotropy >= 0) consolidate_anisotropically(control, target, options_);
     return packing_of(control.problem(), control.configuration());
   }
 
@@ -123,26 +128,25 @@ class Consolidation {
   double radius_;  // mean [m]
 };
 
+template <int D>
 Packing make_random(const GeneratorOptions& options, const ContactLaw& material_law) {
-  check_target<2>(options, material_law, 0.5 * (options.radius_min + options.radius_max));
+  check_target<D>(options, material_law, 0.5 * (options.radius_min + options.radius_max));
   ContactLaw law = material_law;
   law.friction = options.friction;
   if (law.bonds()) law.kind = LawKind::frictional;  // bonds come with F = I
-  const Packing loose =
-      options.kind == GeneratorKind::lubachevsky_stillinger ? grow(options) : scatter(options);
+  const Packing loose = options.kind == GeneratorKind::lubachevsky_stillinger ? grow<D>(options)
+                                                                              : scatter<D>(options);
   if (law.hertzian() && options.pressure > 0) {
-    law.typical_overlap = overlap_at(options.pressure, loose, law);
+    law.typical_overlap = overlap_at<D>(options.pressure, loose, law);
   }
-  return Consolidation(loose, options, law).run();
+  return Consolidation<D>(loose, options, law).run();
 }
 
 }  // namespace
 
 template <int D>
 Packing consolidate(const GeneratorOptions& options, const ContactLaw& law) {
-  if (options.regular()) return make_regular<D>(options, law);
-  if constexpr (D == 2) return make_random(options, law);
-  throw Error(GRAINLAW_BAD_PACKING, "generator: random packings of spheres are not made yet");
+  return options.regular() ? make_regular<D>(options, law) : make_random<D>(options, law);
 }
 
 template Packing consolidate<2>(const GeneratorOptions&, const ContactLaw&);

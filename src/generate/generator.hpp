@@ -1,5 +1,5 @@
-// How a packing is to be made, and the start configuration of a compaction: discs of given sizes,
-// loose, at random places in a square cell.
+// How a packing is to be made, and the start configuration of a compaction: particles of given sizes,
+// loose, at random places in a square or cubic cell.
 #pragma once
 
 #include "packing/packing.hpp"
@@ -37,10 +37,11 @@ struct GeneratorOptions {
   std::uint64_t seed = 1;
   double void_ratio = 0;  // target instead of the pressure [-]; 0: the pressure is the target
   double friction = 0;    // tan(phi) during consolidation [-]
-  // Wanted fabric anisotropy, largest / smallest eigenvalue - 1 (Liu et al. eq. 38), and the angle of
-  // its major direction against axis 1 [rad]; below 0: as it comes.
+  // Wanted fabric anisotropy, largest / smallest eigenvalue - 1 (Liu et al. eq. 38), and its major
+  // direction: of discs the angle against axis 1 [rad], of spheres a vector; below 0: as it comes.
   double anisotropy = -1;
   double anisotropy_direction = 0;
+  std::array<double, 3> anisotropy_axis{0, 0, 1};
   // Event-driven growth: of the mean radius, over the mean thermal speed [-]; and the volume
   // fraction where it ends [-], 0: when the discs jam.
   double growth_rate = 0.01;
@@ -70,9 +71,10 @@ inline double unit_double(std::mt19937_64& engine) {
 // every seed has the same grading [m].
 std::vector<double> graded_radii(const GeneratorOptions& options, std::mt19937_64& engine);
 
-// Discs of graded radii; order and places depend on the seed, bit for bit the same on every
-// platform. No two discs touch; discs cover 40 % of the cell. Throws Error (BAD_PACKING) for options
-// out of range: count < 1, 0 < radius_min <= radius_max, thickness > 0, density > 0.
+// Particles of graded radii; order and places depend on the seed, bit for bit the same on every
+// platform. No two touch; discs cover 40 % of the cell, spheres fill 25 %. Throws Error (BAD_PACKING)
+// for options out of range: count < 1, 0 < radius_min <= radius_max, thickness > 0, density > 0.
+template <int D = 2>
 Packing scatter(const GeneratorOptions& options);
 
 }  // namespace grainlaw::core

@@ -2,58 +2,49 @@
 #pragma once
 
 #include "equilibrium/strategy.hpp"
+#include "generate/stress_descent.hpp"
 #include "packing/packing.hpp"
 
-#include <array>
-
 namespace grainlaw::core {
-
-// Cauchy stress sigma11 = -p (1 + q), sigma22 = -p (1 - q), sigma12 = -p r.
-struct StressTarget {
-  double pressure = 0;               // p [Pa]; unused when volume > 0
-  double volume = 0;                 // det F instead of the pressure, 0: none [-]
-  std::array<double, 2> deviator{};  // q, r [-]
-  bool free_shear = true;            // F12 stays, whatever sigma12
-};
 
 // Newton's method on the exact tangent with F upper triangular, in increments each of which ends in
 // equilibrium and advances the friction history. It works where compression, which passes through
 // states out of equilibrium, finds no packing: near the point where stiff packings come apart.
+template <int D>
 class StressControl {
  public:
   //   reference  packing at F = I; the configuration starts from it
   //   force_floor  of the residuals' scale [N]
-  StressControl(const Packing& reference, const ContactLaw& law, Configuration<2> at,
+  StressControl(const Packing& reference, const ContactLaw& law, Configuration<D> at,
                 double force_floor);
 
-  // To 1e-7 of the pressure, or of the volume. False when no equilibrium was found on the way; the
+  // To so much of the pressure, or of the volume. False when no equilibrium was found on the way; the
   // configuration is then the last one found.
-  bool reach(const StressTarget& target);
+  bool reach(const StressTarget<D>& target, double tolerance = tight);
+  static constexpr double tight = 1e-7;
 
-  [[nodiscard]] const Configuration<2>& configuration() const { return at_; }
-  [[nodiscard]] const Problem<2>& problem() const { return problem_; }
+  [[nodiscard]] const Configuration<D>& configuration() const { return at_; }
+  [[nodiscard]] const Problem<D>& problem() const { return problem_; }
   [[nodiscard]] double pressure() const;  // [Pa]
   [[nodiscard]] double volume() const;    // det F
 
  private:
-  using Tensor = grainlaw::core::Tensor<2>;
-
-  [[nodiscard]] Tensor cauchy() const;
-  [[nodiscard]] double misfit(const StressTarget& target) const;
-  struct Descent;
-  [[nodiscard]] Descent descent(const StressTarget& target) const;
-  [[nodiscard]] bool accept(const Tensor& deformation, double least_pressure);
+  [[nodiscard]] Tensor<D> cauchy() const;
+  [[nodiscard]] double misfit(const StressTarget<D>& target) const;
+  [[nodiscard]] StressDescent<D> descent(const StressTarget<D>& target) const;
+  [[nodiscard]] bool accept(const Tensor<D>& deformation, double least_pressure);
 
   ContactLaw law_;
-  BoundarySpace<2> space_;
-  Problem<2> problem_;
+  BoundarySpace<D> space_;
+  Problem<D> problem_;
   SolverOptions options_;
-  Workspace<2> workspace_;
-  Configuration<2> at_, next_;
-  std::array<double, 16> tangent_{};
+  Workspace<D> workspace_;
+  Configuration<D> at_, next_;
+  Tensor4<D> tangent_{};
 };
 
 // The packing as it stands in a configuration: its own reference from now on, with contact forces.
-Packing packing_of(const Problem<2>& problem, const Configuration<2>& at);
+template <int D>
+Packing packing_of(const Problem<D>& problem, const Configuration<D>& at);
 
 }  // namespace grainlaw::core

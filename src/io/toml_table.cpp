@@ -103,19 +103,35 @@ Expectation<std::array<double, 2>> positive_range() {
           }};
 }
 
+namespace {
+
+template <class T>
+std::optional<std::array<T, 3>> read_three(const toml::node& node, const Expectation<T>& each) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->size() != 3) return std::nullopt;
+  std::array<T, 3> result{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto value = each.read((*array)[k]);
+    if (!value) return std::nullopt;
+    result[k] = *value;
+  }
+  return result;
+}
+
+}  // namespace
+
 Expectation<std::array<long, 3>> three_integers_between(long low, long high) {
   return {fmt::format("three integers from {} to {}", low, high),
-          [each = integer_between(low, high)](
-              const toml::node& node) -> std::optional<std::array<long, 3>> {
-            const toml::array* array = node.as_array();
-            if (array == nullptr || array->size() != 3) return std::nullopt;
-            std::array<long, 3> result{};
-            for (std::size_t k = 0; k < 3; ++k) {
-              const auto value = each.read((*array)[k]);
-              if (!value) return std::nullopt;
-              result[k] = *value;
-            }
-            return result;
+          [each = integer_between(low, high)](const toml::node& node) {
+            return read_three(node, each);
+          }};
+}
+
+Expectation<std::array<double, 3>> direction() {
+  return {"three numbers, not all 0", [](const toml::node& node) {
+            auto found = read_three(node, any_number());
+            constexpr std::array<double, 3> none{};
+            return found == none ? std::nullopt : found;
           }};
 }
 

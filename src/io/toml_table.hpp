@@ -42,6 +42,8 @@ Expectation<std::string> text(std::string meaning);
 // [smallest, largest] with 0 < smallest <= largest.
 Expectation<std::array<double, 2>> positive_range();
 Expectation<std::array<long, 3>> three_integers_between(long low, long high);
+// Three finite numbers, not all zero.
+Expectation<std::array<double, 3>> direction();
 
 // One of some words, each of which stands for a value.
 template <class T>

@@ -4,6 +4,7 @@
 #include "math/tensor.hpp"
 #include "packing/packing.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <span>
@@ -24,6 +25,12 @@ double particle_size(double radius) {
   } else {
     return 4 * std::numbers::pi / 3 * radius * radius * radius;
   }
+}
+
+// Of the square or the cube of this size [m].
+template <int D>
+double edge_of(double size) {
+  return D == 2 ? std::sqrt(size) : std::cbrt(size);
 }
 
 // Of a disc through the thickness; of a sphere, which has none, its own [m3].

@@ -118,7 +118,7 @@ TEST(bad_spheres, what_is_plane_is_refused) {
   const std::string files = "particles = \"spheres.csv\"\ncell = \"cell.csv\"\n";
   expect_told(text_of(files, "thickness = 0.1\n"), "thickness");
   expect_told(text_of("generator = \"square\"\ncolumns = 2\nrows = 2\nradius = 0.5\noverlap = 0\n"),
-              "found 'square', expected one of \"sc\"");
+              "found 'square', expected one of \"compaction\"");
   expect_told(text_of(files) + "[boundary]\ntype = \"frame-d\"\n", "periodic-cell");
   expect_told(text_of(files) + "rolling = { ratio = 1, friction = 0.1 }\n", "rolling");
   expect_told(text_of(files, "",
@@ -138,6 +138,38 @@ TEST(bad_spheres, mistakes_in_generators_are_told) {
   told("cells = [2, 2, 2]\npressure = 1e4\ncolumns = 2\n", "packing.columns: found an unknown key");
   told("cells = [2, 2, 2]\npressure = 1e9\n", "at most 1e+07 Pa, a fifth of kn / diameter");
   told("cells = [2, 2, 2]\noverlap = 3e-4\n", "a length >= 0 and below 0.000267");
+}
+
+TEST(bad_spheres, mistakes_in_random_packings_are_told) {
+  const auto told = [](const std::string& keys, const std::string& expected) {
+    expect_told(text_of("generator = \"lubachevsky-stillinger\"\ncount = 10\nseed = 1\n"
+                        "radii = [1e-3, 2e-3]\n" +
+                        keys),
+                expected);
+  };
+  told("pressure = 1e4\nvolume_fraction = 0.8\n", "a number from 0.25 to 0.74");
+  told("pressure = 1e4\nvolume_fraction = 0.72\n", "the spheres jam at a volume fraction of 0.");
+  told("pressure = 1e9\n", "a fifth of kn / diameter");
+  told("pressure = 1e4\nfriction = 0.4\nanisotropy = 0.1\nanisotropy_direction = [0, 0, 0]\n",
+       "three numbers, not all 0");
+  told("pressure = 1e4\nfriction = 0.4\nanisotropy = 0.1\nanisotropy_direction = 45\n",
+       "three numbers, not all 0");
+  told("pressure = 1e4\nanisotropy = 0.1\n", "needs shear strength");
+}
+
+TEST(spheres, packing_from_a_material_file_has_its_pressure) {
+  for (const std::string generator : {"compaction", "lubachevsky-stillinger"}) {
+    const Material made = Material::parse(
+        text_of("generator = \"" + generator +
+                "\"\ncount = 40\nradii = [1e-3, 2e-3]\nseed = 1\npressure = 1e5\nfriction = 0.2\n"),
+        ".");
+    State state(made);
+    const auto sigma = state.measure(GRAINLAW_CAUCHY_STRESS);
+    for (const std::size_t k : {0U, 4U, 8U}) EXPECT_NEAR(sigma[k], -1e5, 0.1) << generator;
+    EXPECT_EQ(state.measure(GRAINLAW_PARTICLES)[0], 40);
+    const TemporaryDirectory directory;
+    state.write_packing((directory / "made").string());
+  }
 }
 
 TEST(spheres, lattice_from_a_material_file_is_led_and_written) {
