@@ -34,8 +34,8 @@ void ContactList<D>::resize(std::size_t contacts, bool weighted, double radius,
   fit(inverse_reach, 0.5 / radius);
   fit(lever_i, 0.5);
   // Other laws leave their columns behind.
-  for (auto* column :
-       {&hold, &rest, &bending_stiffness, &rolling_length, &inverse_radius_i, &inverse_radius_j}) {
+  for (auto* column : {&hold, &rest, &bending_stiffness, &rolling_length, &torsion_stiffness,
+                       &twisting_length, &inverse_radius_i, &inverse_radius_j}) {
     column->clear();
   }
   for (auto* columns : {&start_spin, &start_moment}) {
@@ -49,6 +49,11 @@ void ContactList<D>::resize(std::size_t contacts, bool weighted, double radius,
     for (auto* column : {&bending_stiffness, &rolling_length}) fit(*column, 0.0);
     for (auto* columns : {&start_spin, &start_moment}) {
       for (auto& component : *columns) fit(component, 0.0);
+    }
+    if constexpr (D == 3) {
+      fit(torsion_stiffness, 0.0);
+      fit(twisting_length, 0.0);
+      resize_with_room(moments, padded);
     }
     fit(inverse_radius_i, 1 / radius);
     fit(inverse_radius_j, 1 / radius);
@@ -121,6 +126,14 @@ void build_contacts(std::span<const NeighbourPair<D>> pairs, std::span<const dou
           bonded ? weight * law.bond.bending_stiffness : rolling * list.tangential_stiffness[c];
       list.rolling_length[c] =
           law.rolls() ? law.rolling.friction * law.common_radius(radius[p], radius[q]) : 0;
+      if constexpr (D == 3) {
+        const double twisting = law.twisting_ratio(radius[p], radius[q]);
+        list.torsion_stiffness[c] =
+            bonded ? weight * law.bond.torsion_stiffness : twisting * list.tangential_stiffness[c];
+        list.twisting_length[c] =
+            law.twists() ? law.rolling.twisting_friction * law.common_radius(radius[p], radius[q])
+                         : 0;
+      }
       list.inverse_radius_i[c] = 1 / radius[p];
       list.inverse_radius_j[c] = 1 / radius[q];
       for (std::size_t k = 0; k < spins; ++k) {
@@ -139,6 +152,7 @@ void build_contacts(std::span<const NeighbourPair<D>> pairs, std::span<const dou
   }
   if (moments) {
     resize_with_room(list.inverse_node_radius, nodes);
+    if constexpr (D == 3) resize_with_room(list.node_moments, nodes);
     for (std::size_t p = 0; p < n; ++p) {
       list.inverse_node_radius[static_cast<std::size_t>(node[p])] = 1 / radius[p];
     }

@@ -45,13 +45,17 @@ struct ContactList {
   // Of laws with moments, else empty.
   Column bending_stiffness;                   // kr [N m]; Hertz: kr / sqrt(overlap) [N m^0.5]
   Column rolling_length;                      // largest moment / normal force [m]
+  Column torsion_stiffness, twisting_length;  // of spheres, the same about the branch
   Column inverse_radius_i, inverse_radius_j;  // [1/m]
   Spins start_spin;                           // theta_j - theta_i there [rad]
   Spins start_moment;                         // moment on j there [N m]; Hertz: below
   std::vector<double> inverse_node_radius;    // [1/m]
   bool turns_far = false;  // a touching branch has turned beyond the short series since the start
 
-  simd::Column<ForceRecord<D>> forces;         // of the last evaluation, on j
+  simd::Column<ForceRecord<D>> forces;  // of the last evaluation, on j
+  // Of spheres with moments: those on j as x, y, z, and their sums over the contacts of nodes [N m].
+  simd::Column<ForceRecord<D>> moments;
+  std::vector<ForceRecord<D>> node_moments;
   simd::Column<StiffnessRecord<D>> stiffness;  // of the last sum of stiffnesses; 0 when open
   ContactSums<D> sums;                         // over the contacts of every node
 

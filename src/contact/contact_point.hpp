@@ -3,4 +3,5 @@
 #pragma once
 
 #include "contact/disc_point.hpp"
+#include "contact/sphere_moment.hpp"
 #include "contact/sphere_point.hpp"

@@ -136,6 +136,10 @@ struct ContactMoment<2> {
   double moment, by_normal, by_spin;
   bool capped;  // rolls
 };
+// Its part of what breaks a bond, 1 at failure [-].
+inline double bond_share(const ContactMoment<2>& moment, const Bond& bond) {
+  return bond.bending_strength > 0 ? std::abs(moment.moment) / bond.bending_strength : 0;
+}
 ContactMoment<2> contact_moment(const ContactList<2>& list, std::size_t c,
                                 const ContactPoint<2>& point, std::span<const double> coordinates,
                                 std::size_t particles, const ContactLaw& law);

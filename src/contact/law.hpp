@@ -13,18 +13,24 @@ enum class LawKind { frictional, compressive, bonded, hertz };
 
 // A spring between the rotations of two discs, capped: kr = ratio kt r^2 and |m| <= friction r fn,
 // with r = 2 Ri Rj / (Ri + Rj), the radius of equal discs.
+// Of spheres another about the branch, with ratio and bound of its own.
 struct RollingResistance {
-  double ratio = 0;     // [-]
-  double friction = 0;  // [-]
+  double ratio = 0;              // [-]
+  double friction = 0;           // [-]
+  double twisting_ratio = 0;     // [-]
+  double twisting_friction = 0;  // [-]
 };
 
-// A bond has the contact's kn and kt, in tension too, and bends. It breaks when fn /
-// normal_strength + |ft| / tangential_strength + |m| / bending_strength >= 1, fn positive in tension.
+// A bond has the contact's kn and kt, in tension too, and bends; of spheres it twists too, about the branch.
+// It breaks when fn / normal_strength + |ft| / tangential_strength + |m| / bending_strength + |m_n| /
+// torsion_strength >= 1, fn positive in tension.
 struct Bond {
   double normal_strength = 0;      // [N]
   double tangential_strength = 0;  // [N]
   double bending_strength = 0;     // [N m], 0 when bonds do not bend
   double bending_stiffness = 0;    // [N m / rad]
+  double torsion_strength = 0;     // [N m], 0 when bonds do not twist
+  double torsion_stiffness = 0;    // [N m / rad]
   double gap = 0;                  // discs that touch or are nearer at F = I are bonded [m]
 };
 
@@ -62,21 +68,32 @@ struct ContactLaw {
     const double root = hertzian() ? std::sqrt(overlap > 0 ? overlap : 0) : 1;
     return (hertzian() ? 2.0 / 3 : 1) * coefficient(a, b) * root * overlap;
   }
-  // What its springs hold, by the squares of tangential force and moment [J]; bonded: by a bond.
+  // What its springs hold, by the squares of tangential force and of the moments across the branch and
+  // along it [J]; bonded: by a bond.
   [[nodiscard]] double energy(double a, double b, double overlap, double tangential_square,
-                              double moment_square, bool bonded) const {
+                              double moment_square, double twisting_square, bool bonded) const {
     const double kn =
         hertzian() ? coefficient(a, b) * std::sqrt(overlap > 0 ? overlap : 0) : coefficient(a, b);
     const double kr = bonded ? bond.bending_stiffness : rolling_ratio(a, b) * ratio * kn;
     double sum = (hertzian() ? 4.0 / 15 : 0.5) * kn * overlap * overlap;
     if (tangential_square != 0) sum += 0.5 * tangential_square / (ratio * kn);
-    if (moment_square != 0) sum += 0.5 * moment_square / kr;
+    if (moment_square != 0 && kr > 0) sum += 0.5 * moment_square / kr;
+    if (twisting_square != 0) {
+      const double twisting = bonded ? bond.torsion_stiffness : twisting_ratio(a, b) * ratio * kn;
+      if (twisting > 0) sum += 0.5 * twisting_square / twisting;
+    }
     return sum;
   }
   // kr / kt of contacts without a bond [m2].
   [[nodiscard]] double rolling_ratio(double a, double b) const {
     const double r = common_radius(a, b);
     return rolls() ? rolling.ratio * r * r : 0;
+  }
+
+  // The same about the branch.
+  [[nodiscard]] double twisting_ratio(double a, double b) const {
+    const double r = common_radius(a, b);
+    return twists() ? rolling.twisting_ratio * r * r : 0;
   }
 
   [[nodiscard]] bool hertzian() const { return kind == LawKind::hertz; }
@@ -87,6 +104,9 @@ struct ContactLaw {
   [[nodiscard]] bool rotating() const { return tangential() && rotation; }
   [[nodiscard]] bool rolls() const {
     return rotating() && rolling.ratio > 0 && rolling.friction > 0;
+  }
+  [[nodiscard]] bool twists() const {
+    return rotating() && rolling.twisting_ratio > 0 && rolling.twisting_friction > 0;
   }
   // Contacts carry moments.
   [[nodiscard]] bool moments() const { return rolls() || (rotating() && bonds()); }

@@ -69,7 +69,8 @@ template <>
 struct alignas(64) StiffnessRecord<3> {
   double x = 0, y = 0, z = 0;                 // kn [N/m]
   double spin_x = 0, spin_y = 0, spin_z = 0;  // kt d^2 / (R_i + R_j) [N]
-  double filling[2] = {};
+  double bending = 0;                         // of laws with moments [N m]
+  double filling = 0;
 };
 template <>
 struct alignas(64) MassRecord<3> {

@@ -65,12 +65,13 @@ GRAINLAW_INLINE void put(const Triple<width>& value, std::array<Column<double>, 
   store(&columns[2][c], value.z);
 }
 
-// Two vectors as a record of each contact.
+// Two vectors and a number as a record of each contact.
 template <std::size_t width>
-GRAINLAW_INLINE void put_records(const Triple<width>& a, const Triple<width>& b, double* to) {
+GRAINLAW_INLINE void put_records(const Triple<width>& a, const Triple<width>& b, double* to,
+                                 const Lanes<width>& last = Lanes<width>{}) {
   const Lanes<width> zero{};
   disc_loops::put_records<width>({a.x, a.y, a.z, b.x}, [to](std::size_t k) { return to + 8 * k; });
-  disc_loops::put_records<width>({b.y, b.z, zero, zero},
+  disc_loops::put_records<width>({b.y, b.z, last, zero},
                                  [to](std::size_t k) { return to + 8 * k + 4; });
 }
 

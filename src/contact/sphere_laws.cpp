@@ -20,18 +20,38 @@ struct Law {
   GRAINLAW_SPHERE_LOOP(double, name##_advancing, contact_loop, name##_law, true)      \
   GRAINLAW_SPHERE_LOOP(ContactTotals, name##_stiffnesses, stiffness_loop, name##_law) \
   constexpr Law name{name##_forces, name##_advancing, name##_stiffnesses};
-//                                tangential  rotating  hertz
+//                                   tangential  rotating  hertz  bonds  moments
 GRAINLAW_SPHERE_LAW(smooth, false, false, false)
 GRAINLAW_SPHERE_LAW(locked, true, false, false)
 GRAINLAW_SPHERE_LAW(rotating, true, true, false)
 GRAINLAW_SPHERE_LAW(hertz_smooth, false, false, true)
 GRAINLAW_SPHERE_LAW(hertz_locked, true, false, true)
 GRAINLAW_SPHERE_LAW(hertz, true, true, true)
+GRAINLAW_SPHERE_LAW(rolling, true, true, false, false, true)
+GRAINLAW_SPHERE_LAW(hertz_rolling, true, true, true, false, true)
+GRAINLAW_SPHERE_LAW(bonded_locked, true, false, false, true, false)
+GRAINLAW_SPHERE_LAW(bonded, true, true, false, true, true)
 
 const Law& law_of(const ContactLaw& law) {
+  if (law.bonds()) return law.moments() ? bonded : bonded_locked;
   if (!law.tangential()) return law.hertzian() ? hertz_smooth : smooth;
   if (!law.rotating()) return law.hertzian() ? hertz_locked : locked;
+  if (law.moments()) return law.hertzian() ? hertz_rolling : rolling;
   return law.hertzian() ? hertz : rotating;
+}
+
+// Moments of rolling and bending, gathered apart, become part of M / R. What stands behind the nodes,
+// for F, has none.
+void gather(const ContactLaw& law, ContactList<3>& list, std::span<ForceRecord<3>> nodes) {
+  list.sums.add_up(list.forces, opposite<3>, nodes);
+  if (!law.moments()) return;
+  constexpr ForceRecord<3> other_way{-1, -1, -1, -1, -1, -1, {}};
+  list.sums.add_up(list.moments, other_way, list.node_moments);
+  for (std::size_t q = 0; q < list.inverse_node_radius.size(); ++q) {
+    nodes[q].spin_x += list.node_moments[q].x * list.inverse_node_radius[q];
+    nodes[q].spin_y += list.node_moments[q].y * list.inverse_node_radius[q];
+    nodes[q].spin_z += list.node_moments[q].z * list.inverse_node_radius[q];
+  }
 }
 
 }  // namespace
@@ -46,14 +66,14 @@ template <>
 void evaluate_contacts<3>(std::span<const ParticleRecord<3>> particles, const ContactLaw& law,
                           ContactList<3>& list, std::span<ForceRecord<3>> nodes) {
   find_contact_forces<3>(particles, law, list);
-  list.sums.add_up(list.forces, opposite<3>, nodes);
+  gather(law, list, nodes);
 }
 
 template <>
 double advance_contacts<3>(std::span<const ParticleRecord<3>> particles, const ContactLaw& law,
                            ContactList<3>& list, std::span<ForceRecord<3>> nodes) {
   const double dissipated = law_of(law).advancing({particles.data(), law.friction, &list});
-  list.sums.add_up(list.forces, opposite<3>, nodes);
+  gather(law, list, nodes);
   return dissipated;
 }
 
@@ -63,6 +83,13 @@ ContactTotals sum_stiffnesses<3>(std::span<const ParticleRecord<3>> particles,
                                  std::span<StiffnessRecord<3>> nodes) {
   const auto totals = law_of(law).stiffnesses({particles.data(), 0, &list});
   list.sums.add_up(list.stiffness, nodes);
+  if (!law.moments()) return totals;
+  for (std::size_t q = 0; q < list.inverse_node_radius.size(); ++q) {
+    const double turning = nodes[q].bending * list.inverse_node_radius[q];
+    nodes[q].spin_x += turning;
+    nodes[q].spin_y += turning;
+    nodes[q].spin_z += turning;
+  }
   return totals;
 }
 

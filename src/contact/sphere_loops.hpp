@@ -24,6 +24,8 @@ struct Features {
   bool tangential = true;
   bool rotating = true;
   bool hertz = false;
+  bool bonds = false;
+  bool moments = false;
 };
 
 constexpr double tiny = std::numeric_limits<double>::min();
@@ -36,7 +38,7 @@ struct Geometry {
   Spheres<width> i, j;
 };
 
-template <std::size_t width>
+template <std::size_t width, Features law>
 GRAINLAW_INLINE Geometry<width> geometry_of(const Loop& loop, std::size_t c) {
   const ContactList<3>& list = *loop.list;
   const double* records = &loop.particles->x;
@@ -48,7 +50,11 @@ GRAINLAW_INLINE Geometry<width> geometry_of(const Loop& loop, std::size_t c) {
   at.square = dot(at.branch, at.branch) + tiny;
   at.distance = square_root(at.square);
   at.normal = product(1 / at.distance, at.branch);
-  at.overlap = at.i.radius + at.j.radius - at.distance;
+  if constexpr (law.bonds) {
+    at.overlap = load<width>(&list.rest[c]) - at.distance;
+  } else {
+    at.overlap = at.i.radius + at.j.radius - at.distance;
+  }
   return at;
 }
 
@@ -61,6 +67,72 @@ GRAINLAW_INLINE Triple<width> turn(const Geometry<width>& at, const Triple<width
   return sum(g, 2 / (w * w + dot(v, v)), cross(v, u));
 }
 
+// What a spring of this stiffness loses that started from a force of size `held`, would carry `size` and
+// carries `carried` within its bound.
+template <std::size_t width>
+GRAINLAW_INLINE Lanes<width> lost_by(const Lanes<width>& held, const Lanes<width>& size,
+                                     const Lanes<width>& carried, const Lanes<width>& bound,
+                                     const Lanes<width>& stiffness) {
+  const Lanes<width> zero{};
+  const Lanes<width> excess = largest(held - bound, zero);
+  const Lanes<width> lost = (carried * (size - carried) + 0.5 * excess * excess) / stiffness;
+  return stiffness > zero ? lost : zero;
+}
+
+// The moment on j: with rho = 2 vec q_j conj(q_i), m* = Rbar m_c - kb rho across n - kr rho along it, each
+// part of which is shortened to its bound; the history starts from it when it advances. Returns what is
+// lost [J].
+template <std::size_t width, Features law, bool advance>
+GRAINLAW_INLINE Lanes<width> moment_of(const Loop& loop, std::size_t c, const Geometry<width>& at,
+                                       const Lanes<width>& fn, const Lanes<width>& root,
+                                       const Lanes<width>& fourth) {
+  using V = Lanes<width>;
+  ContactList<3>& list = *loop.list;
+  const V zero{};
+  V bending = load<width>(&list.bending_stiffness[c]);
+  V torsion = load<width>(&list.torsion_stiffness[c]);
+  Triple<width> start = triple_at<width>(list.start_moment, c);
+  if constexpr (law.hertz) {
+    bending *= root;
+    torsion *= root;
+    start = product(fourth, start);
+  }
+  const Triple<width> a = product(at.i.half / at.i.radius, at.i.eta);
+  const Triple<width> b = product(at.j.half / at.j.radius, at.j.eta);
+  const Triple<width> relative =
+      sum(sum(product(2 * at.i.half, b), -2 * at.j.half, a), cross(a, b));
+  const V along = 2 * dot(at.normal, relative);
+  const Triple<width> turned = turn(at, start);
+  Triple<width> trial = sum(turned, -2 * bending, relative);
+  trial = sum(trial, (bending - torsion) * along, at.normal);
+  const V twist = dot(at.normal, trial);
+  const Triple<width> roll = sum(trial, -twist, at.normal);
+  V roll_bound = load<width>(&list.rolling_length[c]) * fn;
+  V twist_bound = load<width>(&list.twisting_length[c]) * fn;
+  if constexpr (law.bonds) {
+    const V hold = load<width>(&list.hold[c]);
+    roll_bound = largest(roll_bound, hold);
+    twist_bound = largest(twist_bound, hold);
+  }
+  const V size = square_root(dot(roll, roll) + tiny);
+  const V carried = smallest(size, roll_bound);
+  const V carried_twist = largest(smallest(twist, twist_bound), -twist_bound);
+  const Triple<width> moment = sum(product(carried / size, roll), carried_twist, at.normal);
+  put_records(moment, {zero, zero, zero}, &list.moments[c].x);
+  if constexpr (!advance) return zero;
+  const V held_twist = dot(at.normal, turned);
+  const Triple<width> held = sum(turned, -held_twist, at.normal);
+  V lost = lost_by<width>(square_root(dot(held, held)), size, carried, roll_bound, bending) +
+           lost_by<width>(magnitude(held_twist), magnitude(twist), magnitude(carried_twist),
+                          twist_bound, torsion);
+  if constexpr (law.hertz) {
+    put(product(root > zero ? 1 / fourth : zero, moment), list.start_moment, c);
+  } else {
+    put(moment, list.start_moment, c);
+  }
+  return lost;
+}
+
 template <std::size_t width, Features law, bool advance>
 GRAINLAW_INLINE double contact_loop(const Loop& loop) {
   using V = Lanes<width>;
@@ -68,8 +140,9 @@ GRAINLAW_INLINE double contact_loop(const Loop& loop) {
   const V zero{};
   GroupSum<width> dissipated;
   for (std::size_t c = 0; c < list.i.size(); c += width) {
-    const Geometry<width> at = geometry_of<width>(loop, c);
-    const V depth = largest(at.overlap, zero);
+    const Geometry<width> at = geometry_of<width, law>(loop, c);
+    V depth = largest(at.overlap, zero);
+    if constexpr (law.bonds) depth = load<width>(&list.hold[c]) > zero ? at.overlap : depth;
     V fn = load<width>(&list.normal_stiffness[c]) * depth;
     V root{}, fourth{};
     if constexpr (law.hertz) {
@@ -90,7 +163,8 @@ GRAINLAW_INLINE double contact_loop(const Loop& loop) {
       if constexpr (law.rotating) h = turn(at, h);
       const Triple<width> trial = sum(h, -dot(at.normal, h), at.normal);
       const V size = square_root(dot(trial, trial) + tiny);
-      const V bound = loop.friction * fn;
+      V bound = loop.friction * fn;
+      if constexpr (law.bonds) bound = largest(bound, load<width>(&list.hold[c]));
       const V carried = smallest(size, bound);
       const Triple<width> ft = product(carried / size, trial);
       force = sum(force, ft);
@@ -98,9 +172,7 @@ GRAINLAW_INLINE double contact_loop(const Loop& loop) {
         spin = product(-load<width>(&list.inverse_reach[c]), cross(at.branch, ft));
       }
       if constexpr (advance) {
-        const V held = square_root(dot(start, start));
-        const V excess = largest(held - bound, zero);
-        const V lost = (carried * (size - carried) + 0.5 * excess * excess) / kt;
+        const V lost = lost_by<width>(square_root(dot(start, start)), size, carried, bound, kt);
         put(at.normal, list.start_normal, c);
         if constexpr (law.hertz) {
           // Nothing is left of an open contact's overlap, nor of its spring.
@@ -109,17 +181,22 @@ GRAINLAW_INLINE double contact_loop(const Loop& loop) {
           dissipated.add(c, kt > zero ? lost : (all > zero ? 0.5 * dot(kept, kept) / all : zero));
           put(product(kt > zero ? 1 / fourth : zero, ft), list.start_force, c);
         } else {
-          dissipated.add(c, kt > zero ? lost : zero);
+          dissipated.add(c, lost);
           put(ft, list.start_force, c);
         }
       }
     }
     put_records(force, spin, &list.forces[c].x);
+    if constexpr (law.moments) {
+      const V lost = moment_of<width, law, advance>(loop, c, at, fn, root, fourth);
+      if constexpr (advance) dissipated.add(c, lost);
+    }
   }
   return dissipated.total();
 }
 
-// Records (kn three times, kt d^2 / (R_i + R_j) three times) of the touching contacts.
+// Records (kn three times, kt d^2 / (R_i + R_j) three times, the larger of kb and kr) of the touching
+// contacts.
 template <std::size_t width, Features law>
 GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
   using V = Lanes<width>;
@@ -128,21 +205,32 @@ GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
   const V one = zero + 1.0;
   GroupSum<width> force, touching;
   for (std::size_t c = 0; c < list.i.size(); c += width) {
-    const Geometry<width> at = geometry_of<width>(loop, c);
-    const auto here = at.overlap > zero;
+    const Geometry<width> at = geometry_of<width, law>(loop, c);
+    V overlap = at.overlap;
+    if constexpr (law.bonds) {
+      overlap = load<width>(&list.hold[c]) > zero ? magnitude(overlap) + tiny : overlap;
+    }
+    const auto here = overlap > zero;
     V kn = here ? load<width>(&list.normal_stiffness[c]) : zero;
     V kt = here ? load<width>(&list.tangential_stiffness[c]) : zero;
     V share = one;
     if constexpr (law.hertz) {
-      const V root = square_root(largest(at.overlap, zero));
+      const V root = square_root(largest(overlap, zero));
       kn *= root;
       kt *= root;
       share *= hertz_share;
     }
-    force.add(c, share * kn * at.overlap);
+    force.add(c, share * kn * overlap);
     touching.add(c, here ? one : zero);
     const V spin = kt * at.square * load<width>(&list.inverse_reach[c]);
-    put_records<width>({kn, kn, kn}, {spin, spin, spin}, &list.stiffness[c].x);
+    V turning = zero;
+    if constexpr (law.moments) {
+      turning =
+          largest(load<width>(&list.bending_stiffness[c]), load<width>(&list.torsion_stiffness[c]));
+      if constexpr (law.hertz) turning *= square_root(largest(overlap, zero));
+      turning = here ? turning : zero;
+    }
+    put_records<width>({kn, kn, kn}, {spin, spin, spin}, &list.stiffness[c].x, turning);
   }
   return {force.total(), touching.total(), static_cast<int>(touching.total())};
 }

@@ -246,18 +246,6 @@ inline SphereStiffness contact_stiffness(const ContactList<3>& list, std::size_t
   return k;
 }
 
-// Moments of rolling and bending on j.
-template <>
-struct ContactMoment<3> {
-  double moment = 0;  // its size [N m]
-};
-inline ContactMoment<3> contact_moment(const ContactList<3>& /*list*/, std::size_t /*c*/,
-                                       const ContactPoint<3>& /*point*/,
-                                       std::span<const double> /*coordinates*/,
-                                       std::size_t /*particles*/, const ContactLaw& /*law*/) {
-  return {};
-}
-
 // What the springs of all contacts hold [J].
 double stored_energy(const ContactList<3>& list, std::span<const double> coordinates,
                      std::size_t particles, const ContactLaw& law);

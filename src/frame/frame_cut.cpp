@@ -195,7 +195,7 @@ Packing assemble(const Packing& periodic, const Wrapped& wrapped, const ChainGra
         if (copy.i > copy.j) {
           std::swap(copy.i, copy.j);
           for (double& component : copy.tangential_force) component = -component;
-          copy.moment = -copy.moment;
+          copy.moment[0] = -copy.moment[0];
         }
         packing.contacts.push_back(copy);
       }

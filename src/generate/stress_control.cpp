@@ -169,7 +169,7 @@ Packing packing_of(const Problem<D>& problem, const Configuration<D>& at) {
     contact.normal_force = view.normal_force;
     const auto force = view.tangential_force_vector();
     std::copy(force.begin(), force.end(), contact.tangential_force.begin());
-    contact.moment = view.moment[0];
+    std::copy(view.moment.begin(), view.moment.end(), contact.moment.begin());
   }
   return packing;
 }

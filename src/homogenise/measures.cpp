@@ -84,6 +84,12 @@ double sum_of_squares(const std::array<double, components>& force) {
   return sum;
 }
 
+// Of twisting or torsion [N m].
+double moment_along(const ContactView<2>& /*contact*/) { return 0; }
+double moment_along(const ContactView<3>& c) {
+  return dot<3>(c.moment.data(), c.branch.data()) / length<3>(c.branch);
+}
+
 // A contact that is not bonded carries no tension.
 template <int D>
 double carried_overlap(const ContactView<D>& c) {
@@ -95,10 +101,12 @@ double elastic_energy(const Problem<D>& problem, const std::vector<ContactView<D
   double energy = 0;
   const auto& radius = problem.packing->radius;
   for (const auto& c : contacts) {
+    const double along = moment_along(c);
     energy += c.weight * problem.law->energy(radius[static_cast<std::size_t>(c.i)],
                                              radius[static_cast<std::size_t>(c.j)],
                                              carried_overlap(c), sum_of_squares(c.tangential_force),
-                                             sum_of_squares(c.moment), c.bonded);
+                                             sum_of_squares(c.moment) - along * along,
+                                             along * along, c.bonded);
   }
   return energy;
 }

@@ -116,11 +116,11 @@ double Increment<D>::bond_load(std::size_t c) const {
   const auto point = contact_point(contacts_, c, motion_.coordinates(), problem_->particles(), law);
   double load = -point.normal_force / law.bond.normal_strength +
                 magnitude_of(point.tangential_force) / law.bond.tangential_strength;
-  if (law.bond.bending_strength > 0 && law.moments()) {
-    load += std::abs(contact_moment(contacts_, c, point, motion_.coordinates(),
-                                    problem_->particles(), law)
-                         .moment) /
-            law.bond.bending_strength;
+  const bool by_moments = law.bond.bending_strength > 0 || law.bond.torsion_strength > 0;
+  if (by_moments && law.moments()) {
+    load += bond_share(
+        contact_moment(contacts_, c, point, motion_.coordinates(), problem_->particles(), law),
+        law.bond);
   }
   return load / contacts_.weight_of(c);
 }

@@ -61,7 +61,12 @@ LeastMass<D> least_mass(const ContactLaw& law, double r);
 template <>
 inline LeastMass<3> least_mass<3>(const ContactLaw& law, double r) {
   const double kn = law.stiffness(r, r);
-  return {kn, law.rotating() ? 2 * law.ratio * kn : 1, 1 / r};
+  double spin = law.rotating() ? 2 * law.ratio * kn : 1;
+  if (law.moments()) {
+    const double turning = std::max(law.rolling_ratio(r, r), law.twisting_ratio(r, r));
+    spin += law.ratio * kn * turning / (r * r);
+  }
+  return {kn, spin, 1 / r};
 }
 
 inline MassRecord<3> mass_of(const StiffnessRecord<3>& sum, const LeastMass<3>& least,

@@ -1,5 +1,7 @@
 #include "material/contact_keys.hpp"
 
+#include <string>
+
 namespace grainlaw::core {
 
 namespace {
@@ -16,40 +18,56 @@ void read_hertz(TomlTable& table, ContactLaw& law) {
   law.ratio = 2 * (1 - law.poisson) / (2 - law.poisson);
 }
 
-// A moment needs discs that turn, and they turn by tangential forces.
-void read_rolling(TomlTable& contact, ContactLaw& law) {
+// A moment needs particles that turn, and they turn by tangential forces.
+void read_rolling(TomlTable& contact, ContactLaw& law, long dimension) {
   if (!contact.has("rolling")) return;
   TomlTable table = contact.required_table("rolling");
   law.rolling.ratio = table.required("ratio", number_above(0));
   law.rolling.friction = table.required("friction", number_above(0));
+  if (dimension == 3) {
+    table.optional("twisting_ratio", number_above(0), law.rolling.twisting_ratio);
+    table.optional("twisting_friction", number_above(0), law.rolling.twisting_friction);
+    if (table.has("twisting_ratio") != table.has("twisting_friction"))
+      table.fail(table.has("twisting_ratio") ? "twisting_friction" : "twisting_ratio", "nothing",
+                 "both of twisting_ratio and twisting_friction, or neither");
+  }
   table.finish();
   if (!law.rotation) contact.fail("rotation", "false", "true with [contact.rolling]");
   if (law.ratio == 0) contact.fail("ratio", "0", "a number > 0 with [contact.rolling]");
   if (law.friction == 0) contact.fail("friction", "0", "a number > 0 with [contact.rolling]");
 }
 
-void read_bond(TomlTable& contact, ContactLaw& law) {
+// Bending or torsion: stiffness and strength go together, and with particles that turn.
+void read_stiff_part(TomlTable& table, const ContactLaw& law, const std::string& part,
+                     double& stiffness, double& strength) {
+  const std::string of_stiffness = part + "_stiffness", of_strength = part + "_strength";
+  table.optional(of_stiffness, number_at_least(0), stiffness);
+  table.optional(of_strength, number_above(0), strength);
+  if (stiffness > 0 && strength == 0)
+    table.fail(of_strength, "nothing", "a number > 0 with " + of_stiffness + " > 0");
+  if (stiffness == 0 && strength > 0)
+    table.fail(of_strength, "a number", of_stiffness + " > 0 with it");
+  if (stiffness > 0 && !law.rotation)
+    table.fail(of_stiffness, "a number > 0", "contact.rotation = true with it");
+}
+
+void read_bond(TomlTable& contact, ContactLaw& law, long dimension) {
   if (law.ratio == 0) contact.fail("ratio", "0", "a number > 0 with law = \"bonded\"");
   TomlTable table = contact.required_table("bond");
   Bond& bond = law.bond;
   bond.normal_strength = table.required("normal_strength", number_above(0));
   bond.tangential_strength = table.required("tangential_strength", number_above(0));
-  table.optional("bending_stiffness", number_at_least(0), bond.bending_stiffness);
-  table.optional("bending_strength", number_above(0), bond.bending_strength);
+  read_stiff_part(table, law, "bending", bond.bending_stiffness, bond.bending_strength);
+  if (dimension == 3) {
+    read_stiff_part(table, law, "torsion", bond.torsion_stiffness, bond.torsion_strength);
+  }
   table.optional("gap", number_at_least(0), bond.gap);
   table.finish();
-  const bool bends = bond.bending_stiffness > 0;
-  if (bends && bond.bending_strength == 0)
-    table.fail("bending_strength", "nothing", "a number > 0 with bending_stiffness > 0");
-  if (!bends && bond.bending_strength > 0)
-    table.fail("bending_strength", "a number", "bending_stiffness > 0 with it");
-  if (bends && !law.rotation)
-    table.fail("bending_stiffness", "a number > 0", "contact.rotation = true with it");
 }
 
 }  // namespace
 
-ContactLaw read_contact(TomlTable table) {
+ContactLaw read_contact(TomlTable table, long dimension) {
   ContactLaw law;
   law.kind = table.required("law", one_of<LawKind>({{"frictional", LawKind::frictional},
                                                     {"compressive", LawKind::compressive},
@@ -64,8 +82,8 @@ ContactLaw read_contact(TomlTable table) {
     if (!law.hertzian()) law.ratio = table.required("ratio", number_at_least(0));
     law.friction = table.required("friction", number_at_least(0));
     table.optional("rotation", boolean(), law.rotation);
-    if (law.bonds()) read_bond(table, law);
-    read_rolling(table, law);
+    if (law.bonds()) read_bond(table, law, dimension);
+    read_rolling(table, law, dimension);
   }
   table.finish();
   return law;

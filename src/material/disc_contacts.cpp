@@ -12,7 +12,7 @@ std::array<double, 1> given_force<2>(const Packing& packing, const InitialContac
 
 template <>
 std::array<double, 1> given_moment<2>(const InitialContact& contact) {
-  return {contact.moment};
+  return {contact.moment[0]};
 }
 
 }  // namespace grainlaw::core

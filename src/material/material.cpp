@@ -136,6 +136,11 @@ std::uint64_t fingerprint_of(const Material<D>& material) {
   const int boundary[] = {static_cast<int>(material.space.options.type),
                           static_cast<int>(material.space.options.weight)};
   add(law, sizeof law);
+  if constexpr (D == 3) {
+    const double moments[] = {of.rolling.twisting_ratio, of.rolling.twisting_friction,
+                              of.bond.torsion_strength, of.bond.torsion_stiffness};
+    add(moments, sizeof moments);
+  }
   add(boundary, sizeof boundary);
   if (material.space.options.type == BoundaryType::mixed) {
     for (const Side& side : material.space.options.sides) {

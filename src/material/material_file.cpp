@@ -112,10 +112,6 @@ void check_spheres(const TomlTable& top, const MaterialDescription& description)
   if (description.boundary.type != BoundaryType::periodic_cell)
     top.fail("boundary", "a frame",
              "type = \"periodic-cell\" with dimension = 3: frames are plane");
-  if (description.law.bonds())
-    top.fail("contact", "law = \"bonded\"", "another law with dimension = 3: bonds are of discs");
-  if (description.law.rolls())
-    top.fail("contact", "rolling", "none with dimension = 3: rolling resistance is of discs");
 }
 
 MaterialDescription read_description(TomlTable& top, const std::filesystem::path& directory) {
@@ -127,7 +123,7 @@ MaterialDescription read_description(TomlTable& top, const std::filesystem::path
   if (dimension == 3 && thickness)
     top.fail("thickness", "a number", "none with dimension = 3: spheres have their own");
   TomlTable packing = top.required_table("packing");
-  description.law = read_contact(top.required_table("contact"));
+  description.law = read_contact(top.required_table("contact"), dimension);
   description.boundary = read_boundary(top.optional_table("boundary"));
   description.solver = read_solver(top.optional_table("solver"), description.boundary);
   top.finish();

@@ -41,7 +41,7 @@ void turn_round(InitialContact& contact) {
   std::swap(contact.i, contact.j);
   for (int& component : contact.shift) component = -component;
   for (double& component : contact.tangential_force) component = -component;
-  contact.moment = -contact.moment;
+  for (double& component : contact.moment) component = -component;
 }
 
 template <int D>

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace grainlaw::core {
@@ -34,14 +35,25 @@ std::string space_particles_text(const Packing& packing) {
   return fmt::to_string(text);
 }
 
+bool has_moments(const Packing& packing) {
+  constexpr std::array<double, 3> none{};
+  return std::ranges::any_of(packing.contacts, [&](const auto& c) { return c.moment != none; });
+}
+
 std::string space_contacts_text(const Packing& packing) {
+  const bool moments = has_moments(packing);
+  const bool bonds = packing.names_bonds;
   fmt::memory_buffer text;
   auto out = fmt::appender(text);
-  fmt::format_to(out, "i,j,shift_x,shift_y,shift_z,fn,ftx_on_j,fty_on_j,ftz_on_j\n");
+  fmt::format_to(out, "i,j,shift_x,shift_y,shift_z,fn,ftx_on_j,fty_on_j,ftz_on_j{}{}\n",
+                 moments ? ",moment_x,moment_y,moment_z" : "", bonds ? ",bonded,bond_gap" : "");
   for (const InitialContact& c : packing.contacts) {
     const auto& f = c.tangential_force;
-    fmt::format_to(out, "{},{},{},{},{},{},{},{},{}\n", c.i, c.j, c.shift[0], c.shift[1],
-                   c.shift[2], c.normal_force, f[0], f[1], f[2]);
+    fmt::format_to(out, "{},{},{},{},{},{},{},{},{}", c.i, c.j, c.shift[0], c.shift[1], c.shift[2],
+                   c.normal_force, f[0], f[1], f[2]);
+    if (moments) fmt::format_to(out, ",{},{},{}", c.moment[0], c.moment[1], c.moment[2]);
+    if (bonds) fmt::format_to(out, ",{},{}", c.bonded ? 1 : 0, c.bond_gap);
+    fmt::format_to(out, "\n");
   }
   return fmt::to_string(text);
 }
@@ -81,15 +93,14 @@ std::string contacts_text(const Packing& packing) {
   fmt::memory_buffer text;
   auto out = fmt::appender(text);
   const auto& contacts = packing.contacts;
-  const bool moments =
-      std::any_of(contacts.begin(), contacts.end(), [](const auto& c) { return c.moment != 0; });
+  const bool moments = has_moments(packing);
   const bool bonds = packing.names_bonds;
   fmt::format_to(out, "i,j,shift_x,shift_y,fn,ftx_on_j,fty_on_j{}{}\n", moments ? ",moment" : "",
                  bonds ? ",bonded,bond_gap" : "");
   for (const InitialContact& c : contacts) {
     fmt::format_to(out, "{},{},{},{},{},{},{}", c.i, c.j, c.shift[0], c.shift[1], c.normal_force,
                    c.tangential_force[0], c.tangential_force[1]);
-    if (moments) fmt::format_to(out, ",{}", c.moment);
+    if (moments) fmt::format_to(out, ",{}", c.moment[0]);
     if (bonds) fmt::format_to(out, ",{},{}", c.bonded ? 1 : 0, c.bond_gap);
     fmt::format_to(out, "\n");
   }

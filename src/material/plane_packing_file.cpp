@@ -202,7 +202,7 @@ std::vector<unsigned> read_contacts(const Source& source, const Ids& ids, const 
   while (table.next()) {
     InitialContact contact{
         particle(i), particle(j), shift(), table.real(fn), {table.real(ftx), table.real(fty)}};
-    if (table.has(moment)) contact.moment = table.real(moment);
+    if (table.has(moment)) contact.moment[0] = table.real(moment);
     if (table.has(bonded)) {
       if (const auto flag = table.integer(bonded); flag != 0 && flag != 1)
         table.complain(bonded, "0 or 1");

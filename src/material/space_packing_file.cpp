@@ -21,7 +21,22 @@ namespace {
 constexpr std::int64_t largest_shift = 511;
 
 enum ParticleColumn : std::size_t { id, x, y, z, r };
-enum ContactColumn : std::size_t { i, j, shift_x, shift_y, shift_z, fn, ftx, fty, ftz };
+enum ContactColumn : std::size_t {
+  i,
+  j,
+  shift_x,
+  shift_y,
+  shift_z,
+  fn,
+  ftx,
+  fty,
+  ftz,
+  moment_x,
+  moment_y,
+  moment_z,
+  bonded,
+  bond_gap
+};
 enum CellColumn : std::size_t { h00, rho = 9, thickness };
 
 void read_cell(const PackingText& source, Packing& packing) {
@@ -85,10 +100,13 @@ ParticleIds read_particles(const PackingText& source, Packing& packing) {
 // Returns the line of each.
 std::vector<unsigned> read_contacts(const PackingText& source, const ParticleIds& ids,
                                     Packing& packing) {
-  CsvTable<9> table(
-      source.path, source.text,
-      {"i", "j", "shift_x", "shift_y", "shift_z", "fn", "ftx_on_j", "fty_on_j", "ftz_on_j"});
+  CsvTable<14> table(source.path, source.text,
+                     {"i", "j", "shift_x", "shift_y", "shift_z", "fn", "ftx_on_j", "fty_on_j",
+                      "ftz_on_j", "moment_x", "moment_y", "moment_z", "bonded", "bond_gap"});
   table.require(i, ftz + 1);
+  if (table.has(moment_x) || table.has(moment_y) || table.has(moment_z))
+    table.require(moment_x, moment_z + 1);
+  packing.names_bonds = table.has(bonded);
   const auto particle = [&](std::size_t column) {
     const auto found = ids.find(table.integer(column));
     if (found == ids.end()) table.complain(column, "the id of a particle");
@@ -107,6 +125,15 @@ std::vector<unsigned> read_contacts(const PackingText& source, const ParticleIds
                            {shift(shift_x), shift(shift_y), shift(shift_z)},
                            table.real(fn),
                            {table.real(ftx), table.real(fty), table.real(ftz)}};
+    for (std::size_t k = 0; k < 3 && table.has(moment_x); ++k) {
+      contact.moment[k] = table.real(moment_x + k);
+    }
+    if (table.has(bonded)) {
+      if (const auto flag = table.integer(bonded); flag != 0 && flag != 1)
+        table.complain(bonded, "0 or 1");
+      contact.bonded = table.integer(bonded) == 1;
+    }
+    if (table.has(bond_gap)) contact.bond_gap = table.real(bond_gap);
     constexpr std::array<int, 3> none{};
     if (contact.i > contact.j || (contact.i == contact.j && contact.shift < none)) {
       turn_round(contact);

@@ -17,8 +17,8 @@ std::array<double, 3> given_force<3>(const Packing& packing, const InitialContac
 }
 
 template <>
-std::array<double, 3> given_moment<3>(const InitialContact& /*contact*/) {
-  return {};
+std::array<double, 3> given_moment<3>(const InitialContact& contact) {
+  return contact.moment;
 }
 
 }  // namespace grainlaw::core

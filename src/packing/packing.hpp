@@ -17,7 +17,8 @@ struct InitialContact {
   std::array<int, 3> shift{};
   double normal_force = 0;
   std::array<double, 3> tangential_force{};
-  double moment = 0;    // of rolling or bending, on j [N m]
+  // Of rolling, twisting, bending or torsion, on j; of discs the first alone [N m].
+  std::array<double, 3> moment{};
   bool bonded = false;  // where the packing names its bonds
   double bond_gap = 0;  // stress-free branch of the bond - (R_i + R_j) [m]
 };

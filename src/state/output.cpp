@@ -55,7 +55,7 @@ Packing as_packing(const Material<D>& material, const Configuration<D>& at) {
     packing.contacts.push_back(
         {c.i, c.j, filled<3>(c.shift), c.normal_force, filled<3>(c.tangential_force_vector())});
     auto& contact = packing.contacts.back();
-    contact.moment = c.moment[0];
+    contact.moment = filled<3>(c.moment);
     contact.bonded = c.bonded;
     contact.bond_gap = c.bond_gap;
   }

@@ -16,7 +16,7 @@ inline void add_turn(const SplitIncrement<2>& increment, std::size_t particles,
 }
 // The springs of discs turn with their branches.
 inline void turn_springs(const SplitIncrement<2>& /*increment*/,
-                         std::vector<ContactHistory<2>>& /*contacts*/) {}
+                         Configuration<2>& /*configuration*/) {}
 
 inline void take_turn(const SplitIncrement<2>& increment, const Configuration<2>& from,
                       std::size_t particles, std::vector<double>& z) {

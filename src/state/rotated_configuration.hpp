@@ -17,7 +17,7 @@ void rotate_configuration(const SplitIncrement<D>& increment, const Tensor<D>& F
                           std::size_t particles, Configuration<D>& configuration) {
   map_positions<D>(increment.rotation, particles, configuration.coordinates.data());
   add_turn(increment, particles, configuration.coordinates);
-  turn_springs(increment, configuration.contacts);
+  turn_springs(increment, configuration);
   configuration.deformation = F;
   if (configuration.move.empty()) return;
   const Tensor<D>& r = increment.rotation;

@@ -5,6 +5,7 @@
 #include "increment/configuration.hpp"
 #include "state/rotation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -47,10 +48,15 @@ inline void add_turn(const SplitIncrement<3>& increment, std::size_t n, std::vec
   }
 }
 
-inline void turn_springs(const SplitIncrement<3>& increment,
-                         std::vector<ContactHistory<3>>& contacts) {
-  for (auto& contact : contacts) {
+inline void turn_springs(const SplitIncrement<3>& increment, Configuration<3>& configuration) {
+  for (auto& contact : configuration.contacts) {
     contact.tangential_force = product<3>(increment.rotation, contact.tangential_force);
+  }
+  auto& moments = configuration.moments;
+  for (std::size_t m = 0; m < moments.size(); m += 3) {
+    const Vec<3> turned =
+        product<3>(increment.rotation, Vec<3>{moments[m], moments[m + 1], moments[m + 2]});
+    std::copy(turned.begin(), turned.end(), moments.begin() + static_cast<std::ptrdiff_t>(m));
   }
 }
 

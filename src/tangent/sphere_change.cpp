@@ -27,6 +27,20 @@ struct Change {
   Triple force, spin, branch, spring;
 };
 
+// Of both particles.
+struct Spins {
+  Triple i, j;
+};
+Spins spins_of(const TouchingContact<3>& contact, const ByDeformation<3>* motion) {
+  constexpr std::size_t b = Dimension<3>::unknowns;
+  Spins spins;
+  for (std::size_t k = 0; k < 3; ++k) {
+    spins.i[k] = load(motion[contact.node_i * b + 3 + k]);
+    spins.j[k] = load(motion[contact.node_j * b + 3 + k]);
+  }
+  return spins;
+}
+
 struct Loop {
   const Increment<3>& increment;
   Tensor<3> pull_back;
@@ -52,14 +66,14 @@ Change change_of(const Loop& loop, const TouchingContact<3>& contact,
   if (motion != nullptr) {
     const auto* zi = motion + contact.node_i * b;
     const auto* zj = motion + contact.node_j * b;
-    Triple spin_i, spin_j;
+    Spins spins = spins_of(contact, motion);
     for (std::size_t k = 0; k < 3; ++k) {
       result.branch[k] += load(zj[k]) - load(zi[k]);
-      spin_i[k] = contact.lever_i * load(zi[3 + k]);
-      spin_j[k] = (1 - contact.lever_i) * load(zj[3 + k]);
+      spins.i[k] *= contact.lever_i;
+      spins.j[k] *= 1 - contact.lever_i;
     }
-    turn = product(contact.point.spin_i, spin_i);
-    add(turn, product(contact.point.spin_j, spin_j));
+    turn = product(contact.point.spin_i, spins.i);
+    add(turn, product(contact.point.spin_j, spins.j));
   }
   result.force = product(s.force_by_branch, result.branch);
   result.spin = product(s.spin_by_branch, result.branch);
@@ -101,6 +115,28 @@ Change change_of(const Loop& loop, const TouchingContact<3>& contact,
   return result;
 }
 
+// Of the moment on j, which belongs to `change` of the contact.
+Triple moment_change_of(const Loop& loop, const TouchingContact<3>& contact,
+                        const ContactMoment<3>& moment, const Triple& branch,
+                        const ByDeformation<3>* motion) {
+  Triple result = product(moment.by_branch, branch);
+  if (motion != nullptr) {
+    const Spins spins = spins_of(contact, motion);
+    add(result, product(moment.by_spin_i, spins.i));
+    add(result, product(moment.by_spin_j, spins.j));
+  }
+  if (loop.history.moment == nullptr) return result;
+  const auto& list = loop.increment.contacts();
+  const double scale = start_scale(list.rest_of(contact.index) - contact.point.distance,
+                                   *loop.increment.problem().law);
+  Triple start;
+  for (std::size_t k = 0; k < 3; ++k) {
+    start[k] = scale * load(loop.history.moment[contact.index][k]);
+  }
+  add(result, product(moment.by_start, start));
+  return result;
+}
+
 Loop loop_of(const Increment<3>& increment, const DeformationChange<3>& change,
              const HistoryChange<3>& history) {
   return {increment, inverse<3>(increment.motion().deformation()), change, history};
@@ -119,7 +155,9 @@ void add_residual_changes<3>(const Increment<3>& increment, const Stiffness<3>& 
   constexpr std::size_t b = Dimension<3>::unknowns;
   const Loop loop = loop_of(increment, change, history);
   const bool rotating = increment.problem().law->rotating();
-  for (const auto& contact : stiffness.touching()) {
+  const auto moments = stiffness.moments();
+  for (std::size_t c = 0; c < stiffness.touching().size(); ++c) {
+    const auto& contact = stiffness.touching()[c];
     const Change found = change_of(loop, contact, nullptr);
     const double radius_i = contact.lever_i * contact.reach;
     const double radius_j = contact.reach - radius_i;
@@ -133,6 +171,12 @@ void add_residual_changes<3>(const Increment<3>& increment, const Stiffness<3>& 
       if (!rotating) continue;
       add_to(contact.node_i, 3 + k, radius_i * found.spin[k]);
       add_to(contact.node_j, 3 + k, radius_j * found.spin[k]);
+    }
+    if (moments.empty()) continue;
+    const Triple moment = moment_change_of(loop, contact, moments[c], found.branch, nullptr);
+    for (std::size_t k = 0; k < 3; ++k) {
+      add_to(contact.node_i, 3 + k, -moment[k]);
+      add_to(contact.node_j, 3 + k, moment[k]);
     }
   }
 }
@@ -153,10 +197,18 @@ void find_contact_changes<3>(const Increment<3>& increment,
 }
 
 template <>
-void find_moment_changes<3>(const Increment<3>& /*increment*/, const Stiffness<3>& /*stiffness*/,
-                            const DeformationChange<3>& /*change*/,
-                            const HistoryChange<3>& /*history*/,
-                            std::span<const ByDeformation<3>> /*motion*/,
-                            std::span<ByDeformation<3>> /*changes*/) {}
+void find_moment_changes<3>(const Increment<3>& increment, const Stiffness<3>& stiffness,
+                            const DeformationChange<3>& change, const HistoryChange<3>& history,
+                            std::span<const ByDeformation<3>> motion,
+                            std::span<ByDeformation<3>> changes) {
+  const Loop loop = loop_of(increment, change, history);
+  const auto touching = stiffness.touching();
+  for (std::size_t c = 0; c < touching.size(); ++c) {
+    const Triple branch = change_of(loop, touching[c], motion.data()).branch;
+    const Triple moment =
+        moment_change_of(loop, touching[c], stiffness.moments()[c], branch, motion.data());
+    for (std::size_t k = 0; k < 3; ++k) simd::store(changes[3 * c + k].lane, moment[k]);
+  }
+}
 
 }  // namespace grainlaw::core

@@ -11,19 +11,28 @@ namespace grainlaw::core {
 
 void HistoryDerivatives<3>::carry(const Increment<3>& increment,
                                   std::span<const ContactChange<3>> changes,
-                                  std::span<const ByDeformation<3>> /*moment_changes*/,
+                                  std::span<const ByDeformation<3>> moment_changes,
                                   std::span<const std::int32_t> place) {
   const auto& list = increment.contacts();
+  const bool moments = increment.problem().law->moments();
   carried_force_.clear();
+  carried_moment_.clear();
   for (std::size_t c = 0; c < list.size(); ++c) {
     if (!increment.carries(c)) continue;
-    TripleByDeformation force = changes[static_cast<std::size_t>(place[c])].tangential_force;
-    for (auto& component : force) {
-      for (double& value : component.lane) value /= list.weight_of(c);
-    }
-    carried_force_.push_back(force);
+    const auto k = static_cast<std::size_t>(place[c]);
+    const auto keep = [&](TripleByDeformation change, std::vector<TripleByDeformation>& to) {
+      for (auto& component : change) {
+        for (double& value : component.lane) value /= list.weight_of(c);
+      }
+      to.push_back(change);
+    };
+    keep(changes[k].tangential_force, carried_force_);
+    if (!moments) continue;
+    keep({moment_changes[3 * k], moment_changes[3 * k + 1], moment_changes[3 * k + 2]},
+         carried_moment_);
   }
   keep_room(carried_force_);
+  keep_room(carried_moment_);
 }
 
 void HistoryDerivatives<3>::start(const Increment<3>& increment,
@@ -38,6 +47,7 @@ void HistoryDerivatives<3>::start(const Increment<3>& increment,
   const Tensor<3> pull_back = inverse<3>(increment.motion().start_deformation());
   resize_with_room(normal_, list.size());
   resize_with_room(force_, list.size());
+  if (law.moments()) resize_with_room(moment_, list.size());
   std::size_t h = 0;
   for (std::size_t c = 0; c < list.size(); ++c) {
     const auto i = static_cast<std::size_t>(list.i[c]);
@@ -63,11 +73,15 @@ void HistoryDerivatives<3>::start(const Increment<3>& increment,
       const double along = dot(l, dl) / (d * d);
       for (std::size_t k = 0; k < 3; ++k) {
         normal_[c][k].lane[lane] = (dl[k] - along * l[k]) / d;
-        double force = known ? scale * list.weight_of(c) * carried_force_[h][k].lane[lane] : 0;
-        if (law.hertzian() && overlap > 0) {
-          force += 0.25 * list.start_force[k][c] * along * d / overlap;
+        const auto start_of = [&](const auto& carried, const auto& start) {
+          double change = known ? scale * list.weight_of(c) * carried[h][k].lane[lane] : 0;
+          if (law.hertzian() && overlap > 0) change += 0.25 * start[k][c] * along * d / overlap;
+          return change;
+        };
+        force_[c][k].lane[lane] = start_of(carried_force_, list.start_force);
+        if (law.moments()) {
+          moment_[c][k].lane[lane] = start_of(carried_moment_, list.start_moment);
         }
-        force_[c][k].lane[lane] = force;
       }
     }
   }

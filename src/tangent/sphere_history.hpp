@@ -13,11 +13,12 @@ namespace grainlaw::core {
 
 using TripleByDeformation = std::array<ByDeformation<3>, 3>;
 
-// Of n_c and ft_c.
+// Of n_c, ft_c and, of laws with moments, m_c.
 template <>
 struct HistoryChange<3> {
   const TripleByDeformation* normal = nullptr;
   const TripleByDeformation* force = nullptr;
+  const TripleByDeformation* moment = nullptr;
 };
 
 template <>
@@ -28,13 +29,13 @@ class HistoryDerivatives<3> {
              std::span<const ByDeformation<3>> moment_changes, std::span<const std::int32_t> place);
   void start(const Increment<3>& increment, std::span<const ByDeformation<3>> motion,
              const DeformationChange<3>& change);
-  [[nodiscard]] HistoryChange<3> of_list(bool /*moments*/) const {
-    return {normal_.data(), force_.data()};
+  [[nodiscard]] HistoryChange<3> of_list(bool moments) const {
+    return {normal_.data(), force_.data(), moments ? moment_.data() : nullptr};
   }
 
  private:
-  std::vector<TripleByDeformation> carried_force_;   // per contact of the history
-  std::vector<TripleByDeformation> normal_, force_;  // per listed contact
+  std::vector<TripleByDeformation> carried_force_, carried_moment_;  // per contact of the history
+  std::vector<TripleByDeformation> normal_, force_, moment_;         // per listed contact
 };
 
 }  // namespace grainlaw::core

@@ -60,11 +60,37 @@ void Stiffness<3>::add_contacts() {
   }
 }
 
+// -dr by the moments: m on j and -m on i.
 template <>
-void Stiffness<3>::add_moments() {}
+void Stiffness<3>::add_moments() {
+  const std::size_t edges = matrix_.edges.size();
+  const auto add_to = [](BlockColumn<8>* block, double sign, const Matrix3& by_place,
+                         const Matrix3& by_spin, double place_sign) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t r = 0; r < 3; ++r) {
+        block[c].lane[3 + r] -= sign * place_sign * by_place[3 * r + c];
+        block[3 + c].lane[3 + r] -= sign * by_spin[3 * r + c];
+      }
+    }
+  };
+  for (std::size_t k = 0; k < touching_.size(); ++k) {
+    const auto& moment = moments_[k];
+    const std::size_t i = touching_[k].node_i;
+    const std::size_t j = touching_[k].node_j;
+    const std::int32_t edge = edge_of_contact_[touching_[k].index];
+    const std::size_t upper = edge < 0 ? i : matrix_.upper(static_cast<std::size_t>(edge));
+    const std::size_t lower = edge < 0 ? i : upper + edges;
+    add_to(matrix_.block(i), -1, moment.by_branch, moment.by_spin_i, -1);
+    add_to(matrix_.block(i < j ? upper : lower), -1, moment.by_branch, moment.by_spin_j, 1);
+    add_to(matrix_.block(i < j ? lower : upper), 1, moment.by_branch, moment.by_spin_i, -1);
+    add_to(matrix_.block(j), 1, moment.by_branch, moment.by_spin_j, 1);
+  }
+}
 
 template <>
 void Stiffness<3>::hold_free_spins(const Increment<3>& increment) {
+  const ContactLaw& law = *increment.problem().law;
+  if (law.rolls() || (law.moments() && law.bond.bending_stiffness > 0)) return;
   constexpr unsigned char two = 2, more = 3;
   const std::size_t n = increment.problem().nodes();
   resize_with_room(contacts_of_node_, n);

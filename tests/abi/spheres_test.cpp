@@ -120,11 +120,61 @@ TEST(bad_spheres, what_is_plane_is_refused) {
   expect_told(text_of("generator = \"square\"\ncolumns = 2\nrows = 2\nradius = 0.5\noverlap = 0\n"),
               "found 'square', expected one of \"compaction\"");
   expect_told(text_of(files) + "[boundary]\ntype = \"frame-d\"\n", "periodic-cell");
-  expect_told(text_of(files) + "rolling = { ratio = 1, friction = 0.1 }\n", "rolling");
-  expect_told(text_of(files, "",
-                      "law = \"bonded\"\nkn = 1e5\nratio = 0.8\nfriction = 0.5\n"
-                      "bond = { normal_strength = 1, tangential_strength = 1 }\n"),
-              "bonds are of discs");
+}
+
+TEST(bad_spheres, mistakes_in_bonds_and_rolling_are_told) {
+  const std::string lattice =
+      "generator = \"fcc\"\ncells = [2, 2, 2]\nradius = 1e-3\npressure = 1e4\n";
+  const auto told = [&](const std::string& keys, const std::string& expected, bool bonded = true) {
+    const std::string law = bonded ? "law = \"bonded\"\n" : "law = \"frictional\"\n";
+    expect_told(text_of(lattice, "", law + "kn = 1e5\nratio = 0.8\nfriction = 0.5\n" + keys),
+                expected);
+  };
+  const std::string strengths = "bond = { normal_strength = 1, tangential_strength = 1";
+  told(strengths + ", torsion_stiffness = 1 }\n", "contact.bond.torsion_strength: found nothing");
+  told(strengths + ", torsion_strength = 1 }\n", "torsion_stiffness > 0 with it");
+  told("rotation = false\n" + strengths + ", torsion_stiffness = 1, torsion_strength = 1 }\n",
+       "contact.rotation = true with it");
+  told("rolling = { ratio = 1, friction = 0.1, twisting_ratio = 1 }\n",
+       "contact.rolling.twisting_friction: found nothing", false);
+  told("rolling = { ratio = 1, friction = 0.1, twisting_ratio = 0, twisting_friction = 1 }\n",
+       "contact.rolling.twisting_ratio: found 0", false);
+}
+
+TEST(spheres, bonds_and_moments_go_through_files) {
+  const std::string contact =
+      "law = \"bonded\"\nkn = 1e5\nratio = 0.8\nfriction = 0.5\n"
+      "rolling = { ratio = 1, friction = 0.1, twisting_ratio = 1, twisting_friction = 0.1 }\n"
+      "bond = { normal_strength = 1e9, tangential_strength = 1e9, bending_stiffness = 1e-2, "
+      "bending_strength = 1e9, torsion_stiffness = 1e-2, torsion_strength = 1e9 }\n";
+  const Material made = Material::parse(
+      text_of("generator = \"compaction\"\ncount = 40\nradii = [1e-3, 2e-3]\nseed = 1\n"
+              "pressure = 1e5\n",
+              "", contact),
+      ".");
+  State state(made);
+  static_cast<void>(space_stress(state, sheared));
+  state.commit();
+  const TemporaryDirectory directory;
+  state.write_packing((directory / "bonded").string());
+  const std::string contacts = read_text((directory / "bonded_contacts.csv").string());
+  EXPECT_NE(contacts.find("moment_x,moment_y,moment_z,bonded,bond_gap"), std::string::npos);
+  const Material again = Material::parse(
+      text_of("particles = \"bonded_particles.csv\"\ncontacts = \"bonded_contacts.csv\"\n"
+              "cell = \"bonded_cell.csv\"\n",
+              "", contact),
+      (directory / "").string());
+  State read(again);
+  const auto expected = state.measure(GRAINLAW_CAUCHY_STRESS);
+  const auto found = read.measure(GRAINLAW_CAUCHY_STRESS);
+  for (std::size_t k = 0; k < 9; ++k) EXPECT_NEAR(found[k], expected[k], 1e-8 * 1e5) << k;
+  EXPECT_NEAR(read.measure(GRAINLAW_ELASTIC_ENERGY)[0], state.measure(GRAINLAW_ELASTIC_ENERGY)[0],
+              1e-8 * state.measure(GRAINLAW_ELASTIC_ENERGY)[0]);
+  // Saved bytes too.
+  State copy(made);
+  copy.load(state.save());
+  const Space next{1.0002, 2e-4, 0, 0, 1, 1e-4, -5e-5, 0, 0.9995};
+  EXPECT_TRUE(same_bits(space_stress(copy, next), space_stress(state, next)));
 }
 
 TEST(bad_spheres, mistakes_in_generators_are_told) {

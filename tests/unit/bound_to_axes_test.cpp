@@ -55,7 +55,7 @@ Packing mapped(const Symmetry& by, const Packing& before) {
     for (std::size_t i = 0; i < 2; ++i) {
       contact.tangential_force[i] = q[2 * i] * f[0] + q[2 * i + 1] * f[1];
     }
-    contact.moment *= handedness;
+    contact.moment[0] *= handedness;
   }
   // Anticlockwise from the new first corner.
   auto& frame = *after.frame;

@@ -276,14 +276,14 @@ TEST(frame, turns_forces_and_moments_with_the_order_of_a_pair) {
   Packing periodic = consolidated(40, 0.5, 1);
   double number = 0;
   for (InitialContact& c : periodic.contacts) {
-    c.moment = ++number;  // names the contact, and is of the sign of i before j
-    c.tangential_force = {c.moment, 0};
+    c.moment[0] = ++number;  // names the contact, and is of the sign of i before j
+    c.tangential_force = {c.moment[0], 0};
   }
   const Packing cut = cut_frame(periodic);
   int turned = 0;
   for (const InitialContact& c : cut.contacts) {
-    EXPECT_EQ(c.moment, c.tangential_force[0]);
-    turned += c.moment < 0 ? 1 : 0;
+    EXPECT_EQ(c.moment[0], c.tangential_force[0]);
+    turned += c.moment[0] < 0 ? 1 : 0;
   }
   EXPECT_GT(turned, 0);
 }

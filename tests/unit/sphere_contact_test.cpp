@@ -6,6 +6,7 @@
 #include "increment/turns.hpp"
 #include "tangent/stiffness.hpp"
 
+#include "few_spheres.hpp"
 #include "sphere_support.hpp"
 
 #include <algorithm>
@@ -14,37 +15,6 @@
 
 namespace grainlaw::core::sphere_test {
 namespace {
-
-// A few spheres whose contacts are listed once; coordinates component-major: places, Gibbs vectors.
-struct Spheres {
-  ContactLaw law;
-  std::vector<double> radius;
-  std::vector<double> z;
-  ContactList<3> list;
-
-  Spheres(const ContactLaw& contact_law, std::vector<double> radii, std::vector<double> places,
-          std::vector<NeighbourPair<3>> pairs = {{0, 1, {}}})
-      : law(contact_law), radius(std::move(radii)), z(std::move(places)) {
-    z.resize(6 * radius.size(), 0.0);
-    std::vector<int> node(radius.size());
-    std::iota(node.begin(), node.end(), 0);
-    const Tensor<3> cell{10, 0, 0, 0, 10, 0, 0, 0, 10};
-    build_contacts<3>(pairs, {}, radius, node, radius.size(), law, cell, {z, cell, {}}, list);
-  }
-
-  // Force and spin moment over radius on every sphere.
-  std::vector<ForceRecord<3>> forces() {
-    std::vector<ParticleRecord<3>> records(radius.size());
-    for (std::size_t p = 0; p < radius.size(); ++p) records[p].radius = radius[p];
-    load_records(z.data(), law.rotating(), records);
-    std::vector<ForceRecord<3>> sums(radius.size());
-    evaluate_contacts<3>(records, law, list, sums);
-    return sums;
-  }
-  ContactPoint<3> point(std::size_t c = 0) const {
-    return contact_point(list, c, z, radius.size(), law);
-  }
-};
 
 ContactLaw rough() {
   ContactLaw law;
