@@ -139,8 +139,11 @@ TEST(bad_report, of_unknown_size_is_refused) {
   State state(material());
   const auto committed = state.save();
   stress(state, compressed);
+  // Reports grow at their end only: up to the message they had it all from the first.
+  constexpr std::size_t first_report_size =
+      offsetof(grainlaw_report, message) + sizeof(grainlaw_report::message);
   for (const std::size_t size :
-       {std::size_t{0}, std::size_t{1}, std::size_t{8}, sizeof(grainlaw_report) - 8,
+       {std::size_t{0}, std::size_t{1}, std::size_t{8}, first_report_size - 1,
         sizeof(grainlaw_report) + 1, 2 * sizeof(grainlaw_report), SIZE_MAX}) {
     grainlaw_report report;
     std::memset(&report, 0x5a, sizeof report);
