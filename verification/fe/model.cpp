@@ -49,6 +49,10 @@ double PointField::largest_change(const Eigen::VectorXd& displacement) const {
   return largest;
 }
 
+void PointField::set_time_step(double step) {
+  check(grainlaw_points_set_time_step(set_.get(), step), "telling the points their time step");
+}
+
 grainlaw_status PointField::evaluate(const Eigen::VectorXd& displacement, unsigned want,
                                      int threads) {
   const auto measure = cost_.measure(Stage::points);

@@ -30,6 +30,8 @@ class PointField {
   // hourglass: Model::hourglass. Throws ComputationError when F = I cannot be evaluated.
   PointField(const Mesh& mesh, const Material& material, double hourglass);
 
+  // How long evaluations last from here on: with solver.viscous_increment the drag depends on it.
+  void set_time_step(double step);
   // F at every point for these displacements, one batch call. When a point fails, its status.
   grainlaw_status evaluate(const Eigen::VectorXd& displacement, unsigned want, int threads);
   // Smallest step ratio of the points that failed, and the first of them with its message.
