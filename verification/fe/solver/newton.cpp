@@ -53,10 +53,13 @@ class NewtonSolver final : public Solver {
         result = cross_jumps(next, result, step.residuals, crossed);
       }
       iterations += static_cast<int>(step.residuals.size() - first) - 1;
-      if (result.converged)
+      if (result.converged) {
         points_.commit();
-      else
+        const double left = dofs_.reduce(system_.residual).norm() / system_.scale;
+        step.balance = std::max(step.balance, left);
+      } else {
         points_.revert();
+      }
       return result;
     };
     const Parts parts =

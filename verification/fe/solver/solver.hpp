@@ -30,6 +30,7 @@ struct LoadStep {
   double time = 0;
   std::vector<double> residuals;
   std::vector<std::size_t> attempts;  // entry of the first residual of each
+  double balance = 0;  // of static solvers: largest residual that a part of the step ended at [-]
   // Of every monitor of the model: how far it has moved [m], and the force on its nodes [N/m].
   std::vector<double> displacements;
   std::vector<double> reactions;
