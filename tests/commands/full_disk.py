@@ -9,7 +9,7 @@ from command import DNS, LATTICE, PERIODIC, POINT, SOLVE, WAVE, Place
 
 # Pictures are not what is tested: a gnuplot that draws at once.
 GNUPLOT = "#!/bin/sh\ncat >/dev/null\necho picture\n"
-TABLES = ("s.csv", "s_newton.csv", "s_force.csv", "s_cost.csv", "s_point0.csv", "p.csv",
+TABLES = ("s.csv", "s_newton.csv", "s_balance.csv", "s_force.csv", "s_cost.csv", "s_point0.csv", "p.csv",
           "d.csv", "d_cost.csv", "w_cost.csv", "w_dns.csv", "w_fe2.csv")
 TIMES = ("s_cost.csv", "d_cost.csv", "w_cost.csv")
 

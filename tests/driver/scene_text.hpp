@@ -6,7 +6,7 @@
 namespace verification {
 
 // Thirty discs: tenths of a millisecond a point and step.
-inline std::string small_packing_of_seed(int seed) {
+inline std::string small_packing_of_seed(int seed, const std::string& more_of_solver = "") {
   return R"(
 [material]
 dimension = 2
@@ -15,8 +15,8 @@ packing = { generator = "compaction", count = 30, radii = [4e-3, 9e-3], seed = )
          std::to_string(seed) + R"(, pressure = 1e5, friction = 0.3 }
 contact = { law = "frictional", young = 6e8, ratio = 0.8, friction = 0.5 }
 boundary = { type = "periodic-cell" }
-solver = { start = "trial", contacts_lost = "stress_free" }
-)";
+solver = { start = "trial", contacts_lost = "stress_free")" +
+         more_of_solver + " }\n";
 }
 
 inline const std::string small_packing = small_packing_of_seed(3);

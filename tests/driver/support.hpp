@@ -37,8 +37,8 @@ inline Material packing_material() {
 }
 
 // Kinds of elements that a test is made for, one after the other, and its names.
-inline const auto element_kinds =
-    testing::Values(ElementKind::q4, ElementKind::q4r, ElementKind::q8, ElementKind::t3);
+inline const auto element_kinds = testing::Values(
+    ElementKind::q4, ElementKind::q4fbar, ElementKind::q4r, ElementKind::q8, ElementKind::t3);
 inline std::string kind_name(const testing::TestParamInfo<ElementKind>& kind) {
   return std::string(element_type(kind.param).name);
 }

@@ -19,44 +19,66 @@ double initial_modulus(const Material& material) {
 }  // namespace
 
 PointField::PointField(const Mesh& mesh, const Material& material, double hourglass) {
-  for (const auto& element : mesh.elements)
-    for (const QuadPoint& geometry : quad_points(mesh.kind, mesh.positions(element)))
-      points_.push_back({element, geometry, Tensor::Identity(), Tensor::Zero(), 0, {}});
+  for (const auto& element : mesh.elements) {
+    const std::vector<Eigen::Vector2d> places = mesh.positions(element);
+    NodeRows centre(0, 2);
+    if (mesh.kind == ElementKind::q4fbar)
+      centre = quad_points(ElementKind::q4r, places).front().gradient;
+    for (const QuadPoint& geometry : quad_points(mesh.kind, places))
+      points_.push_back({element, geometry, centre, Tensor::Identity(), Tensor::Zero(), 0, {}});
+  }
   if (mesh.kind == ElementKind::q4r && hourglass > 0)
     hourglass_ = Hourglass(mesh, hourglass, initial_modulus(material));
   displacement_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * mesh.nodes.size()));
   const std::size_t n = points_.size();
   set_ = make_points(material, n);
   reports_.resize(n, grainlaw_report_default());
+  mesh_deformation_.resize(n, Tensor::Identity());
+  mean_volume_.resize(n);
   deformation_.resize(n, Tensor::Identity());
   stress_.resize(n, Tensor::Zero());
   tangent_.resize(n, Tangent::Zero());
   volume_ = measure_scalar(state(0), GRAINLAW_REFERENCE_VOLUME);
 }
 
-Tensor PointField::gradient(const Point& point, const Eigen::VectorXd& displacement) {
+Tensor PointField::gradient(const Point& point, const NodeRows& slopes,
+                            const Eigen::VectorXd& displacement) {
   Tensor gradient = Tensor::Zero();
   for (std::size_t a = 0; a < point.nodes.size(); ++a)
-    gradient += displacement.segment<2>(2 * point.nodes[a]) *
-                point.geometry.gradient.row(static_cast<Eigen::Index>(a));
+    gradient +=
+        displacement.segment<2>(2 * point.nodes[a]) * slopes.row(static_cast<Eigen::Index>(a));
   return gradient;
+}
+
+void PointField::deform(const Eigen::VectorXd& displacement) {
+  displacement_ = displacement;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const Point& point = points_[p];
+    const NodeRows& slopes = point.geometry.gradient;
+    const Tensor here = gradient(point, slopes, displacement);
+    mesh_deformation_[p] = Tensor::Identity() + here;
+    if (point.centre.rows() > 0)
+      mean_volume_[p] = {here, gradient(point, point.centre, displacement), slopes, point.centre};
+    deformation_[p] = mean_volume_[p].seen_by_packing(mesh_deformation_[p]);
+  }
 }
 
 double PointField::largest_change(const Eigen::VectorXd& displacement) const {
   double largest = 0;
   for (const Point& point : points_)
-    largest = std::max(largest, gradient(point, displacement).norm());
+    largest = std::max(largest, gradient(point, point.geometry.gradient, displacement).norm());
   return largest;
+}
+
+void PointField::set_time_step(double step) {
+  check(grainlaw_points_set_time_step(set_.get(), step), "telling the points their time step");
 }
 
 grainlaw_status PointField::evaluate(const Eigen::VectorXd& displacement, unsigned want,
                                      int threads) {
   const auto measure = cost_.measure(Stage::points);
-  displacement_ = displacement;
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    deformation_[p] = Tensor::Identity() + gradient(points_[p], displacement);
-    reports_[p] = grainlaw_report_default();
-  }
+  deform(displacement);
+  for (grainlaw_report& report : reports_) report = grainlaw_report_default();
   const grainlaw_status status = grainlaw_points_evaluate(
       set_.get(), deformation_.front().data(), want, stress_.front().data(),
       want != 0 ? tangent_.front().data() : nullptr, nullptr, reports_.data(), threads, &summary_);
@@ -73,12 +95,13 @@ std::string PointField::message() const {
 Eigen::VectorXd PointField::internal_force() const {
   const auto measure = cost_.measure(Stage::assembly);
   Eigen::VectorXd force = Eigen::VectorXd::Zero(displacement_.size());
-  for (std::size_t p = 0; p < points_.size(); ++p)
-    for (std::size_t a = 0; a < points_[p].nodes.size(); ++a) {
-      const auto& [gradient, weight, shape] = points_[p].geometry;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const auto& [gradient, weight, shape] = points_[p].geometry;
+    const Tensor stress = mean_volume_[p].on_mesh(stress_[p]);
+    for (std::size_t a = 0; a < points_[p].nodes.size(); ++a)
       force.segment<2>(2 * points_[p].nodes[a]) +=
-          weight * stress_[p] * gradient.row(static_cast<Eigen::Index>(a)).transpose();
-    }
+          weight * stress * gradient.row(static_cast<Eigen::Index>(a)).transpose();
+  }
   hourglass_.add_force(displacement_, force);
   return force;
 }
@@ -87,13 +110,17 @@ void PointField::add_stiffness(Triplets& triplets) const {
   const auto measure = cost_.measure(Stage::assembly);
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const auto& [gradient, weight, shape] = points_[p].geometry;
+    const NodeRows& area = mean_volume_[p].by_node();
+    const Tensor follow =
+        MeanVolume::follow(tangent_[p], mesh_deformation_[p], mean_volume_[p].on_mesh(stress_[p]));
     // dN_a/dX_J A_iJkL dN_b/dX_L for every pair of nodes a, b and components i, k.
     for (int a = 0; a < gradient.rows(); ++a)
       for (int b = 0; b < gradient.rows(); ++b)
         for (int i = 0; i < 2; ++i)
           for (int k = 0; k < 2; ++k) {
-            const double value = gradient.row(a) * tangent_[p].block<2, 2>(2 * i, 2 * k) *
-                                 gradient.row(b).transpose();
+            double value = gradient.row(a) * tangent_[p].block<2, 2>(2 * i, 2 * k) *
+                           gradient.row(b).transpose();
+            if (area.rows() > 0) value += follow.row(i).dot(gradient.row(a)) * area(b, k);
             triplets.emplace_back(2 * points_[p].nodes[static_cast<std::size_t>(a)] + i,
                                   2 * points_[p].nodes[static_cast<std::size_t>(b)] + k,
                                   weight * value);
@@ -153,6 +180,7 @@ void PointField::restore(CheckpointReader& in) {
   in.read(tangent_);
   if (deformation_.size() != size() || stress_.size() != size() || tangent_.size() != size())
     in.fail();
+  deform(displacement_);
 }
 
 Effort PointField::effort() const {
@@ -175,7 +203,9 @@ Effort PointField::effort() const {
 Record PointField::record() {
   std::vector<Record> records;
   for (std::size_t p = 0; p < points_.size(); ++p) {
-    records.push_back(make_record(state(p), deformation_[p], stress_[p], reports_[p]));
+    // Of the mesh: the mean of its F is that of the body. The Cauchy stress is the packing's.
+    records.push_back(make_record(state(p), mesh_deformation_[p],
+                                  mean_volume_[p].on_mesh(stress_[p]), reports_[p]));
     records.back().external_work = points_[p].work;
   }
   Record record = mean(records);

@@ -8,6 +8,7 @@
 #include "fe/conditions/side_loads.hpp"
 #include "fe/cost.hpp"
 #include "fe/hourglass.hpp"
+#include "fe/mean_volume.hpp"
 #include "fe/mesh/mesh.hpp"
 
 #include <vector>
@@ -30,6 +31,8 @@ class PointField {
   // hourglass: Model::hourglass. Throws ComputationError when F = I cannot be evaluated.
   PointField(const Mesh& mesh, const Material& material, double hourglass);
 
+  // How long evaluations last from here on: with solver.viscous_increment the drag depends on it.
+  void set_time_step(double step);
   // F at every point for these displacements, one batch call. When a point fails, its status.
   grainlaw_status evaluate(const Eigen::VectorXd& displacement, unsigned want, int threads);
   // Smallest step ratio of the points that failed, and the first of them with its message.
@@ -66,7 +69,7 @@ class PointField {
   [[nodiscard]] const QuadPoint& geometry(std::size_t point) const {
     return points_[point].geometry;
   }
-  // Of the last evaluation.
+  // Of the last evaluation, as the packing has them.
   [[nodiscard]] const Tensor& deformation(std::size_t point) const { return deformation_[point]; }
   [[nodiscard]] const Tensor& stress(std::size_t point) const { return stress_[point]; }
   [[nodiscard]] const grainlaw_report& report(std::size_t point) const { return reports_[point]; }
@@ -78,13 +81,17 @@ class PointField {
   struct Point {
     std::vector<int> nodes;
     QuadPoint geometry;
+    NodeRows centre;  // q4fbar: dN_a/dX in the centre of the element; others: no rows
     Tensor committed_deformation = Tensor::Identity();
     Tensor committed_stress = Tensor::Zero();
     double work = 0;  // external, since F = I [J]
     Effort effort;
   };
 
-  [[nodiscard]] static Tensor gradient(const Point& point, const Eigen::VectorXd& displacement);
+  [[nodiscard]] static Tensor gradient(const Point& point, const NodeRows& slopes,
+                                       const Eigen::VectorXd& displacement);
+  // F of the mesh and of the packing at every point.
+  void deform(const Eigen::VectorXd& displacement);
 
   std::vector<Point> points_;
   Hourglass hourglass_;
@@ -92,7 +99,9 @@ class PointField {
   Points set_;
   grainlaw_summary summary_ = grainlaw_summary_default();  // of the last evaluation
   std::vector<grainlaw_report> reports_;
-  std::vector<Tensor> deformation_;
+  std::vector<Tensor> mesh_deformation_;
+  std::vector<MeanVolume> mean_volume_;
+  std::vector<Tensor> deformation_;  // of the packings, likewise their stress and tangent
   std::vector<Tensor> stress_;
   std::vector<Tangent> tangent_;
   mutable Cost cost_;

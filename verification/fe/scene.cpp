@@ -19,6 +19,7 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
   const double duration = scene.solver.duration();
   scene.threads = table.integer_or("threads", 0, 0);
   scene.steps = table.integer("steps", 1);
+  scene.solver.steps = scene.steps;
   scene.abscissa = table.choice_or("abscissa", axial_abscissa, {axial_abscissa, shear_abscissa});
 
   Model& model = scene.model;

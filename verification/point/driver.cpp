@@ -255,6 +255,7 @@ void PointDriverOf<D>::run(const Segment& segment, const PointObserver& observe,
     const auto attempt = [&](double next, bool loose) {
       fraction = (step - 1 + next) / segment.steps;
       const Goal goal = goal_at(segment, start, fraction);
+      check(grainlaw_state_set_time_step(state_.get(), next - done), "telling the time step");
       Iterate last = iterate(goal, loose ? options_.loose_tolerance : options_.tolerance);
       if (last.stalled && options_.loose_tolerance == 0 && next - done <= crossing_part) {
         last = cross_jumps(goal, last);

@@ -71,11 +71,12 @@ std::vector<LocalPoint> square_points(int per_direction) {
 
 const ElementType& element_type(ElementKind kind) {
   static const std::vector<Eigen::Vector2d> corners(square_nodes.begin(), square_nodes.begin() + 4);
-  static const std::array<ElementType, 4> types{{
+  static const std::array<ElementType, 5> types{{
       {"q4", 4, 4, bilinear, corners, square_points(2)},
       {"q4r", 4, 4, bilinear, corners, square_points(1)},
       {"q8", 8, 4, serendipity, square_nodes, square_points(3)},
       {"t3", 3, 3, linear, {{0, 0}, {1, 0}, {0, 1}}, {{{1.0 / 3, 1.0 / 3}, 0.5}}},
+      {"q4fbar", 4, 4, bilinear, corners, square_points(2)},
   }};
   return types[static_cast<std::size_t>(kind)];
 }

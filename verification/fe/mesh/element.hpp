@@ -10,8 +10,9 @@ namespace verification {
 
 // q4: bilinear quadrilateral, 2 x 2 Gauss points. q4r: the same with one point, which leaves its two
 // hourglass modes without stiffness (see fe/hourglass.hpp). q8: serendipity quadrilateral, 3 x 3
-// points. t3: linear triangle, one point.
-enum class ElementKind { q4, q4r, q8, t3 };
+// points. t3: linear triangle, one point. q4fbar: q4 whose points share the area ratio of the centre
+// (see fe/mean_volume.hpp).
+enum class ElementKind { q4, q4r, q8, t3, q4fbar };
 
 // Coordinates, gradients: one row per node, at most eight.
 using NodeRows = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::ColMajor, 8, 2>;

@@ -11,8 +11,8 @@ namespace verification {
 namespace {
 
 ElementKind read_element_kind(SceneTable& table) {
-  const std::string name = table.choice_or("element", "q4", {"q4", "q4r", "q8", "t3"});
-  for (const auto kind : {ElementKind::q4r, ElementKind::q8, ElementKind::t3})
+  const std::string name = table.choice_or("element", "q4", {"q4", "q4fbar", "q4r", "q8", "t3"});
+  for (const auto kind : {ElementKind::q4fbar, ElementKind::q4r, ElementKind::q8, ElementKind::t3})
     if (name == element_type(kind).name) return kind;
   return ElementKind::q4;
 }
@@ -28,14 +28,15 @@ Mesh read_rectangle(SceneTable& table) {
                         read_element_kind(table));
 }
 
-// The file says the kind of its elements; the scene may ask for one point in its q4.
+// The file says the kind of its elements; of its q4 the scene may ask for one point or one area ratio.
 Mesh read_file(SceneTable& table) {
   for (const char* key : {"size", "divisions"})
     if (table.has(key)) table.fail(key, fmt::format("both file and {}", key), "one of them");
   Mesh mesh = read_gmsh_mesh(table.file().parent_path() / table.text("file"));
   if (!table.has("element")) return mesh;
   const ElementKind wanted = read_element_kind(table);
-  if (wanted == ElementKind::q4r && mesh.kind == ElementKind::q4) mesh.kind = wanted;
+  const bool quadrilateral = wanted == ElementKind::q4r || wanted == ElementKind::q4fbar;
+  if (quadrilateral && mesh.kind == ElementKind::q4) mesh.kind = wanted;
   if (wanted != mesh.kind)
     table.fail("element", element_type(wanted).name,
                fmt::format("{}, as the file has them", element_type(mesh.kind).name));

@@ -3,6 +3,7 @@
 #include "app/history.hpp"
 #include "app/snapshot.hpp"
 #include "fe/conditions/monitors.hpp"
+#include "fe/output/balance.hpp"
 #include "fe/output/energy.hpp"
 #include "fe/output/mesh_picture.hpp"
 
@@ -49,7 +50,10 @@ RunOutput::RunOutput(const FiniteElementScene& scene, RunTables tables, const So
       costs_(open("_cost.csv", cost_columns())),
       cost_(solver),
       series_(scene.model, tables_.stem(), scene.output.packings) {
-  if (scene.solver.kind == SolverKind::dynamics) energies_ = &open("_energy.csv", energy_columns());
+  if (scene.solver.kind == SolverKind::dynamics)
+    energies_ = &open("_energy.csv", energy_columns());
+  else
+    balance_ = &open("_balance.csv", balance_columns());
   if (!scene.probes.empty()) probes_ = &open("_probes.csv", probe_columns(scene.probes));
   for (const std::size_t point : scene.output.points)
     points_.push_back(&open(fmt::format("_point{}.csv", point), point_columns(), "_pointN.csv"));
@@ -81,6 +85,7 @@ void RunOutput::write(const LoadStep& step, bool ends_before) {
   }
   forces_.row(forces);
   if (energies_ != nullptr) energies_->row(energy_values(step));
+  if (balance_ != nullptr) balance_->row(balance_values(step));
   if (probes_ != nullptr) probes_->row(probe_values(scene_.probes, step, solver_.displacement()));
   const OutputOptions& output = scene_.output;
   for (std::size_t k = 0; k < points_.size(); ++k) add_point(output.points[k], step, *points_[k]);
@@ -150,6 +155,7 @@ void RunOutput::finish() {
 
 std::string RunOutput::summary(const Effort& unfinished) const {
   return history_summary(read_csv(history_.path()), unfinished) + "\n" +
+         (balance_ == nullptr ? "" : balance_summary(read_csv(balance_->path()))) +
          cost_summary(read_csv(costs_.path()), solver_.points().size());
 }
 

@@ -49,6 +49,7 @@ class RunOutput {
   CsvWriter& costs_;
   CostReport cost_;
   CsvWriter* energies_ = nullptr;  // of dynamic runs
+  CsvWriter* balance_ = nullptr;   // of the others
   CsvWriter* probes_ = nullptr;    // of scenes with probes
   std::vector<CsvWriter*> points_;
   std::vector<CsvWriter*> every_point_;

@@ -178,6 +178,7 @@ class DynamicsSolver final : public Solver {
     const Kick now = kick(length);
     const Eigen::VectorXd change = length * now.velocity;
     const Eigen::VectorXd displacement = motion_.displacement + change;
+    points_.set_time_step(length);
     if (points_.evaluate(displacement, want, threads_) != GRAINLAW_OK) return false;
     // The work of the present forces: over half of the way here and half of the way on.
     const Eigen::VectorXd way = 0.5 * (motion_.last_step * motion_.velocity + change);

@@ -47,15 +47,19 @@ class NewtonSolver final : public Solver {
       step.attempts.push_back(first);
       const double tolerance = loose ? options_.loose_tolerance : options_.tolerance;
       const bool small = next - time_ <= crossing_part * (to - from);
+      points_.set_time_step(told_time(next - time_));
       Attempt result = equilibrate(next, tolerance, step.residuals);
       if (result.stalled && small && crosses_jumps()) {
         result = cross_jumps(next, result, step.residuals, crossed);
       }
       iterations += static_cast<int>(step.residuals.size() - first) - 1;
-      if (result.converged)
+      if (result.converged) {
         points_.commit();
-      else
+        const double left = dofs_.reduce(system_.residual).norm() / system_.scale;
+        step.balance = std::max(step.balance, left);
+      } else {
         points_.revert();
+      }
       return result;
     };
     const Parts parts =

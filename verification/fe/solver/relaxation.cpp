@@ -46,8 +46,12 @@ class RelaxationSolver final : public Solver {
     int iterations = 0;
     const auto attempt = [&](double next, bool) {
       step.attempts.push_back(step.residuals.size());
+      points_.set_time_step(told_time(next - rest_.time));
       const Attempt result = relax(next, step.residuals, iterations);
-      if (!result.converged) points_.revert();
+      if (result.converged)
+        step.balance = std::max(step.balance, step.residuals.back());
+      else
+        points_.revert();
       return result;
     };
     const Parts parts = solve_in_parts(rest_.time, to, fmt::format("load step {}", number),

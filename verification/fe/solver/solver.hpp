@@ -30,6 +30,7 @@ struct LoadStep {
   double time = 0;
   std::vector<double> residuals;
   std::vector<std::size_t> attempts;  // entry of the first residual of each
+  double balance = 0;  // of static solvers: largest residual that a part of the step ended at [-]
   // Of every monitor of the model: how far it has moved [m], and the force on its nodes [N/m].
   std::vector<double> displacements;
   std::vector<double> reactions;
@@ -48,6 +49,10 @@ class Solver {
   // as many parts as it takes. Throws ComputationError, saying where, when that is not possible.
   virtual LoadStep advance(double to, int number) = 0;
 
+  // How long a load step is, the unit of the time steps that static solvers tell their points: its
+  // parts are the shorter for them. Dynamics tells seconds.
+  void set_load_step(double length) { load_step_ = length; }
+
   // Of the load steps that static solvers make in parts.
   void observe_cuts(CutObserver observer) { observe_cut_ = std::move(observer); }
 
@@ -60,7 +65,13 @@ class Solver {
   [[nodiscard]] virtual const Eigen::VectorXd& displacement() const = 0;  // committed [m]
 
  protected:
+  // Time of a part as its points are told it; one load step where time stands still.
+  [[nodiscard]] double told_time(double part) const { return part > 0 ? part / load_step_ : 1; }
+
   CutObserver observe_cut_;
+
+ private:
+  double load_step_ = 1;
 };
 
 using LoadObserver = std::function<void(const LoadStep&, const Solver&)>;

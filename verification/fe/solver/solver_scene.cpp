@@ -75,10 +75,13 @@ SolverOptions read_solver(SceneTable& scene, const MaterialSource& material) {
 
 std::unique_ptr<Solver> make_solver(const SolverOptions& options, const Model& model,
                                     const Material& material, int threads) {
-  if (options.kind == SolverKind::newton)
-    return make_newton_solver(model, material, options.newton, threads);
-  if (options.kind == SolverKind::relaxation)
-    return make_relaxation_solver(model, material, options.relaxation, threads);
+  if (options.kind != SolverKind::dynamics) {
+    auto solver = options.kind == SolverKind::newton
+                      ? make_newton_solver(model, material, options.newton, threads)
+                      : make_relaxation_solver(model, material, options.relaxation, threads);
+    solver->set_load_step(options.duration() / options.steps);
+    return solver;
+  }
   DynamicsOptions dynamics = options.dynamics;
   if (options.particle_density > 0) {
     const double void_ratio = measure_scalar(make_state(material).get(), GRAINLAW_VOID_RATIO);

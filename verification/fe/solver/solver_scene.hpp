@@ -16,6 +16,7 @@ struct SolverOptions {
   NewtonOptions newton;
   RelaxationOptions relaxation;
   DynamicsOptions dynamics;
+  int steps = 1;                // load steps of the run
   double particle_density = 0;  // of the grains; 0: the dynamic options give the density [kg/m3]
 
   // Of the run: 1, or seconds in dynamics.

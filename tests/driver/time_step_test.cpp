@@ -1,0 +1,82 @@
+// What solvers tell their points of time: a part of a load step is the shorter for it, so that its drag
+// does not depend on how the step is cut.
+#include "fe/solver/newton.hpp"
+#include "fe/solver/relaxation.hpp"
+#include "point/driver.hpp"
+#include "support.hpp"
+
+#include <gtest/gtest.h>
+
+namespace verification {
+namespace {
+
+// The 400 discs, of which an increment that lasts `increment` has a viscous time of 100.
+Material with_drag(double increment) {
+  MaterialSource source;
+  source.file = std::string(GRAINLAW_TEST_DATA) + "/rve400.toml";
+  source.base = GRAINLAW_TEST_DATA;
+  toml::table solver{{"viscous_time", 100}, {"viscous_increment", increment}};
+  source.changes.insert("solver", std::move(solver));
+  return make_material(source);
+}
+
+Model specimen(double strain) {
+  Model model;
+  model.mesh = rectangle_mesh({0.05, 0.1}, {1, 1}, ElementKind::q4r);
+  const auto& sets = model.mesh.node_sets;
+  model.displacements.push_back({sets.at("left"), 0, Program{{{0, 0}}, {}}, "left_x"});
+  model.displacements.push_back({sets.at("bottom"), 1, Program{{{0, 0}}, {}}, "bottom_y"});
+  model.displacements.push_back({sets.at("top"), 1, Program::linear(0, -0.1 * strain), "top_y"});
+  model.loads.pressures.push_back({model.mesh.side_sets["right"], Program{{{0, 1e5}}, {}}, true});
+  return model;
+}
+
+using MakeSolver = std::unique_ptr<Solver> (*)(const Model&, const Material&);
+
+std::unique_ptr<Solver> newton(const Model& model, const Material& material) {
+  return make_newton_solver(model, material, {.tolerance = 1e-8}, 1);
+}
+std::unique_ptr<Solver> relaxation(const Model& model, const Material& material) {
+  return make_relaxation_solver(model, material, {.tolerance = 1e-8}, 1);
+}
+
+// The force on top at the end, reached in quarters.
+double force_in_quarters(MakeSolver make, double load_step, double increment) {
+  const Model model = specimen(2e-3);
+  const Material material = with_drag(increment);
+  const auto solver = make(model, material);
+  solver->set_load_step(load_step);
+  LoadStep last;
+  for (int quarter = 1; quarter <= 4; ++quarter) last = solver->advance(0.25 * quarter, quarter);
+  EXPECT_EQ(last.record.effort.cuts, 0);
+  return last.reactions.back();
+}
+
+TEST(time_step, a_part_of_a_load_step_lasts_its_share_of_it) {
+  for (const MakeSolver make : {newton, relaxation}) {
+    const double quarters = force_in_quarters(make, 1, 1);
+    EXPECT_EQ(force_in_quarters(make, 0.25, 4), quarters);
+    EXPECT_GT(std::abs(force_in_quarters(make, 0.25, 1) - quarters), 1e-5 * std::abs(quarters));
+  }
+}
+
+// Without `viscous_increment` increments last one and the same time.
+TEST(time_step, is_nothing_to_points_that_do_not_ask_for_it) {
+  EXPECT_EQ(force_in_quarters(newton, 1, 0), force_in_quarters(newton, 0.25, 0));
+}
+
+TEST(time_step, a_path_that_is_cut_has_the_drag_of_its_time) {
+  const auto axial = [](double increment, int steps, int max_iterations, int cuts) {
+    PointDriver driver(with_drag(increment), {.tolerance = 1e-7, .max_iterations = max_iterations});
+    int found = 0;
+    driver.run(drained_segment(-2e-3, -1e5, steps),
+               [&](const PointStep& step) { found += step.record.effort.cuts; });
+    EXPECT_GE(found, cuts);
+    return driver.record().cauchy(1, 1);
+  };
+  const double whole = axial(1, 2, 20, 0);
+  EXPECT_NEAR(axial(1, 2, 2, 1), whole, 2e-3 * std::abs(whole));
+}
+
+}  // namespace
+}  // namespace verification
