@@ -23,6 +23,7 @@ struct Loop {
   std::span<const ContactSides<2>::Rows> groups;
   ContactSides<2>::Nodes* nodes;
   const ContactSides<2>::Bounds* bounds;
+  const ContactSides<2>::Drag* drags = nullptr;
   const ContactSides<2>::Start* starts;
   ContactSides<2>::Side* sides;
   const double* records;         // of the place, or the moves
@@ -106,7 +107,7 @@ GRAINLAW_INLINE Looked look_loop(const Loop& loop) {
   return {most(beyond), force.total(), touching.total()};
 }
 
-template <std::size_t width, bool rotating>
+template <std::size_t width, bool rotating, bool dragged>
 GRAINLAW_INLINE ContactSides<2>::Measured step_loop(const Loop& loop) {
   using V = Lanes<width>;
   const V zero{};
@@ -149,6 +150,15 @@ GRAINLAW_INLINE ContactSides<2>::Measured step_loop(const Loop& loop) {
         x += fn * ax - ft * ay;
         y += fn * ay + ft * ax;
         if constexpr (rotating) roll -= stretch * ft;
+      }
+      if constexpr (dragged) {
+        const ContactSides<2>::Drag& drag = loop.drags[g];
+        const V stiffness = load<width>(drag.stiffness + k);
+        x += stiffness * (load<width>(drag.x + k) - own.x);
+        y += stiffness * (load<width>(drag.y + k) - own.y);
+        if constexpr (rotating) {
+          roll += load<width>(drag.stiffness_roll + k) * (load<width>(drag.roll + k) - own.roll);
+        }
       }
       V work{}, next_work{}, twice_energy{};
       const Columns<width> last = columns_at<width>(last_moves);

@@ -16,8 +16,10 @@ GRAINLAW_LOOP(Looked, look_locked_near, look_loop, false, false)
 GRAINLAW_LOOP(Looked, look_locked_far, look_loop, false, true)
 GRAINLAW_LOOP(Looked, look_near, look_loop, true, false)
 GRAINLAW_LOOP(Looked, look_far, look_loop, true, true)
-GRAINLAW_LOOP(ContactSides<2>::Measured, step_locked, step_loop, false)
-GRAINLAW_LOOP(ContactSides<2>::Measured, step_rotating, step_loop, true)
+GRAINLAW_LOOP(ContactSides<2>::Measured, step_locked, step_loop, false, false)
+GRAINLAW_LOOP(ContactSides<2>::Measured, step_locked_dragged, step_loop, false, true)
+GRAINLAW_LOOP(ContactSides<2>::Measured, step_rotating, step_loop, true, false)
+GRAINLAW_LOOP(ContactSides<2>::Measured, step_rotating_dragged, step_loop, true, true)
 
 std::size_t at(std::int32_t particle) { return static_cast<std::size_t>(particle); }
 
@@ -161,14 +163,36 @@ ContactTotals ContactSides<2>::look(std::span<const ParticleRecord<2>> particles
     list.turns_far = seen.beyond > 0;
   }
   if (list.turns_far) seen = law.rotating() ? look_far(loop) : look_locked_far(loop);
+  drags_.clear();
   // Every contact was seen twice.
   return {0.5 * seen.force, 0.5 * seen.touching, static_cast<int>(0.5 * seen.touching)};
+}
+
+void ContactSides<2>::hold(std::span<const ParticleRecord<2>> particles, const NodeDrag<2>& drag,
+                           double factor) {
+  resize_with_room(drags_, nodes_.size());
+  std::fill(drags_.begin(), drags_.end(), Drag{});
+  for (std::size_t p = 0; p < particles_; ++p) {
+    const std::size_t k = slot_[p] % lanes;
+    Drag& of = drags_[slot_[p] / lanes];
+    of.stiffness[k] = drag.stiffness[p].x;
+    of.stiffness_roll[k] = drag.stiffness[p].roll;
+    of.x[k] = drag.expected[p].x - particles[p].x;
+    of.y[k] = drag.expected[p].y - particles[p].y;
+    of.roll[k] = drag.expected[p].roll - particles[p].roll;
+    Nodes& nodes = nodes_[slot_[p] / lanes];
+    nodes.mass[k] += factor * of.stiffness[k];
+    nodes.gain[k] = 1 / nodes.mass[k];
+    nodes.mass_roll[k] += factor * of.stiffness_roll[k];
+    nodes.gain_roll[k] = 1 / nodes.mass_roll[k];
+  }
 }
 
 ContactSides<2>::Measured ContactSides<2>::step(const ContactLaw& law, double keep, double gain) {
   const Loop loop{.groups = rows_,
                   .nodes = nodes_.data(),
                   .bounds = nullptr,
+                  .drags = drags_.data(),
                   .starts = nullptr,
                   .sides = sides_.data(),
                   .records = &moves_[0].x,
@@ -178,7 +202,11 @@ ContactSides<2>::Measured ContactSides<2>::step(const ContactLaw& law, double ke
                   .ratio = law.ratio,
                   .keep = keep,
                   .gain = gain};
-  const Measured measured = law.rotating() ? step_rotating(loop) : step_locked(loop);
+  const auto stepped = [&] {
+    if (drags_.empty()) return law.rotating() ? step_rotating(loop) : step_locked(loop);
+    return law.rotating() ? step_rotating_dragged(loop) : step_locked_dragged(loop);
+  };
+  const Measured measured = stepped();
   moves_.swap(last_moves_);
   return measured;
 }

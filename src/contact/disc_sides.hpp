@@ -38,6 +38,9 @@ class ContactSides<2> {
   ContactTotals look(std::span<const ParticleRecord<2>> particles, const ContactLaw& law,
                      double factor, ContactList<2>& list);
 
+  // After a look, from the same place: the drag is part of the forces and, times `factor`, of the masses.
+  void hold(std::span<const ParticleRecord<2>> particles, const NodeDrag<2>& drag, double factor);
+
   struct Measured {
     double largest;     // component of the residual r [N]
     double power;       // sum v r
@@ -63,6 +66,9 @@ class ContactSides<2> {
   struct alignas(64) Bounds {
     Doubles least, least_roll, inverse_radius;  // masses are no smaller; 1 / R
   };
+  struct alignas(64) Drag {
+    Doubles stiffness, stiffness_roll, x, y, roll;  // as far off is what is expected
+  };
   // As in ContactList<2>, with the node as j.
   struct alignas(64) Start {
     Doubles offset_x, offset_y, inverse_reach, x, y, roll, force;
@@ -86,6 +92,7 @@ class ContactSides<2> {
   std::vector<Rows> rows_;
   simd::Column<Nodes> nodes_;
   simd::Column<Bounds> bounds_;
+  simd::Column<Drag> drags_;  // empty: none
   simd::Column<Start> starts_;
   simd::Column<Side> sides_;
   // Of the nodes, and of those that fill up the last group. The velocity is what the moves grew by in

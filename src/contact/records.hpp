@@ -1,6 +1,8 @@
 // How the loops over contacts see particles and nodes: whole vector registers each.
 #pragma once
 
+#include <span>
+
 namespace grainlaw::core {
 
 template <int D>
@@ -83,6 +85,13 @@ struct LeastMass<3> {
   double x = 0;               // of every direction [N/m]
   double spin = 0;            // [N/m]
   double inverse_radius = 0;  // [1/m]
+};
+
+// A drag on nodes: stiffness x (expected - place) each; empty, there is none.
+template <int D>
+struct NodeDrag {
+  std::span<const ParticleRecord<D>> expected;
+  std::span<const MassRecord<D>> stiffness;  // 0 in what fills the record
 };
 
 // What acts on i against what acts on j.

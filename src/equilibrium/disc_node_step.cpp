@@ -12,8 +12,14 @@ GRAINLAW_CLONES OfDiscs step_all(const Nodes& nodes, std::span<const ForceRecord
 }
 
 GRAINLAW_CLONES OfDiscs gather_and_step(const Nodes& nodes, const ContactList<2>& contacts,
-                                        double keep, double gain) {
+                                        const NodeDrag<2>& drag, double keep, double gain) {
   NodeStep<4> step(nodes, keep, gain);
+  if (!drag.expected.empty()) {
+    contacts.sums.for_each(contacts.forces, opposite<2>, [&](std::size_t q, const Lanes<4>& r) {
+      step(q, r + drag_on(q, nodes.z, drag));
+    });
+    return step.measured<OfDiscs>();
+  }
   contacts.sums.for_each(contacts.forces, opposite<2>,
                          [&](std::size_t q, const Lanes<4>& r) { step(q, r); });
   return step.measured<OfDiscs>();

@@ -53,17 +53,24 @@ class NodeStep {
   Record largest_{}, power_{}, next_power_{}, inertia_{};
 };
 
+// On node q at z.
+template <int D, std::size_t width = Dimension<D>::lanes>
+GRAINLAW_INLINE Lanes<width> drag_on(std::size_t q, const double* z, const NodeDrag<D>& drag) {
+  return load<width>(&drag.stiffness[q].x) *
+         (load<width>(&drag.expected[q].x) - load<width>(z + width * q));
+}
+
 // One for each dimension, by overloads: a template has no clones.
 ContactSides<2>::Measured step_all(const Nodes& nodes, std::span<const ForceRecord<2>> residual,
                                    double keep, double gain);
-// The same with the sums of the contacts' forces, which nothing else is asked of.
+// The same with the sums of the contacts' forces and the drag, which nothing else is asked of.
 ContactSides<2>::Measured gather_and_step(const Nodes& nodes, const ContactList<2>& contacts,
-                                          double keep, double gain);
+                                          const NodeDrag<2>& drag, double keep, double gain);
 
 // Of spheres, whose records have a number that follows from their rotation.
 ContactSides<3>::Measured step_all(const Nodes& nodes, std::span<const ForceRecord<3>> residual,
                                    double keep, double gain);
 ContactSides<3>::Measured gather_and_step(const Nodes& nodes, const ContactList<3>& contacts,
-                                          double keep, double gain);
+                                          const NodeDrag<3>& drag, double keep, double gain);
 
 }  // namespace grainlaw::core::node_step

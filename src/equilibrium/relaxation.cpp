@@ -34,9 +34,8 @@ Relaxation<D>::Relaxation(Increment<D>& increment, History history, RelaxationMe
       memory_(memory) {
   const auto& law = *problem_.law;
   const bool by_places = history == History::committed && problem_.space->identity;
-  const bool plain = by_places && law.plain() && !motion_.drag().acts();
-  by_sides_ = ContactSides<D>::available && plain && law.tangential();
-  at_once_ = plain && !by_sides_;
+  by_sides_ = ContactSides<D>::available && by_places && law.plain() && law.tangential();
+  at_once_ = by_places && law.plain() && !by_sides_;
   // Without friction nothing flutters, and the damping is that of the softest mode.
   rough_ = by_places && law.tangential();
   extrapolates_ = may_extrapolate && rough_;
@@ -190,7 +189,10 @@ auto Relaxation<D>::step_nodes(double keep, double gain) -> Measured {
   double* z = &motion_.records()[0].x;
   const Nodes nodes{memory_.velocity.data(), &increment_.masses().records()[0].x,
                     memory_.gain.data(), space.identity ? z : nullptr};
-  if (at_once_) return gather_and_step(nodes, increment_.contacts(), keep, gain);
+  if (at_once_) {
+    const auto drag = motion_.drag().of_nodes();
+    return gather_and_step(nodes, increment_.contacts(), drag, keep, gain);
+  }
   const auto before = step_all(nodes, increment_.forces(), keep, gain);
   if (space.identity) return before;
   if (space.finds_deformation) step_deformation();

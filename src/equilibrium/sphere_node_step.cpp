@@ -25,11 +25,12 @@ GRAINLAW_CLONES OfSpheres step_all(const Nodes& nodes, std::span<const ForceReco
 }
 
 GRAINLAW_CLONES OfSpheres gather_and_step(const Nodes& nodes, const ContactList<3>& contacts,
-                                          double keep, double gain) {
+                                          const NodeDrag<3>& drag, double keep, double gain) {
   NodeStep<8> step(nodes, keep, gain);
+  const bool dragged = !drag.expected.empty();
   contacts.sums.for_each(contacts.forces, opposite<3>, [&](std::size_t q, const Lanes<8>& r) {
-    step(q, r);
-    if (nodes.z != nullptr) renew_half(nodes.z + 8 * q);
+    step(q, dragged ? r + drag_on(q, nodes.z, drag) : r);
+    renew_half(nodes.z + 8 * q);
   });
   return step.measured<OfSpheres>();
 }

@@ -51,6 +51,11 @@ class Drag {
   void subtract_from(std::span<ForceRecord<D>> forces, std::span<const Place> particles) const;
   void add_to(std::span<MassRecord<D>> masses, double factor) const;
 
+  // The same for loops over nodes that are particles; empty without drag.
+  [[nodiscard]] NodeDrag<D> of_nodes() const {
+    return acts() ? NodeDrag<D>{expected_, stiffness_} : NodeDrag<D>{};
+  }
+
   // The largest drag on a node [N].
   [[nodiscard]] double largest(std::span<const Place> particles) const;
   // What it takes from where the node would be without a fluctuation, `affine`, on [J].
