@@ -77,10 +77,10 @@ GRAINLAW_CLONES void subtract_blocks_together(const BlockMatrix<8>& a, const dou
 }  // namespace
 
 template <std::size_t width>
-void BlockMatrix<width>::reset(std::size_t node_count, int component_count,
+void BlockMatrix<width>::reset(std::size_t node_count, BlockSize<width> size,
                                std::span<const Edge> graph) {
   nodes = node_count;
-  components = component_count;
+  components = size;
   resize_with_room(edges, graph.size());
   std::copy(graph.begin(), graph.end(), edges.begin());
   resize_with_room(blocks, (nodes + 2 * edges.size()) * static_cast<std::size_t>(components));

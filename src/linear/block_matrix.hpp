@@ -19,7 +19,7 @@ template <std::size_t width>
 struct BlockMatrix {
   using Column = BlockColumn<width>;
 
-  int components = 3;
+  BlockSize<width> components{};
   std::size_t nodes = 0;
   std::vector<Edge> edges;  // unique, ordered
   std::vector<Column>
@@ -35,7 +35,7 @@ struct BlockMatrix {
     return blocks.data() + index * static_cast<std::size_t>(components);
   }
   // Set the graph and zero all values.
-  void reset(std::size_t node_count, int component_count, std::span<const Edge> graph);
+  void reset(std::size_t node_count, BlockSize<width> size, std::span<const Edge> graph);
   void set_zero();
   void subtract_product(std::span<const Column> x, std::span<Column> r) const;  // r -= A x
   // r = b - A x, of one vector, and of several together.

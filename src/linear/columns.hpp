@@ -4,8 +4,15 @@
 #include "base/simd.hpp"
 
 #include <cstddef>
+#include <type_traits>
 
 namespace grainlaw::core {
+
+// Unknowns of a node, by the width of columns: there is no code for others.
+enum SizeOfFour : int { blocks_of_2 = 2, blocks_of_3 = 3 };
+enum SizeOfEight : int { blocks_of_6 = 6 };
+template <std::size_t width>
+using BlockSize = std::conditional_t<width == 4, SizeOfFour, SizeOfEight>;
 
 // Rows of a block of b x b, filled up to whole registers.
 constexpr std::size_t rows_of(std::size_t b) { return b <= 4 ? 4 : 8; }

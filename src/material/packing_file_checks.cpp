@@ -1,6 +1,7 @@
 #include "material/packing_file_checks.hpp"
 
 #include "base/error.hpp"
+#include "material/contact_lines.hpp"
 #include "packing/geometry.hpp"
 #include "packing/lattice.hpp"
 #include "packing/neighbours.hpp"
@@ -36,13 +37,6 @@ double height_of(const Tensor<3>& h) {
 }
 
 }  // namespace
-
-void turn_round(InitialContact& contact) {
-  std::swap(contact.i, contact.j);
-  for (int& component : contact.shift) component = -component;
-  for (double& component : contact.tangential_force) component = -component;
-  for (double& component : contact.moment) component = -component;
-}
 
 template <int D>
 void check_sizes(const std::string& path, const ParticleIds& ids, const Packing& packing) {

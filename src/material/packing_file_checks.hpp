@@ -4,20 +4,10 @@
 #include "frame/frame_rows.hpp"
 #include "packing/packing.hpp"
 
-#include <array>
 #include <string>
 #include <vector>
 
 namespace grainlaw::core {
-
-// What contacts are ordered by.
-using ContactKey = std::array<int, 5>;
-inline ContactKey key_of(const InitialContact& c) {
-  return {c.i, c.j, c.shift[0], c.shift[1], c.shift[2]};
-}
-
-// Named from the side of the other particle: branch and forces turn round.
-void turn_round(InitialContact& contact);
 
 // Particles whose centres lie in one another are no packing, but lengths in different units; unless
 // they are named as contacts, whose forces tell, or those of a boundary that was deformed, of which

@@ -5,6 +5,7 @@
 #include "frame/frame_rows.hpp"
 #include "io/csv_table.hpp"
 #include "io/text_file.hpp"
+#include "material/contact_lines.hpp"
 #include "material/packing_file_checks.hpp"
 #include "material/packing_text.hpp"
 #include "packing/geometry.hpp"
@@ -17,7 +18,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -31,7 +31,6 @@ constexpr std::int64_t largest_written_shift =
     1'000'000'000;  // before it is one in shorter vectors
 
 using Ids = ParticleIds;
-using Key = ContactKey;
 
 enum ParticleColumn : std::size_t {
   id,
@@ -179,11 +178,7 @@ std::vector<unsigned> read_contacts(const Source& source, const Ids& ids, const 
                       "bonded", "bond_gap"});
   table.require(i, fty + 1);
   packing.names_bonds = table.has(bonded);
-  const auto particle = [&](std::size_t column) {
-    const auto found = ids.find(table.integer(column));
-    if (found == ids.end()) table.complain(column, "the id of a particle");
-    return found->second;
-  };
+  const auto particle = [&](std::size_t column) { return read_particle(table, column, ids); };
   const auto in_range = [&](std::size_t column, std::int64_t value, std::int64_t largest) {
     if (value > largest || value < -largest) table.complain(column, "at most 32767 cells");
     return value;
@@ -198,33 +193,15 @@ std::vector<unsigned> read_contacts(const Source& source, const Ids& ids, const 
     return {static_cast<int>(in_range(shift_x, s0, largest_shift)),
             static_cast<int>(in_range(shift_y, s1, largest_shift))};
   };
-  std::map<Key, std::pair<unsigned, InitialContact>> contacts;
+  ContactLines contacts;
   while (table.next()) {
     InitialContact contact{
         particle(i), particle(j), shift(), table.real(fn), {table.real(ftx), table.real(fty)}};
     if (table.has(moment)) contact.moment[0] = table.real(moment);
-    if (table.has(bonded)) {
-      if (const auto flag = table.integer(bonded); flag != 0 && flag != 1)
-        table.complain(bonded, "0 or 1");
-      contact.bonded = table.integer(bonded) == 1;
-    }
-    if (table.has(bond_gap)) contact.bond_gap = table.real(bond_gap);
-    if (contact.i > contact.j ||
-        (contact.i == contact.j &&
-         std::pair(contact.shift[0], contact.shift[1]) < std::pair(0, 0))) {
-      turn_round(contact);
-    }
-    if (contact.i == contact.j && contact.shift[0] == 0 && contact.shift[1] == 0)
-      table.fail(fmt::format("a particle (id {}) in contact with itself", table.text(i)));
-    const auto [other, fresh] = contacts.emplace(key_of(contact), std::pair(table.line(), contact));
-    if (!fresh) table.fail(fmt::format("the contact of line {} again", other->second.first));
+    read_bond(table, bonded, bond_gap, contact);
+    contacts.add(table, contact);
   }
-  std::vector<unsigned> lines;
-  for (const auto& [key, value] : contacts) {
-    packing.contacts.push_back(value.second);
-    lines.push_back(value.first);
-  }
-  return lines;
+  return contacts.move_to(packing);
 }
 
 // contacts without a path: none.

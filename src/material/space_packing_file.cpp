@@ -1,6 +1,7 @@
 // Packings of spheres on disk.
 #include "base/error.hpp"
 #include "io/csv_table.hpp"
+#include "material/contact_lines.hpp"
 #include "material/packing_file_checks.hpp"
 #include "material/packing_files.hpp"
 #include "math/tensor.hpp"
@@ -10,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -107,18 +107,14 @@ std::vector<unsigned> read_contacts(const PackingText& source, const ParticleIds
   if (table.has(moment_x) || table.has(moment_y) || table.has(moment_z))
     table.require(moment_x, moment_z + 1);
   packing.names_bonds = table.has(bonded);
-  const auto particle = [&](std::size_t column) {
-    const auto found = ids.find(table.integer(column));
-    if (found == ids.end()) table.complain(column, "the id of a particle");
-    return found->second;
-  };
+  const auto particle = [&](std::size_t column) { return read_particle(table, column, ids); };
   const auto shift = [&](std::size_t column) {
     const std::int64_t value = table.integer(column);
     if (value > largest_shift || value < -largest_shift)
       table.complain(column, "at most 511 cells");
     return static_cast<int>(value);
   };
-  std::map<ContactKey, std::pair<unsigned, InitialContact>> contacts;
+  ContactLines contacts;
   while (table.next()) {
     InitialContact contact{particle(i),
                            particle(j),
@@ -128,27 +124,10 @@ std::vector<unsigned> read_contacts(const PackingText& source, const ParticleIds
     for (std::size_t k = 0; k < 3 && table.has(moment_x); ++k) {
       contact.moment[k] = table.real(moment_x + k);
     }
-    if (table.has(bonded)) {
-      if (const auto flag = table.integer(bonded); flag != 0 && flag != 1)
-        table.complain(bonded, "0 or 1");
-      contact.bonded = table.integer(bonded) == 1;
-    }
-    if (table.has(bond_gap)) contact.bond_gap = table.real(bond_gap);
-    constexpr std::array<int, 3> none{};
-    if (contact.i > contact.j || (contact.i == contact.j && contact.shift < none)) {
-      turn_round(contact);
-    }
-    if (contact.i == contact.j && contact.shift == none)
-      table.fail(fmt::format("a particle (id {}) in contact with itself", table.text(i)));
-    const auto [other, fresh] = contacts.emplace(key_of(contact), std::pair(table.line(), contact));
-    if (!fresh) table.fail(fmt::format("the contact of line {} again", other->second.first));
+    read_bond(table, bonded, bond_gap, contact);
+    contacts.add(table, contact);
   }
-  std::vector<unsigned> lines;
-  for (const auto& [key, value] : contacts) {
-    packing.contacts.push_back(value.second);
-    lines.push_back(value.first);
-  }
-  return lines;
+  return contacts.move_to(packing);
 }
 
 }  // namespace

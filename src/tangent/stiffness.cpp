@@ -14,6 +14,11 @@ namespace {
 constexpr std::int32_t not_in_graph = -2;
 constexpr std::int32_t on_the_diagonal = -1;
 
+SizeOfFour block_size(const Problem<2>& problem) {
+  return problem.law->rotating() ? blocks_of_3 : blocks_of_2;
+}
+SizeOfEight block_size(const Problem<3>& /*problem*/) { return blocks_of_6; }
+
 }  // namespace
 
 template <int D>
@@ -105,7 +110,7 @@ void Stiffness<D>::assemble(const Increment<D>& increment, double shift) {
     if (factors_ == Factors::of_matrix) factors_ = Factors::of_earlier_matrix;
   } else {
     find_graph(increment);
-    matrix_.reset(increment.problem().nodes(), increment.problem().components(), graph_);
+    matrix_.reset(increment.problem().nodes(), block_size(increment.problem()), graph_);
     factors_ = Factors::none;
   }
   add_contacts();

@@ -53,7 +53,7 @@ class dns : public testing::Test {
   }
   [[nodiscard]] std::string write_packing(const Material& of, const std::string& name) const {
     const std::string prefix = directory_ / name;
-    check(grainlaw_state_write_packing(make_state(of).get(), prefix.c_str()), "writing");
+    State(of).write_packing(prefix);
     return prefix;
   }
   void expect_refusal(const std::string& text, const std::vector<std::string>& parts) {
@@ -94,12 +94,12 @@ TEST_F(dns, a_repeated_frame_carries_the_stress_of_the_frame) {
   const std::string prefix = directory_ / "many";
   write_frame(repeat(one, 2, 3), prefix);
   const Material repeated = make_material(with_packing(source, prefix));
-  const State a = make_state(frame), b = make_state(repeated);
+  State a(frame), b(repeated);
   Tensor F;
   F << 0.9995, 0.0004, 0, 0.9990;
   for (const Tensor& deformation : {Tensor(Tensor::Identity()), F}) {
-    const Evaluation of_frame = evaluate(a.get(), deformation, 0);
-    const Evaluation of_repeated = evaluate(b.get(), deformation, 0);
+    const Evaluation of_frame = evaluate(a, deformation, 0);
+    const Evaluation of_repeated = evaluate(b, deformation, 0);
     ASSERT_EQ(of_frame.status, GRAINLAW_OK);
     ASSERT_EQ(of_repeated.status, GRAINLAW_OK);
     EXPECT_LT(difference(of_repeated.stress, of_frame.stress), 1e-7);
@@ -132,21 +132,21 @@ TEST_F(dns, one_frame_is_the_point_under_the_same_conditions) {
   source.changes.insert_or_assign("boundary", boundary);
   const Material sheared = make_material(source);
   // A state goes over to a material that prescribes another stress, and to no other.
-  const State start = make_state(compressed), point = make_state(sheared);
+  State start(compressed), point(sheared);
   std::size_t size = 0;
   ASSERT_EQ(grainlaw_state_save(start.get(), nullptr, &size), GRAINLAW_OK);
   std::vector<std::byte> bytes(size);
   ASSERT_EQ(grainlaw_state_save(start.get(), bytes.data(), &size), GRAINLAW_OK);
   ASSERT_EQ(grainlaw_state_load(point.get(), bytes.data(), size), GRAINLAW_OK);
-  const State other = make_state(make_material(frame_source()));
+  const State other(make_material(frame_source()));
   EXPECT_EQ(grainlaw_state_load(other.get(), bytes.data(), size), GRAINLAW_WRONG_MATERIAL);
   for (int k = 1; k <= 4; ++k) {
     Tensor F = Tensor::Identity();
     F(1, 1) = F22 * (1 - 0.001 * k);
-    const Evaluation evaluation = evaluate(point.get(), F, 0);
+    const Evaluation evaluation = evaluate(point, F, 0);
     ASSERT_EQ(evaluation.status, GRAINLAW_OK);
     EXPECT_LT(difference(evaluation.stress, records[static_cast<std::size_t>(k)].stress), 1e-6);
-    ASSERT_EQ(grainlaw_commit(point.get()), GRAINLAW_OK);
+    point.commit();
   }
 }
 

@@ -48,7 +48,7 @@ class start : public testing::Test {
     std::string text = small_packing;
     text.replace(text.find(from), from.size(), to);
     const PointScene scene = read("steps = 1\ndF22 = -1e-6\n", text);
-    const State state = make_state(make_material(scene.material));
+    const State state(make_material(scene.material));
     return look_at_start(state.get(), scene.material, directory_.path() / "look").text();
   }
 

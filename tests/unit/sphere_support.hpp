@@ -3,6 +3,7 @@
 
 #include "homogenise/measures.hpp"
 #include "material/packing_file.hpp"
+#include "norms.hpp"
 #include "packing/geometry.hpp"
 #include "state/state.hpp"
 
@@ -17,6 +18,8 @@
 namespace grainlaw::core::sphere_test {
 
 using Deformation = Tensor<3>;
+using test::norm;
+using test::relative_difference;
 
 // 500 spheres at 100 kPa made with YADE, tests/data.
 inline const Packing& reference_packing() {
@@ -55,21 +58,6 @@ inline Found evaluate(State<3>& state, const Deformation& F, TangentKind kind = 
       state.evaluate(F.data(), kind, found.stress.data(), found.tangent.data(), found.report);
   EXPECT_EQ(found.status, GRAINLAW_OK) << found.report.message;
   return found;
-}
-
-template <std::size_t size>
-double norm(const std::array<double, size>& a) {
-  double squares = 0;
-  for (const double value : a) squares += value * value;
-  return std::sqrt(squares);
-}
-
-// |a - b| / |b|
-template <std::size_t size>
-double relative_difference(const std::array<double, size>& a, const std::array<double, size>& b) {
-  std::array<double, size> difference = a;
-  for (std::size_t k = 0; k < size; ++k) difference[k] -= b[k];
-  return norm(difference) / norm(b);
 }
 
 // About an axis, by an angle [rad].

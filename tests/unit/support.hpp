@@ -6,6 +6,7 @@
 #include "homogenise/measures.hpp"
 #include "material/material.hpp"
 #include "material/packing_file.hpp"
+#include "norms.hpp"
 #include "plane.hpp"
 #include "state/state.hpp"
 
@@ -48,19 +49,6 @@ std::array<double, size> sum(const std::array<double, size>& a, double factor,
   std::array<double, size> result = a;
   for (std::size_t k = 0; k < size; ++k) result[k] += factor * b[k];
   return result;
-}
-
-template <std::size_t size>
-double norm(const std::array<double, size>& a) {
-  double squares = 0;
-  for (const double value : a) squares += value * value;
-  return std::sqrt(squares);
-}
-
-// |a - b| / |b|
-template <std::size_t size>
-double relative_difference(const std::array<double, size>& a, const std::array<double, size>& b) {
-  return norm(sum(a, -1, b)) / norm(b);
 }
 
 inline double dot(const Tensor& a, const Tensor& b) {

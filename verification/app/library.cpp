@@ -9,28 +9,10 @@ void check(grainlaw_status status, const std::string& what) {
     throw ComputationError(fmt::format("{}: {}", what, grainlaw_status_text(status)));
 }
 
-State make_state(const Material& material) {
-  grainlaw_state* state = nullptr;
-  check(grainlaw_state_create(material.get(), &state), "creating an integration point");
-  return State(state);
-}
-
-State clone(const grainlaw_state* state) {
-  grainlaw_state* copy = nullptr;
-  check(grainlaw_state_clone(state, &copy), "copying an integration point");
-  return State(copy);
-}
-
-Points make_points(const Material& material, std::size_t count) {
-  grainlaw_points* points = nullptr;
-  check(grainlaw_points_create(material.get(), count, &points), "creating integration points");
-  return Points(points);
-}
-
 template <int D>
-EvaluationOf<D> evaluate_of(grainlaw_state* state, const TensorOf<D>& deformation, unsigned want) {
+EvaluationOf<D> evaluate_of(State& state, const TensorOf<D>& deformation, unsigned want) {
   EvaluationOf<D> result;
-  result.status = grainlaw_evaluate(state, deformation.data(), want, result.stress.data(),
+  result.status = grainlaw_evaluate(state.get(), deformation.data(), want, result.stress.data(),
                                     want != 0 ? result.tangent.data() : nullptr, &result.report);
   if (result.status < 0) check(result.status, "evaluating an integration point");
   return result;
@@ -80,8 +62,8 @@ TangentOf<D> cauchy_tangent(const TensorOf<D>& stress, const TangentOf<D>& tange
   return result;
 }
 
-template EvaluationOf<2> evaluate_of<2>(grainlaw_state*, const TensorOf<2>&, unsigned);
-template EvaluationOf<3> evaluate_of<3>(grainlaw_state*, const TensorOf<3>&, unsigned);
+template EvaluationOf<2> evaluate_of<2>(State&, const TensorOf<2>&, unsigned);
+template EvaluationOf<3> evaluate_of<3>(State&, const TensorOf<3>&, unsigned);
 template TensorOf<2> deformation_gradient<2>(const grainlaw_state*);
 template TensorOf<3> deformation_gradient<3>(const grainlaw_state*);
 template TangentOf<2> cauchy_tangent<2>(const TensorOf<2>&, const TangentOf<2>&,

@@ -1,13 +1,13 @@
-// The library as the driver sees it: the public C header with handles that close themselves.
+// The library as the driver sees it: its C++ face, and what Eigen and the errors of the program add.
 #pragma once
 
 #include "base/error.hpp"
 
-#include <grainlaw/grainlaw.h>
+#include <grainlaw/grainlaw.hpp>
 
 #include <Eigen/Dense>
 
-#include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -46,26 +46,12 @@ decltype(auto) as(Action&& action) {
   }
 }
 
-struct MaterialDeleter {
-  void operator()(grainlaw_material* material) const { grainlaw_material_destroy(material); }
-};
-struct StateDeleter {
-  void operator()(grainlaw_state* state) const { grainlaw_state_destroy(state); }
-};
-struct PointsDeleter {
-  void operator()(grainlaw_points* points) const { grainlaw_points_destroy(points); }
-};
-using Material = std::unique_ptr<grainlaw_material, MaterialDeleter>;
-using State = std::unique_ptr<grainlaw_state, StateDeleter>;
-using Points = std::unique_ptr<grainlaw_points, PointsDeleter>;
+using grainlaw::Material;
+using grainlaw::Points;
+using grainlaw::State;
 
 // Throws ComputationError with the status text unless the status is OK.
 void check(grainlaw_status status, const std::string& what);
-
-// A new integration point at F = I, an independent copy of one, and many. Throw ComputationError.
-State make_state(const Material& material);
-State clone(const grainlaw_state* state);
-Points make_points(const Material& material, std::size_t count);
 
 template <int D>
 struct EvaluationOf {
@@ -80,8 +66,8 @@ using Evaluation = EvaluationOf<2>;
 // One evaluation at the total deformation gradient; a recoverable failure is left in `status`,
 // anything worse throws ComputationError.
 template <int D>
-EvaluationOf<D> evaluate_of(grainlaw_state* state, const TensorOf<D>& deformation, unsigned want);
-inline Evaluation evaluate(grainlaw_state* state, const Tensor& deformation, unsigned want) {
+EvaluationOf<D> evaluate_of(State& state, const TensorOf<D>& deformation, unsigned want);
+inline Evaluation evaluate(State& state, const Tensor& deformation, unsigned want) {
   return evaluate_of<2>(state, deformation, want);
 }
 
@@ -119,6 +105,11 @@ ComponentsOf<D> components_of(const TensorOf<D>& tensor) {
 template <int D>
 TensorOf<D> tensor_of(const ComponentsOf<D>& components) {
   return TensorOf<D>::Map(components.data());
+}
+// Those of many tensors, one tensor after the other.
+template <class Matrix>
+std::span<double> numbers(std::vector<Matrix>& matrices) {
+  return {matrices.front().data(), Matrix::SizeAtCompileTime * matrices.size()};
 }
 inline Vector4 to_vector(const Tensor& tensor) { return components_of<2>(tensor); }
 inline Tensor to_tensor(const Vector4& vector) { return tensor_of<2>(vector); }

@@ -91,32 +91,23 @@ int dimension_of(const MaterialSource& source) {
 }
 
 Material make_material(const MaterialSource& source, int dimension) {
-  std::array<char, 1024> message{};
-  grainlaw_material* material = nullptr;
-  grainlaw_status status = GRAINLAW_OK;
-  std::string origin;
-  std::string_view told;
-  if (source.changes.empty() && !source.file.empty()) {
-    const std::string file = source.file.string();
-    status = grainlaw_material_load(file.c_str(), &material, message.data(), message.size());
-    origin = named(source);
-    told = message.data();
-  } else {
-    const MaterialText description = material_text(source);
-    origin = description.origin;
-    status = grainlaw_material_parse(description.text.c_str(), description.base.c_str(), &material,
-                                     message.data(), message.size());
-    told = without_line(message.data(), description.base);
+  const bool as_it_is = source.changes.empty() && !source.file.empty();
+  const MaterialText text = as_it_is ? MaterialText{} : material_text(source);
+  const std::string origin = as_it_is ? named(source) : text.origin;
+  try {
+    Material material =
+        as_it_is ? Material::load(source.file.string()) : Material::parse(text.text, text.base);
+    if (const int found = material.dimension(); found != dimension)
+      throw InputError(fmt::format(
+          "{}: dimension: found {}, expected {}{}", origin, found, dimension,
+          found == 3 ? ": this command is of the plane, `point` and `solve` take spheres" : ""));
+    return material;
+  } catch (const grainlaw::StatusError& error) {
+    const std::string_view told = as_it_is ? error.what() : without_line(error.what(), text.base);
+    if (error.status() > 0) throw ComputationError(fmt::format("{}: {}", origin, told));
+    throw InputError(
+        fmt::format("{}: {} ({})", origin, told, grainlaw_status_text(error.status())));
   }
-  if (status > 0) throw ComputationError(fmt::format("{}: {}", origin, told));
-  if (status < 0)
-    throw InputError(fmt::format("{}: {} ({})", origin, told, grainlaw_status_text(status)));
-  Material result(material);
-  if (const int found = grainlaw_material_dimension(material); found != dimension)
-    throw InputError(fmt::format(
-        "{}: dimension: found {}, expected {}{}", origin, found, dimension,
-        found == 3 ? ": this command is of the plane, `point` and `solve` take spheres" : ""));
-  return result;
 }
 
 double read_tolerance(SceneTable& table, const MaterialSource& material, double usual) {

@@ -40,14 +40,13 @@ Eigen::VectorXd BrickUnknowns::expand(const Eigen::VectorXd& unknowns) const {
 }
 
 BrickField::BrickField(const BrickModel& model, const Material& material, int threads)
-    : model_(model), threads_(threads) {
+    : model_(model), threads_(threads), set_(material, 8 * model.mesh.elements.size()) {
   for (const auto& element : model.mesh.elements)
     for (const BrickPoint& point : brick_points(model.mesh, element)) {
       nodes_.push_back(element);
       geometry_.push_back(point);
     }
   const std::size_t n = nodes_.size();
-  set_ = make_points(material, n);
   deformation_.resize(n, TensorOf<3>::Identity());
   committed_deformation_ = deformation_;
   stress_.resize(n, TensorOf<3>::Zero());
@@ -59,10 +58,6 @@ BrickField::BrickField(const BrickModel& model, const Material& material, int th
   volume_ = measure_scalar(state(0), GRAINLAW_REFERENCE_VOLUME);
 }
 
-const grainlaw_state* BrickField::state(std::size_t point) const {
-  return grainlaw_points_state(set_.get(), point);
-}
-
 grainlaw_status BrickField::evaluate(const Eigen::VectorXd& displacement, unsigned want) {
   for (std::size_t p = 0; p < nodes_.size(); ++p) {
     TensorOf<3> F = TensorOf<3>::Identity();
@@ -72,13 +67,10 @@ grainlaw_status BrickField::evaluate(const Eigen::VectorXd& displacement, unsign
     deformation_[p] = F;
     reports_[p] = grainlaw_report_default();
   }
-  summary_ = grainlaw_summary_default();
-  const grainlaw_status status = grainlaw_points_evaluate(
-      set_.get(), deformation_.front().data(), want, stress_.front().data(),
-      tangent_.front().data(), nullptr, reports_.data(), threads_, &summary_);
-  if (status < 0) throw ComputationError(std::string("evaluating the points: ") + summary_.message);
+  last_ = set_.evaluate(numbers(deformation_), numbers(stress_), want, numbers(tangent_), threads_,
+                        {}, reports_);
   for (std::size_t p = 0; p < reports_.size(); ++p) efforts_[p].add(reports_[p]);
-  return status;
+  return last_.status;
 }
 
 BrickSystem BrickField::assemble(const Eigen::VectorXd& displacement) const {
@@ -125,7 +117,7 @@ BrickSystem BrickField::assemble(const Eigen::VectorXd& displacement) const {
 }
 
 void BrickField::commit() {
-  check(grainlaw_points_commit(set_.get()), "committing the integration points");
+  set_.commit();
   for (std::size_t p = 0; p < nodes_.size(); ++p) {
     const TensorOf<3> change = deformation_[p] - committed_deformation_[p];
     work_[p] += 0.5 * volume_ * (committed_stress_[p] + stress_[p]).cwiseProduct(change).sum();
@@ -135,7 +127,7 @@ void BrickField::commit() {
   committed_stress_ = stress_;
 }
 
-void BrickField::revert() { check(grainlaw_points_revert(set_.get()), "dropping the trials"); }
+void BrickField::revert() { set_.revert(); }
 
 RecordOf<3> BrickField::record() {
   std::vector<RecordOf<3>> records;

@@ -57,7 +57,7 @@ class BrickField {
  public:
   BrickField(const BrickModel& model, const Material& material, int threads);
 
-  // Recoverable failures are returned; the answer is kept for assemble(). Throws ComputationError.
+  // Recoverable failures are returned; the answer is kept for assemble(). Throws StatusError.
   grainlaw_status evaluate(const Eigen::VectorXd& displacement, unsigned want);
   [[nodiscard]] BrickSystem assemble(const Eigen::VectorXd& displacement) const;
   void commit();
@@ -65,8 +65,8 @@ class BrickField {
 
   // Means over the points, and what the points took since the last call.
   RecordOf<3> record();
-  [[nodiscard]] const grainlaw_summary& summary() const { return summary_; }
-  [[nodiscard]] const grainlaw_state* state(std::size_t point) const;
+  [[nodiscard]] const grainlaw_summary& summary() const { return last_.summary; }
+  [[nodiscard]] const grainlaw_state* state(std::size_t point) const { return set_.state(point); }
 
  private:
   const BrickModel& model_;
@@ -77,7 +77,7 @@ class BrickField {
   std::vector<TensorOf<3>> deformation_, stress_, committed_deformation_, committed_stress_;
   std::vector<TangentOf<3>> tangent_;
   std::vector<grainlaw_report> reports_;
-  grainlaw_summary summary_ = grainlaw_summary_default();
+  grainlaw::PointsEvaluation last_;
   std::vector<Effort> efforts_;
   std::vector<double> work_;  // [J] of a packing
   double volume_ = 0;         // of a packing at F = I [m3]

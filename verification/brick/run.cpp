@@ -29,7 +29,7 @@ void run_brick_scene(const SceneFile& file, const std::string& directory, int st
   const Interrupt interrupt;
   const double start = cpu();
   const PackingStart begin =
-      look_at_start(make_state(material).get(), scene.material, stem.string() + "_start");
+      look_at_start(State(material).get(), scene.material, stem.string() + "_start");
   warn(scene.name, begin);
   BrickNewton solver(scene.model, material, scene.newton, scene.threads);
   Written written(stem);

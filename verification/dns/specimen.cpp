@@ -19,15 +19,6 @@ namespace {
 
 constexpr std::array<const char*, 4> stress_keys{"P11", "P12", "P21", "P22"};
 
-// What is committed in `from` becomes committed in `to`, whose material prescribes other stresses.
-void carry_over(const grainlaw_state* from, grainlaw_state* to) {
-  std::size_t size = 0;
-  check(grainlaw_state_save(from, nullptr, &size), "saving the specimen");
-  std::vector<std::byte> bytes(size);
-  check(grainlaw_state_save(from, bytes.data(), &size), "saving the specimen");
-  check(grainlaw_state_load(to, bytes.data(), size), "loading the specimen");
-}
-
 Tensor piola_of(const grainlaw_state* state, const Tensor& deformation) {
   const std::vector<double> s = measure(state, GRAINLAW_CAUCHY_STRESS);
   const Tensor sigma = to_tensor({s[0], s[1], s[2], s[3]});
@@ -43,8 +34,7 @@ Specimen::Specimen(const SpecimenScene& scene, const std::filesystem::path& stem
   const std::string one = stem.string() + "_state_frame";
   const SnapshotFiles files(one);
   {
-    const Material material = make_material(frame);
-    const State state = make_state(material);
+    const State state(make_material(frame));
     check(grainlaw_state_write_packing(state.get(), one.c_str()), "writing " + one);
   }
   const FramePacking packing = repeat(read_frame(one), scene.repeat[0], scene.repeat[1]);
@@ -59,16 +49,14 @@ Specimen::Specimen(const SpecimenScene& scene, const std::filesystem::path& stem
 
 // A material of its own for each set of prescribed stresses; the state goes from one to the next.
 void Specimen::prescribe(const Stresses& stress) {
-  if (state_ != nullptr && stress == prescribed_) return;
+  if (state_ && stress == prescribed_) return;
   toml::table values;
   for (std::size_t k = 0; k < 4; ++k)
     if (stress[k]) values.insert_or_assign(stress_keys[k], *stress[k]);
   MaterialSource source = source_;
   if (!values.empty()) source.changes["boundary"].as_table()->insert_or_assign("stress", values);
-  Material material = make_material(source);
-  State state = make_state(material);
-  if (state_ != nullptr) carry_over(state_.get(), state.get());
-  material_ = std::move(material);
+  State state(make_material(source));
+  if (state_) state.load(state_->save());
   state_ = std::move(state);
   prescribed_ = stress;
 }
@@ -88,7 +76,7 @@ void Specimen::bring_to_start() {
       if (scene_.start[k]) stress[k] = wanted(static_cast<Eigen::Index>(k));
     state_.reset();  // each round loads the packing anew
     prescribe(stress);
-    const Tensor found = deformation_of(state_.get());
+    const Tensor found = deformation_of(state_->get());
     const double change = (found - F).norm();
     F = found;
     if (change < close) break;
@@ -101,14 +89,14 @@ SpecimenEnd Specimen::run(const Observer& observe, const CutObserver& observe_cu
   double cpu = cpu_seconds();
   for (const SpecimenSegment& segment : scene_.segments) end_.steps_wanted += segment.steps;
   bring_to_start();
-  volume_ = measure_scalar(state_.get(), GRAINLAW_REFERENCE_VOLUME);
-  deformation_ = deformation_of(state_.get());
-  evaluation_.stress = piola_of(state_.get(), deformation_);
-  record_ = make_record(state_.get(), deformation_, evaluation_.stress, evaluation_.report);
+  volume_ = measure_scalar(state_->get(), GRAINLAW_REFERENCE_VOLUME);
+  deformation_ = deformation_of(state_->get());
+  evaluation_.stress = piola_of(state_->get(), deformation_);
+  record_ = make_record(state_->get(), deformation_, evaluation_.stress, evaluation_.report);
   end_.start = record_;
   const auto show = [&] {
     end_.cpu += cpu_seconds() - cpu;
-    if (observe) observe(state_.get(), record_);
+    if (observe) observe(state_->get(), record_);
     cpu = cpu_seconds();
   };
   const auto lead = [&] {
@@ -168,7 +156,7 @@ void Specimen::step(const SpecimenSegment& segment, const Tensor& deformation, c
   const auto attempt = [&](double next, bool) {
     const Goal goal = goal_at(segment, deformation, stress, next);
     prescribe(goal.stress);
-    const Evaluation evaluation = evaluate(state_.get(), goal.deformation, 0);
+    const Evaluation evaluation = evaluate(*state_, goal.deformation, 0);
     record_.effort.add(evaluation.report);
     if (evaluation.status != GRAINLAW_OK) {
       ++record_.effort.cuts;
@@ -185,17 +173,17 @@ void Specimen::step(const SpecimenSegment& segment, const Tensor& deformation, c
 }
 
 void Specimen::accept(const Evaluation& evaluation) {
-  const Tensor F = deformation_of(state_.get());
+  const Tensor F = deformation_of(state_->get());
   const double work =
       record_.external_work +
       0.5 * volume_ * (evaluation_.stress + evaluation.stress).cwiseProduct(F - deformation_).sum();
   const Effort effort = record_.effort;
   const int number = record_.step;
-  record_ = make_record(state_.get(), F, evaluation.stress, evaluation.report);
+  record_ = make_record(state_->get(), F, evaluation.stress, evaluation.report);
   record_.step = number;
   record_.effort = effort;
   record_.external_work = work;
-  check(grainlaw_commit(state_.get()), "committing a step");
+  state_->commit();
   deformation_ = F;
   evaluation_ = evaluation;
 }

@@ -65,8 +65,7 @@ class Specimen {
   SpecimenScene scene_;
   MaterialSource source_;  // the specimen, its boundary without stress
   Stresses prescribed_;
-  Material material_;
-  State state_;
+  std::optional<State> state_;
   double volume_ = 0;  // at F = I [m3]
   Tensor deformation_ = Tensor::Identity();
   Evaluation evaluation_;

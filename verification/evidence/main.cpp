@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   add_objectivity_study(app, options);
   add_servo_study(app, options);
   add_ensemble_study(app, options);
+  add_drag_study(app, options);
   add_timing_study(app, options);
   add_reach_study(app, options);
   add_start_study(app, options);

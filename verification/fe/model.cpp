@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 namespace verification {
 
@@ -10,28 +11,33 @@ namespace {
 
 // Of uniaxial strain at F = I, mean of both directions [Pa].
 double initial_modulus(const Material& material) {
-  const State state = make_state(material);
-  const Evaluation start = evaluate(state.get(), Tensor::Identity(), GRAINLAW_WANT_TANGENT_EXACT);
+  State state(material);
+  const Evaluation start = evaluate(state, Tensor::Identity(), GRAINLAW_WANT_TANGENT_EXACT);
   check(start.status, "evaluating an integration point at F = I");
   return 0.5 * (start.tangent(0, 0) + start.tangent(3, 3));
 }
 
 }  // namespace
 
-PointField::PointField(const Mesh& mesh, const Material& material, double hourglass) {
+std::vector<PointField::Point> PointField::points_of(const Mesh& mesh) {
+  std::vector<Point> points;
   for (const auto& element : mesh.elements) {
     const std::vector<Eigen::Vector2d> places = mesh.positions(element);
     NodeRows centre(0, 2);
     if (mesh.kind == ElementKind::q4fbar)
       centre = quad_points(ElementKind::q4r, places).front().gradient;
     for (const QuadPoint& geometry : quad_points(mesh.kind, places))
-      points_.push_back({element, geometry, centre, Tensor::Identity(), Tensor::Zero(), 0, {}});
+      points.push_back({element, geometry, centre, Tensor::Identity(), Tensor::Zero(), 0, {}});
   }
+  return points;
+}
+
+PointField::PointField(const Mesh& mesh, const Material& material, double hourglass)
+    : points_(points_of(mesh)), set_(material, points_.size()) {
   if (mesh.kind == ElementKind::q4r && hourglass > 0)
     hourglass_ = Hourglass(mesh, hourglass, initial_modulus(material));
   displacement_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * mesh.nodes.size()));
   const std::size_t n = points_.size();
-  set_ = make_points(material, n);
   reports_.resize(n, grainlaw_report_default());
   mesh_deformation_.resize(n, Tensor::Identity());
   mean_volume_.resize(n);
@@ -79,17 +85,14 @@ grainlaw_status PointField::evaluate(const Eigen::VectorXd& displacement, unsign
   const auto measure = cost_.measure(Stage::points);
   deform(displacement);
   for (grainlaw_report& report : reports_) report = grainlaw_report_default();
-  const grainlaw_status status = grainlaw_points_evaluate(
-      set_.get(), deformation_.front().data(), want, stress_.front().data(),
-      want != 0 ? tangent_.front().data() : nullptr, nullptr, reports_.data(), threads, &summary_);
-  if (status < 0) check(status, "evaluating the integration points");
+  last_ = set_.evaluate(numbers(deformation_), numbers(stress_), want,
+                        want != 0 ? numbers(tangent_) : std::span<double>(), threads, {}, reports_);
   for (std::size_t p = 0; p < points_.size(); ++p) points_[p].effort.add(reports_[p]);
-  return status;
+  return last_.status;
 }
 
 std::string PointField::message() const {
-  if (summary_.failed == 0) return {};
-  return fmt::format("integration point {}: {}", summary_.first_failed, summary_.message);
+  return last_.summary.failed == 0 ? "" : "integration " + last_.message();
 }
 
 Eigen::VectorXd PointField::internal_force() const {
@@ -130,7 +133,7 @@ void PointField::add_stiffness(Triplets& triplets) const {
 }
 
 void PointField::commit() {
-  check(grainlaw_points_commit(set_.get()), "committing the integration points");
+  set_.commit();
   for (std::size_t p = 0; p < points_.size(); ++p) {
     Point& point = points_[p];
     const Tensor change = deformation_[p] - point.committed_deformation;
@@ -141,14 +144,11 @@ void PointField::commit() {
   }
 }
 
-void PointField::revert() { check(grainlaw_points_revert(set_.get()), "dropping the trials"); }
+void PointField::revert() { set_.revert(); }
 
 void PointField::save(CheckpointWriter& out) const {
-  std::size_t size = 0;
-  check(grainlaw_points_save(set_.get(), nullptr, &size), "saving the integration points");
-  std::string bytes(size, '\0');
-  check(grainlaw_points_save(set_.get(), bytes.data(), &size), "saving the integration points");
-  out.write(bytes);
+  const std::vector<std::byte> bytes = set_.save();
+  out.write(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
   for (const Point& point : points_) {
     out.write(point.committed_deformation);
     out.write(point.committed_stress);
@@ -162,12 +162,14 @@ void PointField::save(CheckpointWriter& out) const {
 
 void PointField::restore(CheckpointReader& in) {
   const auto bytes = in.get<std::string>();
-  const grainlaw_status status =
-      grainlaw_points_load(set_.get(), bytes.data(), bytes.size(), nullptr, 0);
-  if (status == GRAINLAW_BAD_ARGUMENT) in.fail();
-  if (status == GRAINLAW_WRONG_MATERIAL)
-    throw InputError(in.path().string() + ": was made with another material or packing");
-  check(status, "restoring the integration points from " + in.path().string());
+  try {
+    set_.load(std::as_bytes(std::span(bytes)));
+  } catch (const grainlaw::StatusError& error) {
+    if (error.status() == GRAINLAW_BAD_ARGUMENT) in.fail();
+    if (error.status() == GRAINLAW_WRONG_MATERIAL)
+      throw InputError(in.path().string() + ": was made with another material or packing");
+    throw;
+  }
   for (Point& point : points_) {
     in.read(point.committed_deformation);
     in.read(point.committed_stress);

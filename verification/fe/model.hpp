@@ -36,7 +36,7 @@ class PointField {
   // F at every point for these displacements, one batch call. When a point fails, its status.
   grainlaw_status evaluate(const Eigen::VectorXd& displacement, unsigned want, int threads);
   // Smallest step ratio of the points that failed, and the first of them with its message.
-  [[nodiscard]] double step_ratio() const { return summary_.step_ratio; }
+  [[nodiscard]] double step_ratio() const { return last_.summary.step_ratio; }
   [[nodiscard]] std::string message() const;
 
   // Largest change of F (Frobenius norm) that this change of displacement makes in a point.
@@ -73,9 +73,7 @@ class PointField {
   [[nodiscard]] const Tensor& deformation(std::size_t point) const { return deformation_[point]; }
   [[nodiscard]] const Tensor& stress(std::size_t point) const { return stress_[point]; }
   [[nodiscard]] const grainlaw_report& report(std::size_t point) const { return reports_[point]; }
-  [[nodiscard]] const grainlaw_state* state(std::size_t point) const {
-    return grainlaw_points_state(set_.get(), point);
-  }
+  [[nodiscard]] const grainlaw_state* state(std::size_t point) const { return set_.state(point); }
 
  private:
   struct Point {
@@ -88,6 +86,7 @@ class PointField {
     Effort effort;
   };
 
+  [[nodiscard]] static std::vector<Point> points_of(const Mesh& mesh);
   [[nodiscard]] static Tensor gradient(const Point& point, const NodeRows& slopes,
                                        const Eigen::VectorXd& displacement);
   // F of the mesh and of the packing at every point.
@@ -97,7 +96,7 @@ class PointField {
   Hourglass hourglass_;
   Eigen::VectorXd displacement_;  // of the last evaluation [m]
   Points set_;
-  grainlaw_summary summary_ = grainlaw_summary_default();  // of the last evaluation
+  grainlaw::PointsEvaluation last_;  // evaluation
   std::vector<grainlaw_report> reports_;
   std::vector<Tensor> mesh_deformation_;
   std::vector<MeanVolume> mean_volume_;

@@ -64,7 +64,7 @@ Made make(const PackArguments& arguments, std::optional<long> seed) {
   source.base = source.file.parent_path();
   if (seed) change(source, "packing", "seed", *seed);
   const double start = cpu_seconds();
-  Material material;
+  std::optional<Material> material;
   try {
     material = make_material(source);
   } catch (const ComputationError& error) {
@@ -72,7 +72,7 @@ Made make(const PackArguments& arguments, std::optional<long> seed) {
         fmt::format("{}; after {:.2f} s of CPU", error.what(), cpu_seconds() - start));
   }
   const double seconds = cpu_seconds() - start;
-  State state = make_state(material);
+  State state(*material);
   const auto stem = output_stem(arguments.output, name_of(arguments));
   check(grainlaw_state_write_packing(state.get(), stem.c_str()), "writing " + stem.string());
   WrittenPacking written = read_written(stem.string());

@@ -98,15 +98,15 @@ struct PointDriverOf<D>::Iterate : Attempt {
 template <int D>
 PointDriverOf<D>::PointDriverOf(const Material& material, const PointOptions& options)
     : options_(options),
-      state_(make_state(material)),
+      state_(material),
       volume_(measure_scalar(state_.get(), GRAINLAW_REFERENCE_VOLUME)),
       deformation_(TensorOf<D>::Identity()),
-      evaluation_(evaluate_of<D>(state_.get(), deformation_, options.tangent)) {
+      evaluation_(evaluate_of<D>(state_, deformation_, options.tangent)) {
   check(evaluation_.status, "evaluating the start at F = I");
   deformation_ = deformation_gradient<D>(state_.get());
   record_ = make_record<D>(state_.get(), deformation_, evaluation_.stress, evaluation_.report);
   record_.effort.add(evaluation_.report);
-  check(grainlaw_revert(state_.get()), "dropping the trial at F = I");
+  state_.revert();
 }
 
 template <int D>
@@ -148,7 +148,7 @@ typename PointDriverOf<D>::Iterate PointDriverOf<D>::iterate(const Goal& goal, d
   for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
     deformation += correction;
     result.deformation = tensor_of<D>(deformation);
-    result.evaluation = evaluate_of<D>(state_.get(), result.deformation, want);
+    result.evaluation = evaluate_of<D>(state_, result.deformation, want);
     effort_.add(result.evaluation.report);
     if (goal.mixed) ++effort_.iterations;
     if (result.evaluation.status != GRAINLAW_OK) {
@@ -201,12 +201,12 @@ typename PointDriverOf<D>::Iterate PointDriverOf<D>::iterate(const Goal& goal, d
 // from one.
 template <int D>
 void PointDriverOf<D>::renew_tangent() {
-  const EvaluationOf<D> again = evaluate_of<D>(state_.get(), deformation_, options_.tangent);
+  const EvaluationOf<D> again = evaluate_of<D>(state_, deformation_, options_.tangent);
   if (again.status != GRAINLAW_OK)
     throw StepError(again.status, fmt::format("evaluating the tangent at the start of a segment, "
                                               "after step {}, failed: {}",
                                               record_.step, again.report.message));
-  check(grainlaw_revert(state_.get()), "dropping a trial");
+  state_.revert();
   evaluation_.tangent = again.tangent;
   has_tangent_ = true;
 }
@@ -227,11 +227,11 @@ typename PointDriverOf<D>::Iterate PointDriverOf<D>::cross_jumps(const Goal& goa
   for (int crossing = 0; crossing < most_crossings && last.stalled; ++crossing) {
     Iterate beyond = last;
     beyond.deformation = last.far_deformation;
-    beyond.evaluation = evaluate_of<D>(state_.get(), beyond.deformation, options_.tangent);
+    beyond.evaluation = evaluate_of<D>(state_, beyond.deformation, options_.tangent);
     effort_.add(beyond.evaluation.report);
     if (beyond.evaluation.status != GRAINLAW_OK) return last;
     accept(beyond, true);
-    check(grainlaw_commit(state_.get()), "committing beyond a jump of the stress");
+    state_.commit();
     ++effort_.crossed;
     last = iterate(goal, options_.tolerance);
   }
@@ -265,10 +265,10 @@ void PointDriverOf<D>::run(const Segment& segment, const PointObserver& observe,
         committed = deformation_;
         accept(last, goal.mixed);
         effort_.history_advanced += last.evaluation.report.history_advanced;
-        if (next < 1) check(grainlaw_commit(state_.get()), "committing a part of a step");
+        if (next < 1) state_.commit();
       } else {
         ++effort_.cuts;
-        check(grainlaw_revert(state_.get()), "dropping a trial");
+        state_.revert();
       }
       return Attempt(last);
     };
@@ -281,8 +281,8 @@ void PointDriverOf<D>::run(const Segment& segment, const PointObserver& observe,
     record_.step = number;
     record_.external_work = work_;
     record_.effort = std::exchange(effort_, {});
-    if (observe) observe({state_.get(), committed, evaluation_, record_, fraction});
-    check(grainlaw_commit(state_.get()), "committing a step");
+    if (observe) observe({state_, committed, evaluation_, record_, fraction});
+    state_.commit();
   }
 }
 

@@ -25,7 +25,7 @@ struct PointOptions {
 // What an observer sees at the end of every full step, before the trial is committed.
 template <int D>
 struct PointStepOf {
-  grainlaw_state* state;              // committed: the (part of a) step before; trial: this one
+  State& state;                       // committed: the (part of a) step before; trial: this one
   TensorOf<D> committed_deformation;  // F of the committed state
   const EvaluationOf<D>& evaluation;  // of the trial
   const RecordOf<D>& record;
@@ -51,7 +51,7 @@ class PointDriverOf {
   [[nodiscard]] const RecordOf<D>& record() const { return record_; }
   // Of the step that did not end, after an error.
   [[nodiscard]] const Effort& unfinished() const { return effort_; }
-  [[nodiscard]] grainlaw_state* state() const { return state_.get(); }
+  [[nodiscard]] const grainlaw_state* state() const { return state_.get(); }
 
  private:
   struct Goal;

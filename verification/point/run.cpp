@@ -84,7 +84,7 @@ void run_path(const PointScene& scene, const std::filesystem::path& stem, PointE
   if (scene.options.max_steps > 0)
     end.steps_wanted = std::min(end.steps_wanted, scene.options.max_steps);
   double start = cpu_seconds();
-  Material material;
+  std::optional<Material> material;
   try {
     material = make_material(scene.material, D);
   } catch (const ComputationError& error) {
@@ -101,7 +101,7 @@ void run_path(const PointScene& scene, const std::filesystem::path& stem, PointE
   written.add(".csv");
   Observer observer(scene, stem, written);
   start = cpu_seconds();
-  PointDriverOf<D> driver(material, scene.options);
+  PointDriverOf<D> driver(*material, scene.options);
   end.cpu += cpu_seconds() - start;
   PackingStart begin = look_at_start(driver.state(), scene.material, stem.string() + "_state");
   for (std::string& text : far_targets(begin, scene.segments))
@@ -117,7 +117,7 @@ void run_path(const PointScene& scene, const std::filesystem::path& stem, PointE
     const RecordOf<D>& record = step.record;
     end.effort.add(record.effort);
     history.add(record);
-    observer.see(step.state, record);
+    observer.see(step.state.get(), record);
     progress->update(static_cast<double>(record.step) / end.steps_wanted,
                      fmt::format("sigma{0}{0} {1:.1f} kPa, F{0}{0} {2:.4f}, F12 {3:.4f}", D,
                                  record.cauchy(D - 1, D - 1) / 1e3,

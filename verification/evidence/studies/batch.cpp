@@ -79,13 +79,10 @@ struct Batch {
   [[nodiscard]] std::vector<std::byte> saved() const {
     std::vector<std::byte> all;
     for (std::size_t p = 0; p < size(); ++p) {
-      const State copy = clone(handles[p]);
-      if (status[p] == GRAINLAW_OK) check(grainlaw_commit(copy.get()), "committing a copy");
-      std::size_t bytes = 0;
-      check(grainlaw_state_save(copy.get(), nullptr, &bytes), "sizing a saved state");
-      const std::size_t before = all.size();
-      all.resize(before + bytes);
-      check(grainlaw_state_save(copy.get(), all.data() + before, &bytes), "saving a state");
+      State copy = states[p];
+      if (status[p] == GRAINLAW_OK) copy.commit();
+      const std::vector<std::byte> bytes = copy.save();
+      all.insert(all.end(), bytes.begin(), bytes.end());
     }
     return all;
   }
@@ -98,10 +95,10 @@ Batch make_batch(const Material& material, const std::vector<Probe>& band, int p
     const auto half = static_cast<std::size_t>(p / 2);
     if (p % 2 == 0) {
       const Probe& probe = band[band.size() - 1 - half % band.size()];
-      batch.add(clone(probe.state.get()), probe.deformation);
+      batch.add(probe.state, probe.deformation);
     } else {
       const double strain = 0.1 * increment * (1 + static_cast<double>(half % 4));
-      batch.add(make_state(material), Tensor{{1 + 0.4 * strain, 0}, {0, 1 - strain}});
+      batch.add(State(material), Tensor{{1 + 0.4 * strain, 0}, {0, 1 - strain}});
     }
   }
   return batch;

@@ -17,14 +17,14 @@ struct TimedEvaluation {
 
 // The increment from the committed state to `deformation`; the best of a few, since the machine may
 // be doing other things. One that takes longer than `long_enough` [ms] is not done again.
-inline TimedEvaluation time_evaluation(const grainlaw_state* state, const Tensor& deformation,
-                                       unsigned want, double long_enough = 100) {
+inline TimedEvaluation time_evaluation(const State& state, const Tensor& deformation, unsigned want,
+                                       double long_enough = 100) {
   constexpr int repetitions = 3;
   TimedEvaluation result;
   for (int k = 0; k < repetitions; ++k) {
-    const State copy = clone(state);
+    State copy = state;
     const double start = cpu_milliseconds();
-    result.evaluation = evaluate(copy.get(), deformation, want);
+    result.evaluation = evaluate(copy, deformation, want);
     const double spent = cpu_milliseconds() - start;
     result.cpu = k == 0 ? spent : std::min(result.cpu, spent);
     if (result.cpu > long_enough) break;

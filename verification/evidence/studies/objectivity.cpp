@@ -20,17 +20,17 @@ Tensor rotation(double angle) {
 // |P(Q F) - Q P(F)| / |P(F)| of the same increment seen by a turned observer, and
 // |sigma12 - sigma21| / |sigma|.
 void study_rotations(const StudyOptions& options, const Material& material, double tolerance) {
-  const std::vector<Probe> probes =
+  std::vector<Probe> probes =
       probe_path("drained", material, drained_segment(-0.02, drained_pressure, 20), 4);
   Table table(
       fmt::format("rigid rotation of single increments of 0.1 %, tolerance {:.0e} [-]", tolerance),
       {"axial_strain[-]", "angle[rad]", "objectivity_error[-]", "asymmetry[-]", "status"});
-  for (const Probe& probe : probes) {
-    const Evaluation still = evaluate(probe.state.get(), probe.deformation, 0);
+  for (Probe& probe : probes) {
+    const Evaluation still = evaluate(probe.state, probe.deformation, 0);
     for (const double angle : {0.0, 1e-3, 0.5, 1.5, std::numbers::pi}) {
       const Tensor q = rotation(angle);
       const Tensor turned_deformation = q * probe.deformation;
-      const Evaluation turned = evaluate(probe.state.get(), turned_deformation, 0);
+      const Evaluation turned = evaluate(probe.state, turned_deformation, 0);
       double error = std::numeric_limits<double>::quiet_NaN();
       double asymmetry = error;
       if (still.status == GRAINLAW_OK && turned.status == GRAINLAW_OK) {

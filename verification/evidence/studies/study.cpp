@@ -45,7 +45,7 @@ std::vector<Probe> probe_path(const std::string& name, const Material& material,
     if (step.record.step % every != 0) return;
     const double strain =
         name == "shear" ? step.record.deformation(0, 1) : step.record.axial_strain();
-    probes.push_back({name, clone(step.state), step.record.deformation, strain});
+    probes.push_back({name, step.state, step.record.deformation, strain});
   });
   return probes;
 }

@@ -59,6 +59,7 @@ void add_newton_study(CLI::App& study, const std::shared_ptr<StudyOptions>& opti
 void add_objectivity_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_servo_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_ensemble_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
+void add_drag_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_timing_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_reach_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_start_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);

@@ -24,8 +24,8 @@ bool same_contacts(const grainlaw_report& a, const grainlaw_report& b) {
          a.status_changes == b.status_changes && a.subincrements == b.subincrements;
 }
 
-std::optional<Differences> central_differences(grainlaw_state* state, const Tensor& deformation,
-                                               double step, const grainlaw_report& centre) {
+std::optional<Differences> central_differences(State& state, const Tensor& deformation, double step,
+                                               const grainlaw_report& centre) {
   Differences result{Tangent::Zero(), false};
   for (int k = 0; k < 4; ++k) {
     Vector4 derivative = Vector4::Zero();
@@ -57,18 +57,17 @@ struct ProbeResult {
 // differences to stand above the tolerance of the equilibria. Of stencils in a row, those two are
 // taken that agree best with each other (of two without a change, where there are such); how well
 // they agree is what the differences themselves are worth.
-ProbeResult examine(const Probe& probe) {
+ProbeResult examine(Probe& probe) {
   constexpr std::array<double, 6> stencils{1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9};
   ProbeResult result;
-  const Evaluation exact =
-      evaluate(probe.state.get(), probe.deformation, GRAINLAW_WANT_TANGENT_EXACT);
+  const Evaluation exact = evaluate(probe.state, probe.deformation, GRAINLAW_WANT_TANGENT_EXACT);
   result.report = exact.report;
   result.claimed_exact = exact.report.tangent_exact != 0;
   if (exact.status != GRAINLAW_OK) return result;
-  const grainlaw_report centre = evaluate(probe.state.get(), probe.deformation, 0).report;
+  const grainlaw_report centre = evaluate(probe.state, probe.deformation, 0).report;
   std::optional<Differences> best, last;
   for (const double step : stencils) {
-    const auto next = central_differences(probe.state.get(), probe.deformation, step, centre);
+    const auto next = central_differences(probe.state, probe.deformation, step, centre);
     if (last && next) {
       const double apart = (next->tangent - last->tangent).norm() / last->tangent.norm();
       const bool changed = last->changed || next->changed;
@@ -88,7 +87,7 @@ ProbeResult examine(const Probe& probe) {
     return (other.tangent - best->tangent).norm() / best->tangent.norm();
   };
   const auto error = [&](unsigned want) {
-    return error_of(evaluate(probe.state.get(), probe.deformation, want));
+    return error_of(evaluate(probe.state, probe.deformation, want));
   };
   result.exact = error_of(exact);
   result.elastic = error(GRAINLAW_WANT_TANGENT_ELASTIC);
@@ -143,7 +142,7 @@ void run(const StudyOptions& options, double tolerance, int states, double axial
                "differences_error[-]", "stencil[-]", "changes_inside"});
   std::vector<ProbeResult> results;
   Progress progress("tangents");
-  for (const Probe& probe : probes) {
+  for (Probe& probe : probes) {
     const ProbeResult r = examine(probe);
     results.push_back(r);
     table.row({probe.path, probe.strain, static_cast<double>(r.report.contacts),

@@ -24,13 +24,9 @@ struct Cost {
 constexpr double loose_tolerance = 1e-2;
 
 // The same point in a material that differs in its solver alone.
-State point_of(const Material& material, const grainlaw_state* state) {
-  std::size_t size = 0;
-  check(grainlaw_state_save(state, nullptr, &size), "saving an integration point");
-  std::vector<char> bytes(size);
-  check(grainlaw_state_save(state, bytes.data(), &size), "saving an integration point");
-  State point = make_state(material);
-  check(grainlaw_state_load(point.get(), bytes.data(), size), "loading an integration point");
+State point_of(const Material& material, const State& state) {
+  State point(material);
+  point.load(state.save());
   return point;
 }
 
@@ -71,7 +67,7 @@ void run_study(const StudyOptions& options, double tolerance, double axial) {
         time_evaluation(step.state, deformation, GRAINLAW_WANT_TANGENT_EXACT).cpu;
     const State point = point_of(loose_material, step.state);
     const auto [loose, cpu_loose] =
-        time_evaluation(point.get(), deformation, GRAINLAW_WANT_TANGENT_EXACT);
+        time_evaluation(point, deformation, GRAINLAW_WANT_TANGENT_EXACT);
     costs.push_back({step.record.axial_strain(), cpu, cpu_exact, plain.report, cpu_loose,
                      (loose.stress - plain.stress).norm() / plain.stress.norm(),
                      loose.report.residual});

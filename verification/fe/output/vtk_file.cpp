@@ -2,6 +2,7 @@
 
 #include "app/atomic_file.hpp"
 #include "app/text.hpp"
+#include "io/vtk_xml.hpp"
 
 #include <fmt/format.h>
 
@@ -9,6 +10,11 @@
 #include <string_view>
 
 namespace verification {
+
+using grainlaw::core::vtk_array;
+using grainlaw::core::vtk_counts;
+using grainlaw::core::vtk_file;
+
 namespace {
 
 std::string base64(std::string_view bytes) {
@@ -37,14 +43,10 @@ std::string encoded(const std::vector<T>& values) {
 
 std::string array(std::string_view type, std::string_view name, int components,
                   const std::string& values) {
-  std::string names;
-  if (components == 4)
-    names =
-        " ComponentName0=\"11\" ComponentName1=\"12\" ComponentName2=\"21\" ComponentName3=\"22\"";
-  return fmt::format(
-      "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"binary\">\n{}\n"
-      "</DataArray>\n",
-      type, xml_text(name), components, names, values);
+  constexpr std::string_view of_tensor =
+      " ComponentName0=\"11\" ComponentName1=\"12\" ComponentName2=\"21\" ComponentName3=\"22\"";
+  return vtk_array(type, xml_text(name), components, "binary", values + "\n",
+                   components == 4 ? of_tensor : "");
 }
 
 std::string data(std::string_view element, const std::vector<VtkArray>& arrays) {
@@ -52,14 +54,6 @@ std::string data(std::string_view element, const std::vector<VtkArray>& arrays) 
   for (const VtkArray& entry : arrays)
     text += array("Float64", entry.name, entry.components, encoded(entry.values));
   return text + fmt::format("</{}>\n", element);
-}
-
-std::string file(std::string_view type, std::string_view counts, const std::string& content) {
-  return fmt::format(
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"{0}\" version=\"1.0\" "
-      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<{0}>\n<Piece {1}>\n{2}</Piece>\n"
-      "</{0}>\n</VTKFile>\n",
-      type, counts, content);
 }
 
 std::string places(const std::vector<double>& points) {
@@ -75,9 +69,9 @@ void write_vtu(const std::filesystem::path& path, const VtkMesh& mesh) {
                             array("Int64", "connectivity", 1, encoded(mesh.connectivity)) +
                             array("Int64", "offsets", 1, encoded(mesh.offsets)) +
                             array("UInt8", "types", 1, encoded(mesh.types)) + "</Cells>\n";
-  write_file(path, file("UnstructuredGrid", counts,
-                        places(mesh.points) + cells + data("PointData", mesh.point_data) +
-                            data("CellData", mesh.cell_data)));
+  write_file(path, vtk_file("UnstructuredGrid", counts,
+                            places(mesh.points) + cells + data("PointData", mesh.point_data) +
+                                data("CellData", mesh.cell_data)));
 }
 
 void write_vtp(const std::filesystem::path& path, const std::vector<double>& points,
@@ -88,14 +82,11 @@ void write_vtp(const std::filesystem::path& path, const std::vector<double>& poi
     connectivity.push_back(static_cast<std::int64_t>(k));
     offsets.push_back(static_cast<std::int64_t>(k + 1));
   }
-  const std::string counts = fmt::format(
-      "NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
-      "NumberOfPolys=\"0\"",
-      count);
   const std::string vertices = "<Verts>\n" +
                                array("Int64", "connectivity", 1, encoded(connectivity)) +
                                array("Int64", "offsets", 1, encoded(offsets)) + "</Verts>\n";
-  write_file(path, file("PolyData", counts, places(points) + vertices + data("PointData", arrays)));
+  write_file(path, vtk_file("PolyData", vtk_counts(count, count, 0),
+                            places(points) + vertices + data("PointData", arrays)));
 }
 
 void write_pvd(const std::filesystem::path& path, const std::vector<VtkSeriesEntry>& entries) {

@@ -1,5 +1,5 @@
-// VTK XML files for ParaView. VTK's own writers would bring two hundred packages; these need the
-// standard library. Arrays are base64 of their bytes: exact, valid XML, shorter than digits.
+// VTK XML files of meshes and fields for ParaView. Arrays are base64 of their bytes: what is not a number
+// stays so, and they are shorter than digits.
 #pragma once
 
 #include <cstdint>

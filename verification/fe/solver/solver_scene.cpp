@@ -84,7 +84,7 @@ std::unique_ptr<Solver> make_solver(const SolverOptions& options, const Model& m
   }
   DynamicsOptions dynamics = options.dynamics;
   if (options.particle_density > 0) {
-    const double void_ratio = measure_scalar(make_state(material).get(), GRAINLAW_VOID_RATIO);
+    const double void_ratio = measure_scalar(State(material).get(), GRAINLAW_VOID_RATIO);
     dynamics.density = options.particle_density / (1 + void_ratio);
   }
   return make_dynamics_solver(model, material, dynamics, threads);

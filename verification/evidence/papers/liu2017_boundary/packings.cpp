@@ -59,7 +59,7 @@ MaterialSource recipe(const PaperStudy& study, int size) {
 
 // Of the packing that the material starts from.
 Counts made(const PaperStudy& study, const MaterialSource& source) {
-  const State state = make_state(make_material(source));
+  State state(make_material(source));
   const std::string prefix = (study.results / "counted").string();
   check(grainlaw_state_write_packing(state.get(), prefix.c_str()), "writing a packing");
   Counts counts = count(read_written(prefix));

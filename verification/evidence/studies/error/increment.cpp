@@ -47,8 +47,8 @@ Exact exact_stresses(const StudyOptions& options, const Sweep& sweep,
     Exact exact{tolerance, {}};
     std::size_t found = 0;
     for (const Start& start : starts) {
-      const State state = state_at(material, start);
-      const Evaluation evaluation = evaluate(state.get(), start.deformation, 0);
+      State state = state_at(material, start);
+      const Evaluation evaluation = evaluate(state, start.deformation, 0);
       const bool good = evaluation.status == GRAINLAW_OK;
       if (!good && found == 0) break;  // it will not with the others
       exact.stress.push_back(good ? std::optional(evaluation.stress) : std::nullopt);
@@ -65,8 +65,8 @@ IncrementRow measure_row(const StudyOptions& options, const std::string& path, c
   std::vector<double> errors, cpu, cpu_exact, steps, factorisations;
   double failures = 0;
   for (std::size_t k = 0; k < starts.size(); ++k) {
-    const State state = state_at(material, starts[k]);
-    const auto [evaluation, spent] = time_evaluation(state.get(), starts[k].deformation, 0);
+    State state = state_at(material, starts[k]);
+    const auto [evaluation, spent] = time_evaluation(state, starts[k].deformation, 0);
     if (evaluation.status != GRAINLAW_OK || !exact.stress[k]) {
       ++failures;
       continue;
@@ -77,7 +77,7 @@ IncrementRow measure_row(const StudyOptions& options, const std::string& path, c
     factorisations.push_back(evaluation.report.factorisations);
     if (std::string(method.name) == direct.name)
       cpu_exact.push_back(
-          time_evaluation(state.get(), starts[k].deformation, GRAINLAW_WANT_TANGENT_EXACT).cpu);
+          time_evaluation(state, starts[k].deformation, GRAINLAW_WANT_TANGENT_EXACT).cpu);
   }
   return {path,        method.name,       tolerance,     median(errors),         largest(errors),
           median(cpu), median(cpu_exact), median(steps), median(factorisations), failures};
@@ -137,8 +137,7 @@ void study_tangents(const StudyOptions& options, const std::vector<Path>& paths)
             std::pair{"perturbed", tangent_bit("perturbed")}}) {
         std::vector<double> cpu;
         for (const Start& start : starts)
-          cpu.push_back(
-              time_evaluation(state_at(material, start).get(), start.deformation, want).cpu);
+          cpu.push_back(time_evaluation(state_at(material, start), start.deformation, want).cpu);
         if (want == 0) plain = median(cpu);
         table.row(
             {path.name, tolerance, name, median(cpu), median(cpu) - plain, median(cpu) / plain});

@@ -30,7 +30,7 @@ Material packing_of(const StudyOptions& options, int count, int seed) {
     change(recipe, "packing", "count", count);
     change(recipe, "packing", "seed", seed);
     std::filesystem::create_directories(directory);
-    check(grainlaw_state_write_packing(make_state(make_material(recipe)).get(), stem.c_str()),
+    check(grainlaw_state_write_packing(State(make_material(recipe)).get(), stem.c_str()),
           "writing a packing");
   }
   MaterialSource source = options.material(tolerance);

@@ -63,11 +63,11 @@ Path shear_path() {
 
 Replay replay(const Material& material, const Path& path, int increments) {
   Replay run;
-  const State state = make_state(material);
+  State state(material);
   for (int k = 1; k <= increments; ++k) {
     const Tensor deformation = path.at(static_cast<double>(k) / increments);
     const double start = cpu_milliseconds();
-    const Evaluation evaluation = evaluate(state.get(), deformation, 0);
+    const Evaluation evaluation = evaluate(state, deformation, 0);
     run.cpu += cpu_milliseconds() - start;
     run.relaxation_steps += static_cast<double>(evaluation.report.relaxation_steps);
     if (evaluation.status != GRAINLAW_OK) {
@@ -76,7 +76,7 @@ Replay replay(const Material& material, const Path& path, int increments) {
                       evaluation.status == GRAINLAW_NOT_CONVERGED ? "no equilibrium" : "refused");
       return run;
     }
-    check(grainlaw_commit(state.get()), "committing an increment");
+    state.commit();
     run.stress.push_back(evaluation.stress);
   }
   return run;
@@ -96,25 +96,19 @@ double path_error(const Replay& run, const Replay& reference) {
 
 std::vector<Start> exact_starts(const Material& material, const Path& path) {
   std::vector<Start> starts;
-  const State state = make_state(material);
+  State state(material);
   for (std::size_t k = 1; k < path.points.size(); ++k) {
-    Start start{{}, path.points[k]};
-    std::size_t size = 0;
-    check(grainlaw_state_save(state.get(), nullptr, &size), "measuring a state");
-    start.bytes.resize(size);
-    check(grainlaw_state_save(state.get(), start.bytes.data(), &size), "saving a state");
-    start.bytes.resize(size);
-    check(evaluate(state.get(), start.deformation, 0).status, "leading the path");
-    check(grainlaw_commit(state.get()), "committing an increment");
+    Start start{state.save(), path.points[k]};
+    check(evaluate(state, start.deformation, 0).status, "leading the path");
+    state.commit();
     starts.push_back(std::move(start));
   }
   return starts;
 }
 
 State state_at(const Material& material, const Start& start) {
-  State state = make_state(material);
-  check(grainlaw_state_load(state.get(), start.bytes.data(), start.bytes.size()),
-        "loading a state");
+  State state(material);
+  state.load(start.bytes);
   return state;
 }
 

@@ -34,8 +34,8 @@ struct Led {
 };
 
 Led lead(const Material& material, const std::vector<Increment>& path, const Usage& usage) {
-  Led led{make_state(material)};
-  grainlaw_state* const state = led.state.get();
+  Led led{State(material)};
+  State& state = led.state;
   for (const Increment& increment : path) {
     double& cpu = led.cpu.emplace_back();
     for (const Tensor& deformation : increment) {
@@ -52,19 +52,19 @@ Led lead(const Material& material, const std::vector<Increment>& path, const Usa
       usage.also(state);
       cpu += cpu_milliseconds() - start;
     }
-    check(grainlaw_commit(state), "committing an increment of the feature table");
+    state.commit();
   }
   return led;
 }
 
 // Memory of a thread that has evaluated, over that of a state which has taken all it needs.
-double workspace_bytes(const State& state, const Tensor& deformation, unsigned want) {
-  evaluate(state.get(), deformation, want);
-  check(grainlaw_revert(state.get()), "dropping a trial");
+double workspace_bytes(State& state, const Tensor& deformation, unsigned want) {
+  evaluate(state, deformation, want);
+  state.revert();
   double bytes = 0;
   std::thread([&] {
     const double before = heap_bytes();
-    evaluate(state.get(), deformation, want);
+    evaluate(state, deformation, want);
     bytes = heap_bytes() - before;
   }).join();
   return bytes;
@@ -80,23 +80,21 @@ CostMeasurement::CostMeasurement(const MaterialSource& source, const std::vector
   material_ = make_material(source);
   cost_.material = heap_bytes() - bytes;
 
-  const Led led = lead(material_, path_, usage_);  // takes the memory of this thread, too
+  const Led led = lead(*material_, path_, usage_);  // takes the memory of this thread, too
   cpu_ = led.cpu;
   bytes = heap_bytes();
-  const State state = lead(material_, path_, usage_).state;
+  State state = lead(*material_, path_, usage_).state;
   cost_.state = heap_bytes() - bytes;
   evaluations_ = static_cast<double>(led.evaluations);
   cost_.relaxation_steps = static_cast<double>(led.relaxation_steps) / evaluations_;
   cost_.factorisations = static_cast<double>(led.factorisations) / evaluations_;
   cost_.workspace = workspace_bytes(state, path_.back().back(), usage_.want);
-  std::size_t size = 0;
-  check(grainlaw_state_save(state.get(), nullptr, &size), "sizing a saved state");
-  cost_.saved = static_cast<double>(size);
+  cost_.saved = static_cast<double>(state.save().size());
   cost_.particles = measure_scalar(state.get(), GRAINLAW_PARTICLES);
 }
 
 void CostMeasurement::again() {
-  const Led led = lead(material_, path_, usage_);
+  const Led led = lead(*material_, path_, usage_);
   for (std::size_t k = 0; k < cpu_.size(); ++k) cpu_[k] = std::min(cpu_[k], led.cpu[k]);
 }
 

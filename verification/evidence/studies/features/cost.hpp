@@ -15,7 +15,7 @@ using Increment = std::vector<Tensor>;
 struct Usage {
   unsigned want = 0;  // tangent
   // What else is done with the trial of every increment.
-  std::function<void(grainlaw_state*)> also;
+  std::function<void(State&)> also;
 };
 
 struct Cost {
@@ -42,7 +42,7 @@ class CostMeasurement {
  private:
   const std::vector<Increment>& path_;
   Usage usage_;
-  Material material_;
+  std::optional<Material> material_;
   Cost cost_;
   double evaluations_ = 0;
   std::vector<double> cpu_;  // of every increment [ms]

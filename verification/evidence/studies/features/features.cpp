@@ -56,7 +56,7 @@ MaterialSource base_material(const StudyOptions& options, int count, double tole
   recipe.base = recipe.file.parent_path();
   change(recipe, "packing", "count", count);
   const auto stem = output_stem(options.output, fmt::format("study_features_{}", count));
-  const State state = make_state(make_material(recipe));
+  State state(make_material(recipe));
   check(grainlaw_state_write_packing(state.get(), stem.c_str()), "writing the packing");
 
   const auto file = [&](const char* what) {
@@ -102,18 +102,10 @@ MaterialSource with_bonds(const MaterialSource& source, double strength) {
   return bonded;
 }
 
-void take_all_measures(grainlaw_state* state) {
-#define GRAINLAW_X(name, value, count, text) measure(state, name);
+void take_all_measures(const State& state) {
+#define GRAINLAW_X(name, value, count, text) static_cast<void>(state.measure(name));
   GRAINLAW_MEASURE_LIST(GRAINLAW_X)
 #undef GRAINLAW_X
-}
-
-std::vector<std::byte> save(grainlaw_state* state) {
-  std::size_t size = 0;
-  check(grainlaw_state_save(state, nullptr, &size), "sizing a saved state");
-  std::vector<std::byte> bytes(size);
-  check(grainlaw_state_save(state, bytes.data(), &size), "saving a state");
-  return bytes;
 }
 
 // Periodic to left and right, discs that F moves below, a rigid row above; the vertical stress is
@@ -132,10 +124,9 @@ MaterialSource layer(MaterialSource source) {
 }
 
 // Into a copy: loading drops the trial.
-void save_and_load(grainlaw_state* state) {
-  const auto bytes = save(state);
-  const State copy = clone(state);
-  check(grainlaw_state_load(copy.get(), bytes.data(), bytes.size()), "loading a state");
+void save_and_load(const State& state) {
+  State copy = state;
+  copy.load(state.save());
 }
 
 std::vector<Feature> features(const StudyOptions& options, int count, double tolerance) {
@@ -178,15 +169,8 @@ std::vector<Feature> features(const StudyOptions& options, int count, double tol
       {"layer under P22", layer(base), base, path, {}},
       {"start = trial, 3 iterates", trial, base, compression(increments, 3), {}},
       {"all measures", base, base, path, {0, take_all_measures}},
-      {"VTK file",
-       base,
-       base,
-       path,
-       {0,
-        [vtk](grainlaw_state* state) {
-          check(grainlaw_state_write_vtk(state, vtk.c_str()), vtk);
-        }}},
-      {"save", base, base, path, {0, [](grainlaw_state* state) { save(state); }}},
+      {"VTK file", base, base, path, {0, [vtk](const State& state) { state.write_vtk(vtk); }}},
+      {"save", base, base, path, {0, [](const State& state) { static_cast<void>(state.save()); }}},
       {"save, clone and load", base, base, path, {0, save_and_load}}};
 
   // The servo takes a hundred times the steps: a small packing and a loose tolerance.

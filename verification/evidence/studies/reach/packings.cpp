@@ -35,10 +35,9 @@ Material read(const PackingRecipe& recipe, const std::string& name, double young
   return make_material(source);
 }
 
-void write(const grainlaw_state* state, const PackingRecipe& recipe, const std::string& name) {
+void write(const State& state, const PackingRecipe& recipe, const std::string& name) {
   std::filesystem::create_directories(recipe.directory);
-  check(grainlaw_state_write_packing(state, (recipe.directory / name).string().c_str()),
-        "writing a packing");
+  state.write_packing((recipe.directory / name).string());
 }
 
 bool is_kept(const PackingRecipe& recipe, const std::string& name) {
@@ -62,8 +61,8 @@ std::string compact(const PackingRecipe& recipe, double stiffness) {
   for (long seed = recipe.seed;; ++seed) {
     change(source, "packing", "seed", seed);
     try {
-      const State state = make_state(make_material(source));
-      write(state.get(), recipe, name_of(seed));
+      State state(make_material(source));
+      write(state, recipe, name_of(seed));
       return name_of(seed);
     } catch (const ComputationError& error) {
       fmt::print("kn/p = {:.0e}, seed {}: {}\n", stiffness, seed, error.what());
@@ -86,7 +85,7 @@ struct Pressure {
 };
 
 // Expands a packing until its pressure has fallen to the share of what it was.
-void unload(grainlaw_state* state, double share) {
+void unload(State& state, double share) {
   constexpr double largest_decrease = 0.2;  // of the pressure in one increment
   constexpr double accuracy = 0.01;
   constexpr double least_decrease = 1e-6;  // where smaller ones would be needed it is given up
@@ -105,13 +104,13 @@ void unload(grainlaw_state* state, double share) {
     const bool good =
         result.status == GRAINLAW_OK && Pressure(result, next).value > (1 - accuracy) * target;
     if (good) {
-      check(grainlaw_commit(state), "committing");
+      state.commit();
       stretch = next;
       now = Pressure(result, next);
     }
     decrease = good ? std::min(2 * decrease, largest_decrease) : 0.5 * decrease;
   }
-  check(grainlaw_revert(state), "dropping a trial");
+  state.revert();
   if (now.value > (1 + accuracy) * target)
     throw ComputationError(
         fmt::format("unloading a packing ended at {:.3g} Pa instead of {:.3g}", now.value, target));
@@ -124,9 +123,9 @@ std::string make_packing(const PackingRecipe& recipe, double stiffness) {
   const std::string from = compact(recipe, stiffest_compaction);
   const std::string name = fmt::format("{}_to_{:.0e}", from, stiffness);
   if (is_kept(recipe, name)) return name;
-  const State state = make_state(read(recipe, from, young(stiffness), 0));
-  unload(state.get(), stiffest_compaction / stiffness);
-  write(state.get(), recipe, name);
+  State state(read(recipe, from, young(stiffness), 0));
+  unload(state, stiffest_compaction / stiffness);
+  write(state, recipe, name);
   return name;
 }
 

@@ -31,11 +31,11 @@ class Walker {
  public:
   Walker(Path& path, const Material& material)
       : path_(path),
-        state_(make_state(material)),
-        evaluation_(evaluate(state_.get(), deformation_, GRAINLAW_WANT_TANGENT_EXACT)),
+        state_(material),
+        evaluation_(evaluate(state_, deformation_, GRAINLAW_WANT_TANGENT_EXACT)),
         start_pressure_(pressure(evaluation_, deformation_)) {
     check(evaluation_.status, "evaluating the start at F = I");
-    check(grainlaw_revert(state_.get()), "dropping the trial at F = I");
+    state_.revert();
   }
 
   [[nodiscard]] const Tensor& deformation() const { return deformation_; }
@@ -56,7 +56,7 @@ class Walker {
   // One evaluation at the target, from the committed state; leaves the trial.
   Evaluation solve(const Tensor& target) {
     const double start = cpu_milliseconds();
-    Evaluation result = evaluate(state_.get(), target, GRAINLAW_WANT_TANGENT_EXACT);
+    Evaluation result = evaluate(state_, target, GRAINLAW_WANT_TANGENT_EXACT);
     cpu_ = cpu_milliseconds() - start;
     return result;
   }
@@ -77,7 +77,7 @@ class Walker {
   }
 
   void commit(const Tensor& target, const Evaluation& result) {
-    check(grainlaw_commit(state_.get()), "committing an increment");
+    state_.commit();
     deformation_ = target;
     evaluation_ = result;
     path_.pressure = pressure_ratio();
@@ -156,8 +156,8 @@ void lead_drained(Path& path, const Material& material, double axial, int steps,
       const Tensor& target = step.record.deformation;
       const Evaluation result = walker.solve(target);
       walker.describe(target, result, step.record.axial_strain(), observe);
-      State led = clone(step.state);
-      check(grainlaw_commit(led.get()), "committing a step");
+      State led = step.state;
+      led.commit();
       walker.replace(std::move(led), target, step.evaluation);
     });
   } catch (const ComputationError& error) {

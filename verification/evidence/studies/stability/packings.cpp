@@ -98,9 +98,7 @@ std::string PackingStore::ensure(const Recipe& recipe) const {
                                        recipe.stiffness, recipe.size_ratio, recipe.seed);
   if (std::filesystem::exists(directory_ / (name + "_cell.csv"))) return name;
   std::filesystem::create_directories(directory_);
-  const State state = make_state(make(recipe));
-  check(grainlaw_state_write_packing(state.get(), (directory_ / name).string().c_str()),
-        "writing a packing");
+  State(make(recipe)).write_packing((directory_ / name).string());
   return name;
 }
 
@@ -140,12 +138,12 @@ Material PackingStore::barely_touching(const Recipe& recipe, Contact contact) co
   contact.young = recipe.young();
   const std::string name = ensure(recipe) + "_barely_touching";
   const Material tight = from_files(ensure(recipe), contact, true);
-  const State state = make_state(tight);
+  State state(tight);
   double stretch = 1;
   for (double step = 0.1 / recipe.stiffness; step > 1e-6 / recipe.stiffness;) {
     const Tensor deformation = (stretch + step) * Tensor::Identity();
-    if (evaluate(state.get(), deformation, 0).status == GRAINLAW_OK) {
-      check(grainlaw_commit(state.get()), "committing");
+    if (evaluate(state, deformation, 0).status == GRAINLAW_OK) {
+      state.commit();
       stretch += step;
     } else {
       step *= 0.5;

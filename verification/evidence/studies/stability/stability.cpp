@@ -124,13 +124,13 @@ Row row_without_walk(const Case& one, const std::string& ends) {
 // A refused material is defined when there is no equilibrium; otherwise this study is wrong.
 Row run_case(const Case& one) {
   try {
-    Material material;
+    std::optional<Material> material;
     try {
       material = one.material();
     } catch (const ComputationError& error) {
       return row_without_walk(one, fmt::format("defined: no material: {}", error.what()));
     }
-    return row_of(one, walk(material, one.path));
+    return row_of(one, walk(*material, one.path));
   } catch (const std::exception& error) {
     return row_without_walk(one, undefined + std::string(error.what()));
   }

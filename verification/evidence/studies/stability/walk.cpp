@@ -22,14 +22,6 @@ constexpr double dissipation_rounding = 1e-9;  // of the total work [-]
 // a jump it is of second order in the increment, and the mean work of first.
 constexpr double jump = 0.1;
 
-std::vector<unsigned char> saved(const grainlaw_state* state) {
-  std::size_t size = 0;
-  check(grainlaw_state_save(state, nullptr, &size), "sizing a saved state");
-  std::vector<unsigned char> bytes(size);
-  check(grainlaw_state_save(state, bytes.data(), &size), "saving a state");
-  return bytes;
-}
-
 // The anisotropy of a packing whose contacts all point one way is infinite by its definition.
 bool defined(grainlaw_measure what, double value) {
   return std::isfinite(value) ||
@@ -46,7 +38,7 @@ Tensor rotation_of(const Tensor& f) {
 
 class Host {
  public:
-  Host(const Material& material, const Path& path) : path_(path), state_(make_state(material)) {
+  Host(const Material& material, const Path& path) : path_(path), state_(material) {
     volume_ = measure_scalar(state_.get(), GRAINLAW_REFERENCE_VOLUME);
     first_stored_ = stored_ = measure_scalar(state_.get(), GRAINLAW_ELASTIC_ENERGY);
   }
@@ -120,9 +112,9 @@ class Host {
 
   // One evaluation, and a commit when it succeeds.
   bool step_to(const Tensor& deformation) {
-    const std::vector<unsigned char> before = saved(state_.get());
+    const std::vector<std::byte> before = state_.save();
     const double start = cpu_seconds();
-    const Evaluation found = evaluate(state_.get(), deformation, GRAINLAW_WANT_TANGENT_EXACT);
+    const Evaluation found = evaluate(state_, deformation, GRAINLAW_WANT_TANGENT_EXACT);
     const double spent = cpu_seconds() - start;
     count(found, spent);
     if (found.status != GRAINLAW_OK) {
@@ -131,7 +123,7 @@ class Host {
       return false;
     }
     check_success(found);
-    check(grainlaw_commit(state_.get()), "committing");
+    state_.commit();
     account(found, deformation);
     return true;
   }
@@ -168,8 +160,8 @@ class Host {
     if (report.tangent_exact == 0) ++walk_.inexact;
   }
 
-  void check_failure(const Evaluation& found, const std::vector<unsigned char>& before) {
-    if (saved(state_.get()) != before) violate("a failed evaluation changed the committed state");
+  void check_failure(const Evaluation& found, const std::vector<std::byte>& before) {
+    if (state_.save() != before) violate("a failed evaluation changed the committed state");
     if (!found.stress.isZero(0) || !found.tangent.isZero(0))
       violate("a failed evaluation wrote P or the tangent");
     const double ratio = found.report.step_ratio;
@@ -180,12 +172,12 @@ class Host {
 
   // After a failure the point must stand where it was, and a small step may still succeed.
   void try_small_step(const Tensor& failed) {
-    if (evaluate(state_.get(), here_, 0).status != GRAINLAW_OK)
+    if (evaluate(state_, here_, 0).status != GRAINLAW_OK)
       violate("after a failure the committed F itself finds no equilibrium");
     ++walk_.small_steps;
     const Tensor near = here_ + small_step * (failed - here_);
-    if (evaluate(state_.get(), near, 0).status == GRAINLAW_OK) ++walk_.small_steps_done;
-    check(grainlaw_revert(state_.get()), "reverting");
+    if (evaluate(state_, near, 0).status == GRAINLAW_OK) ++walk_.small_steps_done;
+    state_.revert();
   }
 
   void account(const Evaluation& found, const Tensor& deformation) {

@@ -35,11 +35,11 @@ class Stepper {
  public:
   Stepper(const Material& material, const NewtonOptions& options)
       : options_(options),
-        state_(make_state(material)),
-        evaluation_(evaluate(state_.get(), deformation_, GRAINLAW_WANT_TANGENT_EXACT)),
+        state_(material),
+        evaluation_(evaluate(state_, deformation_, GRAINLAW_WANT_TANGENT_EXACT)),
         target_(LateralStress(options.lateral, evaluation_, deformation_).value) {
     check(evaluation_.status, "evaluating the start at F = I");
-    check(grainlaw_revert(state_.get()), "dropping the trial at F = I");
+    state_.revert();
   }
 
   // False: not even a part of the step could be evaluated.
@@ -67,7 +67,7 @@ class Stepper {
     const int most = keep ? options_.max_iterations : part_iterations;
     for (int iteration = 0; iteration < most; ++iteration) {
       ++step.evaluations;
-      trial_ = evaluate(state_.get(), trial_deformation_, GRAINLAW_WANT_TANGENT_EXACT);
+      trial_ = evaluate(state_, trial_deformation_, GRAINLAW_WANT_TANGENT_EXACT);
       const grainlaw_report& report = trial_.report;
       if (keep) {
         ++step.iterations;
@@ -98,7 +98,7 @@ class Stepper {
     double done = 0;
     step.parts = 0;
     while (true) {
-      check(grainlaw_revert(state_.get()), "dropping a trial");
+      state_.revert();
       const double next = std::min(1.0, done + part);
       const double to = axial_stretch - (1 - next) * whole;
       if (!attempt(to, step, false)) {
@@ -116,12 +116,12 @@ class Stepper {
 
   // The best iterate of the rest of the step, in one part.
   bool accept_loosely(double axial_stretch, Step& step) {
-    check(grainlaw_revert(state_.get()), "dropping a trial");
+    state_.revert();
     if (!attempt(axial_stretch, step, false)) {
-      check(grainlaw_revert(state_.get()), "dropping a trial");
+      state_.revert();
       if (!std::isfinite(best_)) return false;
       trial_deformation_ = best_deformation_;
-      trial_ = evaluate(state_.get(), trial_deformation_, GRAINLAW_WANT_TANGENT_EXACT);
+      trial_ = evaluate(state_, trial_deformation_, GRAINLAW_WANT_TANGENT_EXACT);
       ++step.evaluations;
       ++step.loose;
     }
@@ -130,15 +130,15 @@ class Stepper {
   }
 
   [[nodiscard]] double dependence() const {
-    const State alone = clone(state_.get());
-    check(grainlaw_revert(alone.get()), "dropping a trial");
-    const Evaluation again = evaluate(alone.get(), trial_deformation_, 0);
+    State alone = state_;
+    alone.revert();
+    const Evaluation again = evaluate(alone, trial_deformation_, 0);
     if (again.status != GRAINLAW_OK) return std::numeric_limits<double>::quiet_NaN();
     return (trial_.stress - again.stress).norm() / again.stress.norm();
   }
 
   void commit() {
-    check(grainlaw_commit(state_.get()), "committing a step");
+    state_.commit();
     deformation_ = trial_deformation_;
     evaluation_ = trial_;
   }
