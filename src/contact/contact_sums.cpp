@@ -43,22 +43,30 @@ void ContactSums<D>::arrange(std::span<const std::int32_t> i, std::span<const st
     most = std::max(most, ++as_j_[node_of(j[c])]);
   }
 
-  // Nodes sorted by both numbers, by counting.
-  const std::uint32_t stride = most + 1;
-  const auto kind = [&](std::size_t q) { return std::size_t{as_i_[q]} * stride + as_j_[q]; };
-  zeroes(kinds_, std::size_t{stride} * stride + 1);
-  for (std::size_t q = 0; q < nodes; ++q) ++kinds_[kind(q) + 1];
+  // Nodes sorted by their contacts as i, among equals by those as j: counted by j, then by i.
+  const auto sort_by = [&](const std::vector<std::uint32_t>& count, auto&& node_at,
+                           std::vector<std::uint32_t>& sorted) {
+    zeroes(places_, std::size_t{most} + 2);
+    for (std::size_t q = 0; q < nodes; ++q) ++places_[count[q] + 1];
+    for (std::size_t k = 1; k < places_.size(); ++k) places_[k] += places_[k - 1];
+    resize_with_room(sorted, nodes);
+    for (std::size_t q = 0; q < nodes; ++q) {
+      const std::uint32_t node_q = node_at(q);
+      sorted[places_[count[node_q]]++] = node_q;
+    }
+  };
+  sort_by(
+      as_j_, [](std::size_t q) { return static_cast<std::uint32_t>(q); }, begin_);
+  sort_by(
+      as_i_, [&](std::size_t q) { return begin_[q]; }, node_);
   runs_.clear();
   runs_.reserve(nodes);
-  for (std::uint32_t a = 0; a < stride; ++a) {
-    for (std::uint32_t b = 0; b < stride; ++b) {
-      const std::size_t k = std::size_t{a} * stride + b;
-      if (kinds_[k + 1] > 0) runs_.push_back({kinds_[k + 1], a, b});
-      kinds_[k + 1] += kinds_[k];
+  for (const std::uint32_t q : node_) {
+    if (runs_.empty() || runs_.back().as_i != as_i_[q] || runs_.back().as_j != as_j_[q]) {
+      runs_.push_back({0, as_i_[q], as_j_[q]});
     }
+    ++runs_.back().nodes;
   }
-  resize_with_room(node_, nodes);
-  for (std::size_t q = 0; q < nodes; ++q) node_[kinds_[kind(q)]++] = static_cast<std::uint32_t>(q);
 
   resize_with_room(begin_, nodes);
   std::uint32_t free = 0;

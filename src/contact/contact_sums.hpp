@@ -67,7 +67,7 @@ class ContactSums {
   std::vector<Run> runs_;
   std::vector<std::uint32_t> node_;     // in this order
   std::vector<std::uint32_t> contact_;  // of each node, first those it is i of
-  std::vector<std::uint32_t> as_i_, as_j_, begin_, kinds_;
+  std::vector<std::uint32_t> as_i_, as_j_, begin_, places_;
 };
 
 }  // namespace grainlaw::core

@@ -170,6 +170,16 @@ void fit_frame(const BoundaryOptions& boundary, Packing& packing) {
   }
 }
 
+// Longer bonds would hold each particle to all around it.
+void check_bond_gap(const ContactLaw& law, const Packing& packing) {
+  if (!law.bonds() || packing.radius.empty()) return;
+  const double diameter = 2 * *std::ranges::max_element(packing.radius);
+  if (law.bond.gap <= diameter) return;
+  throw Error(GRAINLAW_BAD_MATERIAL,
+              fmt::format("contact.bond.gap: found {}, expected at most the largest diameter, {}",
+                          law.bond.gap, diameter));
+}
+
 template <int D>
 BoundarySpace<D> space_of(const Packing& packing, const BoundaryOptions& boundary) {
   if constexpr (D == 2) {
@@ -190,6 +200,7 @@ std::shared_ptr<const Material<D>> make_material(MaterialDescription description
   material->packing = std::move(description.packing);
   material->law = description.law;
   material->solver = description.solver;
+  check_bond_gap(material->law, material->packing);
   fit_frame<D>(description.boundary, material->packing);
   material->packing.order = row_order(material->packing);
   material->space = space_of<D>(material->packing, description.boundary);

@@ -2,6 +2,7 @@
 #include "boundary_support.hpp"
 #include "law_support.hpp"
 
+#include "base/error.hpp"
 #include "boundary/boundary_space.hpp"
 #include "increment/increment.hpp"
 
@@ -112,6 +113,19 @@ MaterialDescription lattice() {
   description.law.bond.gap = 1e-6;
   description.solver.tolerance = 1e-10;
   return description;
+}
+
+TEST(bond_failure, bonds_longer_than_a_diameter_are_refused_by_name) {
+  MaterialDescription description = lattice();
+  description.law.bond.gap = 2.1;
+  try {
+    make_material(description);
+    FAIL() << "expected an error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status, GRAINLAW_BAD_MATERIAL);
+    EXPECT_STREQ(error.what(),
+                 "contact.bond.gap: found 2.1, expected at most the largest diameter, 2");
+  }
 }
 
 TEST(bond_failure, of_a_lattice_under_tension) {

@@ -95,6 +95,14 @@ TEST(neighbours, of_a_cell_smaller_than_a_particle_come_with_all_images) {
         expect_as_brute_force(random_discs(n, cell, radius, 0, rng), cell.data(), 0.1);
 }
 
+TEST(neighbours, of_a_cell_far_thinner_than_a_particle_are_refused) {
+  const Discs disc{{0, 0}, {40}};
+  std::vector<NeighbourPair<2>> pairs;
+  EXPECT_THROW(NeighbourSearch<2>().find(1, disc.position.data(), disc.radius.data(), square.data(),
+                                         0, pairs),
+               Error);
+}
+
 TEST(neighbours, are_found_from_unwrapped_positions) {
   std::mt19937_64 rng(3);
   for (const auto& cell : {square, sheared, rotated})
