@@ -2,7 +2,9 @@
 // its callback and throws InputError or ComputationError.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace verification {
 

@@ -3,6 +3,8 @@
 #include "app/commands.hpp"
 #include "app/program.hpp"
 
+#include <CLI/CLI.hpp>
+
 int main(int argc, char** argv) {
   CLI::App app("A constitutive law made of grains: drivers of representative volumes", "grainlaw");
   verification::add_point_command(app);

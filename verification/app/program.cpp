@@ -5,6 +5,8 @@
 #include "app/progress.hpp"
 #include "app/text.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <csignal>
 #include <exception>
 #include <string>

@@ -1,7 +1,9 @@
 // What the programs share: signals, and how errors become exit codes.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace verification {
 

@@ -7,6 +7,8 @@
 #include "evidence/papers/liu2019_biaxial/biaxial.hpp"
 #include "evidence/studies/study.hpp"
 
+#include <CLI/CLI.hpp>
+
 int main(int argc, char** argv) {
   using namespace verification;
   CLI::App app("Measures what the project claims", "grainlaw_evidence");

@@ -11,6 +11,7 @@
 #include "wave/run.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <array>
 #include <exception>

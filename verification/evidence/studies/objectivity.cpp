@@ -3,6 +3,7 @@
 #include "evidence/studies/study.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cmath>
 #include <limits>

@@ -5,6 +5,7 @@
 #include "app/progress.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <array>
 #include <cmath>

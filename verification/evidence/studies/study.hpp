@@ -5,14 +5,16 @@
 #include "app/table.hpp"
 #include "point/driver.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace verification {
 

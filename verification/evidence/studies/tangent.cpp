@@ -6,6 +6,7 @@
 #include "app/progress.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <limits>
 #include <optional>

@@ -7,6 +7,7 @@
 #include "app/progress.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 namespace verification {
 namespace {

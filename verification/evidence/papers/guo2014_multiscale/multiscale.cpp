@@ -1,5 +1,7 @@
 #include "evidence/papers/guo2014_multiscale/multiscale.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,7 @@
 #include "evidence/papers/liu2017_boundary/boundary.hpp"
 
+#include <CLI/CLI.hpp>
+
 namespace verification {
 
 void add_liu2017_boundary_study(CLI::App& app, const std::shared_ptr<StudyOptions>& options) {

@@ -1,6 +1,7 @@
 #include "evidence/papers/liu2018_waves/waves.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,6 +4,8 @@
 
 #include "evidence/papers/results.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <filesystem>
 #include <optional>
 #include <string>

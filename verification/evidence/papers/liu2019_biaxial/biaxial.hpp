@@ -4,6 +4,8 @@
 
 #include "evidence/papers/results.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <optional>
 #include <string>
 #include <vector>

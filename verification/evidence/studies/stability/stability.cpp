@@ -7,6 +7,7 @@
 #include "evidence/studies/stability/isolated.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>
