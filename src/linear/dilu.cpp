@@ -1,0 +1,169 @@
+// The factorisation.
+#include "linear/dilu.hpp"
+
+#include "base/room.hpp"
+#include "linear/dense_block.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace grainlaw::core {
+
+using namespace simd;
+
+namespace {
+
+constexpr std::size_t b = Dilu::size;
+constexpr std::size_t width = Dilu::width;
+using Block = Dilu::Block;
+using Triangle = Dilu::Triangle;
+using V = Lanes<width>;
+
+std::size_t at(std::int32_t place) { return static_cast<std::size_t>(place); }
+
+struct Values {
+  const BlockMatrix<width>& matrix;
+  const BlockColumn<width>* ground;
+  BlockColumn<width>* scale;
+  const std::int32_t* edge_of_lower;
+  Block* inverse;
+  Block* diagonal;
+  Triangle& lower;
+  Triangle& upper;
+};
+
+GRAINLAW_INLINE Block scaled(const BlockColumn<width>* a, const BlockColumn<width>& row,
+                             const BlockColumn<width>& column) {
+  Block result;
+#pragma GCC unroll 6
+  for (std::size_t c = 0; c < b; ++c) {
+    store(result.column[c].lane, load<width>(a[c].lane) * load<width>(row.lane) * column.lane[c]);
+  }
+  return result;
+}
+
+// factor x f y, added to `to`.
+GRAINLAW_INLINE void add_product(Block& to, double factor, const Block& x, const Block& y) {
+#pragma GCC unroll 6
+  for (std::size_t c = 0; c < b; ++c) {
+    V sum = load<width>(to.column[c].lane);
+#pragma GCC unroll 6
+    for (std::size_t k = 0; k < b; ++k) {
+      sum += load<width>(x.column[k].lane) * (factor * y.column[c].lane[k]);
+    }
+    store(to.column[c].lane, sum);
+  }
+}
+
+// Of a singular block the identity: scaled blocks are of that size.
+Block inverse_of(Block block) {
+  Block result{};
+  double* const a = block.column[0].lane;
+  dense::Pivot pivot;
+  const bool regular = dense::triangulate<b>(a, pivot);
+  for (std::size_t c = 0; c < b; ++c) {
+    double x[b];
+    const auto unit = [c](std::size_t row) { return row == c ? 1.0 : 0.0; };
+    if (regular) {
+      dense::divide_column<b>(x, a, width, pivot, unit);
+    } else {
+      for (std::size_t r = 0; r < b; ++r) x[r] = unit(r);
+    }
+    std::copy_n(x, b, result.column[c].lane);
+  }
+  return result;
+}
+
+void find_scale(const Values& v) {
+  for (std::size_t q = 0; q < v.matrix.nodes; ++q) {
+    v.scale[q] = {};
+    for (std::size_t k = 0; k < b; ++k) {
+      const double value = std::abs(v.matrix.block(q)[k].lane[k]) + v.ground[q].lane[k];
+      v.scale[q].lane[k] = 1 / std::sqrt(value);
+    }
+  }
+}
+
+GRAINLAW_CLONES void factorise_rows(const Values& v) {
+  const auto& matrix = v.matrix;
+  for (std::size_t q = 0; q < matrix.nodes; ++q) {
+    const auto& row = v.scale[q];
+    const Block own = scaled(matrix.block(q), row, row);
+    Block pivot = own;
+    for (std::size_t k = 0; k < b; ++k) {
+      pivot.column[k].lane[k] += v.ground[q].lane[k] * row.lane[k] * row.lane[k];
+    }
+    for (std::size_t k = v.lower.begin[q]; k < v.lower.begin[q + 1]; ++k) {
+      const std::size_t edge = at(v.edge_of_lower[k]);
+      v.lower.block[k] =
+          scaled(matrix.block(matrix.lower(edge)), row, v.scale[at(v.lower.node[k])]);
+      add_product(pivot, 1, v.lower.block[k], v.upper.block[edge]);
+    }
+    const Block inverse = v.inverse[q] = inverse_of(pivot);
+    for (std::size_t k = v.lower.begin[q]; k < v.lower.begin[q + 1]; ++k) {
+      const Block block = v.lower.block[k];
+      v.lower.block[k] = {};
+      add_product(v.lower.block[k], -1, inverse, block);
+    }
+    for (std::size_t k = v.upper.begin[q]; k < v.upper.begin[q + 1]; ++k) {
+      v.upper.block[k] = {};
+      add_product(v.upper.block[k], -1, inverse,
+                  scaled(matrix.block(matrix.upper(k)), row, v.scale[at(v.upper.node[k])]));
+    }
+    v.diagonal[q] = {};
+    add_product(v.diagonal[q], 1, inverse, own);
+    for (std::size_t k = 0; k < b; ++k) v.diagonal[q].column[k].lane[k] -= 2;
+  }
+}
+
+}  // namespace
+
+// The edges are ordered by their first node: they are the upper triangle row by row.
+void Dilu::list_rows() {
+  for (Triangle* triangle : {&lower_, &upper_}) {
+    resize_with_room(triangle->begin, nodes_ + 1);
+    std::fill(triangle->begin.begin(), triangle->begin.end(), 0);
+    resize_with_room(triangle->node, edges_.size());
+    resize_with_room(triangle->block, edges_.size());
+  }
+  for (const auto& [p, q] : edges_) {
+    ++upper_.begin[at(p) + 1];
+    ++lower_.begin[at(q) + 1];
+  }
+  for (Triangle* triangle : {&lower_, &upper_}) {
+    std::partial_sum(triangle->begin.begin(), triangle->begin.end(), triangle->begin.begin());
+  }
+  resize_with_room(next_, nodes_);
+  std::copy_n(lower_.begin.begin(), nodes_, next_.begin());
+  resize_with_room(edge_of_lower_, edges_.size());
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const auto [p, q] = edges_[e];
+    upper_.node[e] = q;
+    const std::size_t place = next_[at(q)]++;
+    lower_.node[place] = p;
+    edge_of_lower_[place] = static_cast<std::int32_t>(e);
+  }
+}
+
+void Dilu::factorise(const BlockMatrix<width>& matrix, std::span<const Column> ground) {
+  const bool known = nodes_ == matrix.nodes && edges_ == matrix.edges;
+  if (!known) {
+    nodes_ = matrix.nodes;
+    copy_with_room(matrix.edges, edges_);
+    list_rows();
+    resize_with_room(scale_, nodes_);
+    resize_with_room(inverse_, nodes_);
+    resize_with_room(diagonal_, nodes_);
+    resize_with_room(half_, nodes_);
+    resize_with_room(rest_, nodes_);
+    reserve_with_room(half_together_, b * nodes_);
+    reserve_with_room(rest_together_, b * nodes_);
+  }
+  const Values values{matrix,          ground.data(),    scale_.data(), edge_of_lower_.data(),
+                      inverse_.data(), diagonal_.data(), lower_,        upper_};
+  find_scale(values);
+  factorise_rows(values);
+}
+
+}  // namespace grainlaw::core

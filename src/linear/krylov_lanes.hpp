@@ -1,0 +1,31 @@
+// What one vector and several together differ by.
+#pragma once
+
+#include "linear/dilu.hpp"
+
+#include <algorithm>
+
+namespace grainlaw::core {
+
+template <class Entry>
+struct lanes_of;
+
+template <>
+struct lanes_of<BlockColumn<8>> {
+  static constexpr std::size_t entries = 1;  // of a node
+  static constexpr std::size_t shadows = 8;  // numbers of a shadow for an entry
+  static void reduce(double* sums) {
+    double total = 0;
+    for (std::size_t l = 0; l < Dilu::width; ++l) total += sums[l];
+    std::fill_n(sums, Dilu::width, total);
+  }
+};
+
+template <>
+struct lanes_of<Together<8>> {
+  static constexpr std::size_t entries = Dilu::size;
+  static constexpr std::size_t shadows = 1;
+  static void reduce(double* /*sums*/) {}
+};
+
+}  // namespace grainlaw::core
