@@ -104,18 +104,27 @@ class PseudoTransientNewton {
     mechanisms.find(increment_, memory_.stiffness.touching());
   }
 
+  // What a step may leave of the residual: what Newton's method would leave itself, from step to step.
+  [[nodiscard]] double forcing() {
+    if constexpr (D == 2) return 0;
+    const double ratio = full_steps_ && last_norm_ > 0 ? norm_ / last_norm_ : 1;
+    last_norm_ = norm_;
+    const double least = tuned::share_of_tolerance * tolerance_ / increment_.residual_norm();
+    return std::min(std::max(ratio * ratio, least), tuned::loose_step);
+  }
+
   // For memory_.step, at the present coordinates, of what was assembled there.
   bool solve() {
     auto& stiffness = memory_.stiffness;
     const auto& residual = memory_.residual;
     auto& step = memory_.step;
-    stiffness.factorise(increment_);
     if constexpr (D == 2) {
       if (BorderedSystem::needed(*increment_.problem().space)) {
+        stiffness.factorise(increment_);
         return memory_.border.solve(increment_, stiffness, shift_, residual, step);
       }
     }
-    return stiffness.solve(increment_, residual, step);
+    return stiffness.solve_step(increment_, residual, forcing(), step);
   }
 
   void keep_best() {
@@ -266,8 +275,9 @@ class PseudoTransientNewton {
   RelaxationMemory<D>* relaxation_;  // null: none
   bool may_roll_;                    // there may be some
   double shift_ = tuned::first_shift;
-  double norm_ = 0;  // of the residual at the present coordinates
-  double best_ = 0;  // the least so far, at memory.best
+  double norm_ = 0;       // of the residual at the present coordinates
+  double last_norm_ = 0;  // before the last step; 0: there was none
+  double best_ = 0;       // the least so far, at memory.best
   Tensor<D> best_deformation_{};
   int without_gain_ = 0;
   bool full_steps_ = true;

@@ -19,6 +19,9 @@ struct lanes_of<BlockColumn<8>> {
     for (std::size_t l = 0; l < Dilu::width; ++l) total += sums[l];
     std::fill_n(sums, Dilu::width, total);
   }
+  static void find_largest(double* values) {
+    std::fill_n(values, Dilu::width, *std::max_element(values, values + Dilu::width));
+  }
 };
 
 template <>
@@ -26,6 +29,7 @@ struct lanes_of<Together<8>> {
   static constexpr std::size_t entries = Dilu::size;
   static constexpr std::size_t shadows = 1;
   static void reduce(double* /*sums*/) {}
+  static void find_largest(double* /*values*/) {}
 };
 
 }  // namespace grainlaw::core

@@ -17,6 +17,9 @@ template <>
 void Stiffness<2>::link_anchors(const Increment<2>& increment);
 template <>
 void Stiffness<2>::add_anchors(const Increment<2>& increment);
+template <>
+bool Stiffness<2>::solve_step(Increment<2>& increment, std::span<const double> b, double forcing,
+                              std::span<double> x);
 
 // Every so many nodes of an average is an anchor: enough to hold the frame, few enough to link.
 inline std::size_t anchor_stride(const AverageConstraint& average) {

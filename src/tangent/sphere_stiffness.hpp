@@ -14,4 +14,13 @@ void Stiffness<3>::add_moments();
 template <>
 void Stiffness<3>::hold_free_spins(const Increment<3>& increment);
 
+template <>
+void Stiffness<3>::prepare_iteration(Increment<3>& increment);
+template <>
+bool Stiffness<3>::solve_step(Increment<3>& increment, std::span<const double> b, double forcing,
+                              std::span<double> x);
+template <>
+bool Stiffness<3>::iterate_together(Increment<3>& increment, std::span<const Together<width>> b,
+                                    std::span<Together<width>> x);
+
 }  // namespace grainlaw::core

@@ -1,11 +1,13 @@
 // The exact stiffness -dr/dz of the reduced residual, and linear solves with it.
 #pragma once
 
+#include "base/constants.hpp"
 #include "contact/contact_point.hpp"
 #include "increment/increment.hpp"
 #include "linear/block_lu.hpp"
 #include "linear/block_matrix.hpp"
 #include "linear/gmres.hpp"
+#include "linear/iterative.hpp"
 
 #include <algorithm>
 #include <array>
@@ -56,16 +58,33 @@ class Stiffness {
   // Factorise what was assembled.
   void factorise(Increment<D>& increment);
 
-  // x = K^-1 b, refined until the residual is below the tolerance (largest entry, relative to b) or
+  // x = K^-1 b of what was factorised, refined until the residual is below the tolerance (largest entry, relative to b) or
   // while that helps; by GMRES where that ends far from it. False when b is not in the range of K to
   // working precision, or the factors are of no use.
   bool solve(const Increment<D>& increment, std::span<const double> b, std::span<double> x,
              double tolerance = 1e-8);
 
+  // A step of Newton's method. Of many spheres it leaves up to `forcing` of b, else as little as
+  // solve().
+  bool solve_step(Increment<D>& increment, std::span<const double> b, double forcing,
+                  std::span<double> x);
+
   // The same of several vectors together. Of K just assembled, without factorise() before: old factors
   // do when refinement with them converges quickly, else K is factorised here.
   bool solve_together(Increment<D>& increment, std::span<const Together<width>> b,
                       std::span<Together<width>> x);
+
+  // Of spheres, from so many nodes on: by Krylov methods, and by factors where those do not get there
+  // with so many products each.
+  void iterate_from(std::size_t nodes, int most_products = tuned::most_products) {
+    iterative_from_ = nodes;
+    most_products_ = most_products;
+  }
+  // Products that these took so far.
+  [[nodiscard]] int products() const {
+    if constexpr (D == 3) return iterative_.products;
+    return 0;
+  }
 
   // K x of what was assembled, component-major.
   [[nodiscard]] std::vector<double> product(std::span<const double> x) const;
@@ -91,12 +110,23 @@ class Stiffness {
   bool solve_together_by_factors(const Increment<D>& increment, std::span<const Together<width>> b,
                                  std::span<Together<width>> x);
   bool solve_by_gmres(const Increment<D>& increment);
+  void ground(const Increment<D>& increment, double share);
+  void set_right(std::span<const double> b);
+  void give_solution(std::span<double> x) const;
+  [[nodiscard]] bool iterates() const { return D == 3 && matrix_.nodes >= iterative_from_; }
+  void prepare_iteration(Increment<D>& increment);
+  bool iterate_together(Increment<D>& increment, std::span<const Together<width>> b,
+                        std::span<Together<width>> x);
 
   enum class Factors { none, of_earlier_matrix, of_matrix };
 
   BlockMatrix<width> matrix_;
   BlockLU<width> lu_;
   Gmres<width> gmres_;
+  struct Nothing {};
+  [[no_unique_address]] std::conditional_t<D == 3, Iterative, Nothing> iterative_;
+  std::size_t iterative_from_ = tuned::iterative_nodes;
+  int most_products_ = tuned::most_products;
   Factors factors_ = Factors::none;
   std::vector<TouchingContact<D>> touching_;
   std::vector<ContactMoment<D>> moments_;

@@ -63,20 +63,46 @@ void add_to(std::span<Register> to, const std::vector<Register>& values) {
 
 }  // namespace
 
+// What is added to the diagonal for the factors alone.
+template <int D>
+void Stiffness<D>::ground(const Increment<D>& increment, double share) {
+  const auto b = static_cast<std::size_t>(matrix_.components);
+  resize_with_room(ground_, matrix_.nodes);
+  for (std::size_t q = 0; q < matrix_.nodes; ++q) {
+    for (std::size_t k = 0; k < b; ++k) {
+      ground_[q].lane[k] = share * increment.masses().of_unknowns()[k * matrix_.nodes + q];
+    }
+  }
+}
+
 template <int D>
 void Stiffness<D>::factorise(Increment<D>& increment) {
   const bool first = increment.cost.factorisations++ == 0;
   lu_.analyse(matrix_, !first);
   gmres_.reserve(matrix_.nodes);
-  const auto b = static_cast<std::size_t>(matrix_.components);
-  resize_with_room(ground_, matrix_.nodes);
-  for (std::size_t q = 0; q < matrix_.nodes; ++q) {
-    for (std::size_t k = 0; k < b; ++k) {
-      ground_[q].lane[k] =
-          tuned::grounding * increment.masses().of_unknowns()[k * matrix_.nodes + q];
-    }
-  }
+  ground(increment, tuned::grounding);
   factors_ = lu_.factorise(matrix_, ground_) ? Factors::of_matrix : Factors::none;
+}
+
+template <int D>
+void Stiffness<D>::set_right(std::span<const double> b) {
+  const auto nodes = matrix_.nodes;
+  const auto components = static_cast<std::size_t>(matrix_.components);
+  resize_with_room(right_, nodes);
+  resize_with_room(solution_, nodes);
+  for (std::size_t q = 0; q < nodes; ++q) {
+    right_[q] = {};
+    for (std::size_t k = 0; k < components; ++k) right_[q].lane[k] = b[k * nodes + q];
+  }
+}
+
+template <int D>
+void Stiffness<D>::give_solution(std::span<double> x) const {
+  const auto nodes = matrix_.nodes;
+  const auto components = static_cast<std::size_t>(matrix_.components);
+  for (std::size_t q = 0; q < nodes; ++q) {
+    for (std::size_t k = 0; k < components; ++k) x[k * nodes + q] = solution_[q].lane[k];
+  }
 }
 
 template <int D>
@@ -84,14 +110,8 @@ bool Stiffness<D>::solve(const Increment<D>& increment, std::span<const double> 
                          std::span<double> x, double tolerance) {
   if (factors_ != Factors::of_matrix) return false;
   const auto nodes = matrix_.nodes;
-  const auto components = static_cast<std::size_t>(matrix_.components);
-  resize_with_room(right_, nodes);
-  resize_with_room(solution_, nodes);
+  set_right(b);
   resize_with_room(check_, nodes);
-  for (std::size_t q = 0; q < nodes; ++q) {
-    right_[q] = {};
-    for (std::size_t k = 0; k < components; ++k) right_[q].lane[k] = b[k * nodes + q];
-  }
   const double scale = std::max(largest_of(right_, nodes), std::numeric_limits<double>::min());
   // Of a right-hand side that is rounding alone nothing can be solved for.
   const double enough = std::max(tuned::usable_solution, increment.scale().rounding() / scale);
@@ -109,10 +129,15 @@ bool Stiffness<D>::solve(const Increment<D>& increment, std::span<const double> 
     error = defect();
   }
   if (!(error <= enough) && !solve_by_gmres(increment)) return false;
-  for (std::size_t q = 0; q < nodes; ++q) {
-    for (std::size_t k = 0; k < components; ++k) x[k * nodes + q] = solution_[q].lane[k];
-  }
+  give_solution(x);
   return true;
+}
+
+template <>
+bool Stiffness<2>::solve_step(Increment<2>& increment, std::span<const double> b,
+                              double /*forcing*/, std::span<double> x) {
+  factorise(increment);
+  return solve(increment, b, x);
 }
 
 // From right_ to solution_.
@@ -169,6 +194,9 @@ bool Stiffness<D>::solve_together_by_factors(const Increment<D>& increment,
 template <int D>
 bool Stiffness<D>::solve_together(Increment<D>& increment, std::span<const Together<width>> b,
                                   std::span<Together<width>> x) {
+  if constexpr (D == 3) {
+    if (iterates() && iterate_together(increment, b, x)) return true;
+  }
   resize_with_room(check_together_, b.size());
   resize_with_room(kept_, b.size());
   if (factors_ == Factors::of_earlier_matrix && solve_together_by_factors(increment, b, x)) {
@@ -215,6 +243,9 @@ std::vector<double> Stiffness<D>::product(std::span<const double> x) const {
 }
 
 #define GRAINLAW_FOR(D)                                                                      \
+  template void Stiffness<D>::ground(const Increment<D>&, double);                           \
+  template void Stiffness<D>::set_right(std::span<const double>);                            \
+  template void Stiffness<D>::give_solution(std::span<double>) const;                        \
   template void Stiffness<D>::factorise(Increment<D>&);                                      \
   template std::vector<double> Stiffness<D>::product(std::span<const double>) const;         \
   template bool Stiffness<D>::solve(const Increment<D>&, std::span<const double>,            \

@@ -1,0 +1,130 @@
+#include "linear/iterative.hpp"
+
+#include "base/room.hpp"
+#include "linear/krylov_lanes.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace grainlaw::core {
+
+using namespace simd;
+
+namespace {
+
+constexpr std::size_t width = Dilu::width;
+using V = Lanes<width>;
+
+// By lane; infinite where a number is not finite.
+GRAINLAW_CLONES void largest_by_lane(const double* values, std::size_t count, double* result) {
+  V most{};
+  V poison{};
+  for (std::size_t k = 0; k < count; ++k) {
+    const V value = load<width>(values + k * width);
+    most = largest(most, magnitude(value));
+    poison += value * 0.0;
+  }
+  for (std::size_t l = 0; l < width; ++l) {
+    result[l] = poison[l] == 0 ? most[l] : std::numeric_limits<double>::infinity();
+  }
+}
+
+GRAINLAW_CLONES void add(const double* a, const double* b, std::size_t count, double* sum) {
+  for (std::size_t k = 0; k < count * width; k += width) {
+    store(sum + k, load<width>(a + k) + load<width>(b + k));
+  }
+}
+
+// In lanes that are not better there are numbers that may be none.
+void take_lanes(const double* from, std::size_t count, const bool* better, double* to) {
+  for (std::size_t k = 0; k < count * width; k += width) {
+    for (std::size_t l = 0; l < width; ++l) {
+      if (better[l]) to[k + l] = from[k + l];
+    }
+  }
+}
+
+void residual_of(const BlockMatrix<width>& a, std::span<const BlockColumn<width>> b,
+                 std::span<const BlockColumn<width>> x, std::span<BlockColumn<width>> r) {
+  a.residual(b, x, r);
+}
+void residual_of(const BlockMatrix<width>& a, std::span<const Together<width>> b,
+                 std::span<const Together<width>> x, std::span<Together<width>> r) {
+  a.residual_together(b, x, r);
+}
+
+}  // namespace
+
+template <>
+Iterative::Memory<BlockColumn<width>>& Iterative::memory() {
+  return one_;
+}
+template <>
+Iterative::Memory<Together<width>>& Iterative::memory() {
+  return several_;
+}
+
+void Iterative::prepare(const BlockMatrix<width>& matrix, std::span<const Column> ground) {
+  dilu_.factorise(matrix, ground);
+  const auto reserve = [&](auto& memory, std::size_t entries) {
+    memory.krylov.reserve(matrix.nodes);
+    for (auto* v : {&memory.rest, &memory.step, &memory.tried}) reserve_with_room(*v, entries);
+  };
+  reserve(one_, matrix.nodes);
+  reserve(several_, Dilu::size * matrix.nodes);
+}
+
+template <class Entry>
+double Iterative::solve(const BlockMatrix<width>& matrix, std::span<const Entry> b,
+                        std::span<Entry> x, const IterativeOptions& options) {
+  constexpr double margin = 0.3;  // between the norm of the factors and the largest entry
+  constexpr int attempts = 4;     // of which the first is BiCGStab
+  using Scalars = typename Krylov<Entry>::Scalars;
+  auto& [krylov, rest, step, tried] = memory<Entry>();
+  const std::size_t count = b.size();
+  for (auto* v : {&rest, &step, &tried}) v->resize(count);
+  Scalars scale, error;
+  const auto measure = [&](std::span<const Entry> residual) {
+    Scalars result;
+    largest_by_lane(residual[0].lane, count, result.lane);
+    lanes_of<Entry>::find_largest(result.lane);
+    return result;
+  };
+  scale = measure(b);
+  for (std::size_t l = 0; l < width; ++l) {
+    const double own = scale.lane[l];
+    scale.lane[l] = std::max({own, options.floor, std::numeric_limits<double>::min()});
+    error.lane[l] = own / scale.lane[l];
+  }
+  std::fill(x.begin(), x.end(), Entry{});
+  std::copy(b.begin(), b.end(), rest.begin());
+  const auto worst = [&] { return *std::max_element(error.lane, error.lane + width); };
+  for (int k = 0; k < attempts && worst() > options.tolerance; ++k) {
+    Scalars tolerance;
+    for (std::size_t l = 0; l < width; ++l) {
+      const bool done = error.lane[l] <= options.tolerance;
+      tolerance.lane[l] = done ? 2 : margin * options.tolerance / error.lane[l];
+    }
+    products += k == 0 ? krylov.bicgstab(dilu_, rest, step, tolerance, options.products)
+                       : krylov.idr(dilu_, rest, step, tolerance, options.products);
+    add(x[0].lane, step[0].lane, count, tried[0].lane);
+    residual_of(matrix, b, tried, step);
+    const Scalars largest = measure(step);
+    bool better[width];
+    for (std::size_t l = 0; l < width; ++l) {
+      const double now = largest.lane[l] / scale.lane[l];
+      better[l] = now < error.lane[l];
+      if (better[l]) error.lane[l] = now;
+    }
+    take_lanes(tried[0].lane, count, better, x[0].lane);
+    take_lanes(step[0].lane, count, better, rest[0].lane);
+  }
+  return worst();
+}
+
+template double Iterative::solve(const BlockMatrix<width>&, std::span<const BlockColumn<width>>,
+                                 std::span<BlockColumn<width>>, const IterativeOptions&);
+template double Iterative::solve(const BlockMatrix<width>&, std::span<const Together<width>>,
+                                 std::span<Together<width>>, const IterativeOptions&);
+
+}  // namespace grainlaw::core

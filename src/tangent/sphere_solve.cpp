@@ -1,0 +1,43 @@
+// Linear solves with the stiffness of many spheres: by Krylov methods, and by factors where those stall.
+#include "base/constants.hpp"
+#include "tangent/stiffness.hpp"
+
+#include <algorithm>
+
+namespace grainlaw::core {
+
+// Counts as a factorisation: an iteration of Newton's method has one.
+template <>
+void Stiffness<3>::prepare_iteration(Increment<3>& increment) {
+  ++increment.cost.factorisations;
+  ground(increment, tuned::incomplete_grounding);
+  iterative_.prepare(matrix_, ground_);
+}
+
+// Where it stalls a shift helps, which the caller has, and costs less than factors.
+template <>
+bool Stiffness<3>::solve_step(Increment<3>& increment, std::span<const double> b, double forcing,
+                              std::span<double> x) {
+  if (!iterates()) {
+    factorise(increment);
+    return solve(increment, b, x);
+  }
+  prepare_iteration(increment);
+  set_right(b);
+  const double left = iterative_.solve<Column>(
+      matrix_, right_, solution_, {forcing, increment.scale().rounding(), most_products_});
+  give_solution(x);
+  return left <= std::max(forcing, tuned::usable_step);
+}
+
+template <>
+bool Stiffness<3>::iterate_together(Increment<3>& increment, std::span<const Together<width>> b,
+                                    std::span<Together<width>> x) {
+  constexpr double enough = tuned::derivative_residual;
+  prepare_iteration(increment);
+  const double floor = increment.scale().rounding() / enough;
+  return iterative_.solve<Together<width>>(matrix_, b, x, {enough, floor, most_products_}) <=
+         enough;
+}
+
+}  // namespace grainlaw::core
