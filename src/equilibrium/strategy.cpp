@@ -66,10 +66,14 @@ class Stages {
     }
     const Viscosity& viscosity = request.options->viscosity;
     if (viscosity.time > 0) {
-      const int parts = std::max(static_cast<int>(viscosity.steps), least_parts(request));
-      for (int refinement = 1; refinement <= tuned::finest_refinement; refinement *= 2) {
-        if (refinement == 1 || parts * refinement <= tuned::most_subincrements) {
-          add({Stage::parts, parts * refinement});
+      // How many parts there are changes P a little: as long as they serve, their number must not follow F.
+      const int steps = static_cast<int>(viscosity.steps);
+      add({Stage::parts, steps});
+      const int least = std::max(steps, least_parts(request));
+      for (int refinement = least > steps ? 1 : 2; refinement <= tuned::finest_refinement;
+           refinement *= 2) {
+        if (least * refinement <= tuned::most_subincrements) {
+          add({Stage::parts, least * refinement});
         }
       }
       return;

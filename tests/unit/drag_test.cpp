@@ -137,6 +137,19 @@ TEST(drag, parts_of_an_increment_take_its_time_together) {
   EXPECT_GT(relative_difference(in_halves, evaluate(b, F).stress), 1e-4);
 }
 
+// Else P would jump where F asks for one part more, and no host would balance it there.
+TEST(drag, number_of_parts_does_not_follow_the_size_of_an_increment) {
+  const auto at = [](double limit) {
+    MaterialDescription description = with_drag(describe(small_packing(), rough_law()));
+    description.solver.increment_limit = limit;
+    State state(make_material(description));
+    return evaluate(state, sum(identity, 1, drained_step));
+  };
+  const Evaluation hard = at(0.05);
+  EXPECT_EQ(hard.report.subincrements, 1);
+  EXPECT_EQ(hard.stress, at(1e3).stress);
+}
+
 TEST(drag, reversal_expects_no_move) {
   State state(make_material(with_drag(describe(small_packing(), rough_law()))));
   lead(state, 3);
