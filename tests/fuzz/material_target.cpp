@@ -6,6 +6,9 @@
 
 #include <grainlaw/grainlaw.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace {
 
 // Whether its packing is made within milliseconds.
@@ -16,7 +19,12 @@ bool is_small(const std::string& text) {
     const auto& generator = description.generator;
     const bool regular = generator && (generator->kind == GeneratorKind::square ||
                                        generator->kind == GeneratorKind::hexagonal);
-    return regular && generator->columns * generator->rows <= 20 &&
+    // Stresses that no packing of these carries take seconds to be told under sanitizers.
+    constexpr double bearable = 1e7;
+    const bool light = std::ranges::all_of(description.boundary.stress, [](const auto& stress) {
+      return std::abs(stress.value_or(0)) <= bearable;
+    });
+    return regular && light && generator->columns * generator->rows <= 20 &&
            description.solver.method == grainlaw::core::Method::chain;
   } catch (const grainlaw::core::Error& error) {
     EXPECT(error.status < 0 && error.what()[0] != '\0');
