@@ -2,6 +2,7 @@
 //   sweep  `verification/run sweep NAME=VALUE` leads the paths of `grainlaw_evidence reach` with another value;
 //          verification/README.md has what came of it
 //   reach, start, newton, error  studies of `verification/run study` that it was chosen by
+//   timed  on packings of spheres made by compaction, increments of 0.1 % of a triaxial path
 //   method  follows from what it is compared with
 // One of them may be given to the compiler as GRAINLAW_TUNE_NAME="name" and GRAINLAW_TUNE_VALUE=value.
 #pragma once
@@ -143,10 +144,10 @@ GRAINLAW_TUNED(double, quick_refinement, 0.05);
 GRAINLAW_TUNED(double, settled_solution, 1e-9);
 
 // Spheres: Krylov methods with incomplete factors instead of factors from so many particles on; they
-// cost the same at 200, half as much at 500, a fifth at 1000 [-]; spheres.
+// cost the same at 200, a third at 500, a fifth at 1000 [-]; timed.
 GRAINLAW_TUNED(std::size_t, iterative_nodes, 250);
 // Holds rattlers in the incomplete factors: of 1e-2 to 1e-4 any does as well, less or more takes twice
-// the products [of the masses]; spheres.
+// the products [of the masses]; timed.
 GRAINLAW_TUNED(double, incomplete_grounding, 1e-3);
 // A step of Newton's method leaves no more than this of the residual; after a full one the square of
 // what that left, but no less than this share of the tolerance; and one that leaves this much serves
@@ -156,7 +157,7 @@ GRAINLAW_TUNED(double, share_of_tolerance, 0.1);
 GRAINLAW_TUNED(double, usable_step, 0.1);
 // What is left of the derivatives of an equilibrium, soft modes of which are off by more [-]; error.
 GRAINLAW_TUNED(double, derivative_residual, 1e-9);
-// Of a method before another goes on, several times what it usually takes [products]; spheres.
+// Of a method before another goes on, several times what it usually takes [products]; timed.
 GRAINLAW_TUNED(int, most_products, 400);
 
 // ---- Drag ------------------------------------------------------------------------------------

@@ -79,15 +79,13 @@ class Turned<3> {
                  std::vector<double>& coordinates) const {
     const std::size_t n = particles;
     if (turn_.empty()) return coordinates.resize(3 * n);
-    std::vector<Quaternion> all(n);
-    for (std::size_t p = 0; p < n; ++p) {
-      const Quaternion before{from[3 * n + p], {from[4 * n + p], from[5 * n + p], from[6 * n + p]}};
-      all[p] = product(product(since(coordinates.data() + 3 * n, p), turn_[p]), before);
-    }
     coordinates.resize(7 * n);
     for (std::size_t p = 0; p < n; ++p) {
-      coordinates[3 * n + p] = all[p].s;
-      for (std::size_t k = 0; k < 3; ++k) coordinates[(4 + k) * n + p] = all[p].v[k];
+      const Quaternion before{from[3 * n + p], {from[4 * n + p], from[5 * n + p], from[6 * n + p]}};
+      const Quaternion all =
+          product(product(since(coordinates.data() + 3 * n, p), turn_[p]), before);
+      coordinates[3 * n + p] = all.s;
+      for (std::size_t k = 0; k < 3; ++k) coordinates[(4 + k) * n + p] = all.v[k];
     }
   }
 

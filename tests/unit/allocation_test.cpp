@@ -2,6 +2,7 @@
 // new.
 #include "boundary_support.hpp"
 #include "law_support.hpp"
+#include "sphere_support.hpp"
 
 #include <cstdlib>
 #include <new>
@@ -147,6 +148,30 @@ TEST(allocation, does_not_happen_in_the_reference_methods) {
   description.boundary.type = BoundaryType::frame_t;
   description.boundary.servo.tolerance = 1e-4;
   EXPECT_EQ(allocations_after_warm_up(description, TangentKind::none), none);
+}
+
+TEST(allocation, does_not_happen_with_spheres_either) {
+  using namespace sphere_test;
+  for (const double drag : {0.0, 100.0}) {
+    MaterialDescription description = sphere_test::describe(1e-8);
+    description.solver.viscosity.time = drag;
+    grainlaw::core::State<3> state(make_material<3>(description));
+    for (int k = 1; k <= last; ++k) {
+      const Deformation F{1 + 0.4 * strain * k, 0, 0, 0, 1 + 0.4 * strain * k, 0, 0, 0,
+                          1 - strain * k};
+      Deformation stress{};
+      Tensor4<3> tangent{};
+      grainlaw_report report{};
+      count = 0;
+      counting = true;
+      const auto status =
+          state.evaluate(F.data(), TangentKind::exact, stress.data(), tangent.data(), report);
+      counting = false;
+      EXPECT_EQ(status, GRAINLAW_OK);
+      EXPECT_TRUE(k <= warm_up || count == 0) << count << " with drag " << drag << " at " << k;
+      EXPECT_TRUE(state.commit());
+    }
+  }
 }
 
 }  // namespace
