@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   add_ensemble_study(app, options);
   add_drag_study(app, options);
   add_timing_study(app, options);
+  add_spheres_study(app, options);
   add_reach_study(app, options);
   add_start_study(app, options);
   add_error_study(app, options);

@@ -63,6 +63,7 @@ void add_servo_study(CLI::App& study, const std::shared_ptr<StudyOptions>& optio
 void add_ensemble_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_drag_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_timing_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
+void add_spheres_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_reach_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_start_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_error_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
