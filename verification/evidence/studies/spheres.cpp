@@ -114,7 +114,7 @@ void run_study(const StudyOptions& options, const std::vector<int>& counts, int 
 
 void add_spheres_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options) {
   struct Arguments {
-    std::vector<int> counts{200, 500, 1000, 2000};
+    std::vector<int> counts{200, 500, 1000, 2000, 4000};
     int increments = 10;
   };
   auto arguments = std::make_shared<Arguments>();
