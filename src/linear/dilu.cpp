@@ -57,7 +57,8 @@ GRAINLAW_INLINE void add_product(Block& to, double factor, const Block& x, const
 }
 
 // Of a singular block the identity: scaled blocks are of that size.
-Block inverse_of(Block block) {
+Block inverse_of(const Block& given) {
+  Block block = given;
   Block result{};
   double* const a = block.column[0].lane;
   dense::Pivot pivot;

@@ -20,11 +20,11 @@ void HistoryDerivatives<3>::carry(const Increment<3>& increment,
   for (std::size_t c = 0; c < list.size(); ++c) {
     if (!increment.carries(c)) continue;
     const auto k = static_cast<std::size_t>(place[c]);
-    const auto keep = [&](TripleByDeformation change, std::vector<TripleByDeformation>& to) {
-      for (auto& component : change) {
+    const auto keep = [&](const TripleByDeformation& change, std::vector<TripleByDeformation>& to) {
+      to.push_back(change);
+      for (auto& component : to.back()) {
         for (double& value : component.lane) value /= list.weight_of(c);
       }
-      to.push_back(change);
     };
     keep(changes[k].tangential_force, carried_force_);
     if (!moments) continue;
