@@ -4,6 +4,7 @@
 #include "base/simd.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace grainlaw::core {
 
@@ -43,22 +44,19 @@ void ContactSums<D>::arrange(std::span<const std::int32_t> i, std::span<const st
     most = std::max(most, ++as_j_[node_of(j[c])]);
   }
 
-  // Nodes sorted by their contacts as i, among equals by those as j: counted by j, then by i.
-  const auto sort_by = [&](const std::vector<std::uint32_t>& count, auto&& node_at,
-                           std::vector<std::uint32_t>& sorted) {
+  // Nodes by their contacts as i, among equals by those as j: sorted by j, then by i, by counting.
+  const auto sort_by = [&](const std::vector<std::uint32_t>& count,
+                           const std::vector<std::uint32_t>& from, std::vector<std::uint32_t>& to) {
     zeroes(places_, std::size_t{most} + 2);
     for (std::size_t q = 0; q < nodes; ++q) ++places_[count[q] + 1];
     for (std::size_t k = 1; k < places_.size(); ++k) places_[k] += places_[k - 1];
-    resize_with_room(sorted, nodes);
-    for (std::size_t q = 0; q < nodes; ++q) {
-      const std::uint32_t node_q = node_at(q);
-      sorted[places_[count[node_q]]++] = node_q;
-    }
+    for (const std::uint32_t q : from) to[places_[count[q]]++] = q;
   };
-  sort_by(
-      as_j_, [](std::size_t q) { return static_cast<std::uint32_t>(q); }, begin_);
-  sort_by(
-      as_i_, [&](std::size_t q) { return begin_[q]; }, node_);
+  resize_with_room(node_, nodes);
+  resize_with_room(begin_, nodes);  // until it is filled below, for nodes by j
+  std::iota(node_.begin(), node_.end(), 0U);
+  sort_by(as_j_, node_, begin_);
+  sort_by(as_i_, begin_, node_);
   runs_.clear();
   runs_.reserve(nodes);
   for (const std::uint32_t q : node_) {
@@ -68,7 +66,6 @@ void ContactSums<D>::arrange(std::span<const std::int32_t> i, std::span<const st
     ++runs_.back().nodes;
   }
 
-  resize_with_room(begin_, nodes);
   std::uint32_t free = 0;
   for (const std::uint32_t q : node_) {
     begin_[q] = free;

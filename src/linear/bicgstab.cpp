@@ -130,9 +130,6 @@ int Krylov<Entry>::bicgstab(Dilu& dilu, std::span<const Entry> b, std::span<Entr
   for (Vector* v : {&direction_, &image_}) v->assign(count, Entry{});
   second_.resize(count);
   double* const r = residual_[0].lane;
-  const auto quotient = [this](double over, double under, std::size_t l) {
-    return left_[l] && under != 0 ? over / under : 0.0;
-  };
   Scalars rho, before, alpha, omega, beta, sigma, square;
   dot(shadow_[0].lane, r, count, rho.lane);
   lanes_of<Entry>::reduce(rho.lane);

@@ -163,9 +163,6 @@ void Krylov<Entry>::project_on_shadows(const Vector& a, Four& result, Scalars& s
 // A step in the present space, along its k-th move.
 template <class Entry>
 void Krylov<Entry>::step_in_space(Dilu& dilu, std::size_t k) {
-  const auto quotient = [this](double over, double under, std::size_t l) {
-    return left_[l] && under != 0 ? over / under : 0.0;
-  };
   Four factor;
   for (std::size_t i = k; i < shadows; ++i) {
     for (std::size_t l = 0; l < width; ++l) {

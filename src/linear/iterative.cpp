@@ -2,6 +2,7 @@
 
 #include "base/room.hpp"
 #include "linear/krylov_lanes.hpp"
+#include "linear/largest.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -13,21 +14,6 @@ using namespace simd;
 namespace {
 
 constexpr std::size_t width = Dilu::width;
-using V = Lanes<width>;
-
-// By lane; infinite where a number is not finite.
-GRAINLAW_CLONES void largest_by_lane(const double* values, std::size_t count, double* result) {
-  V most{};
-  V poison{};
-  for (std::size_t k = 0; k < count; ++k) {
-    const V value = load<width>(values + k * width);
-    most = largest(most, magnitude(value));
-    poison += value * 0.0;
-  }
-  for (std::size_t l = 0; l < width; ++l) {
-    result[l] = poison[l] == 0 ? most[l] : std::numeric_limits<double>::infinity();
-  }
-}
 
 GRAINLAW_CLONES void add(const double* a, const double* b, std::size_t count, double* sum) {
   for (std::size_t k = 0; k < count * width; k += width) {
@@ -86,7 +72,7 @@ double Iterative::solve(const BlockMatrix<width>& matrix, std::span<const Entry>
   Scalars scale, error;
   const auto measure = [&](std::span<const Entry> residual) {
     Scalars result;
-    largest_by_lane(residual[0].lane, count, result.lane);
+    largest_by_lane<width>(residual[0].lane, count, result.lane);
     lanes_of<Entry>::find_largest(result.lane);
     return result;
   };

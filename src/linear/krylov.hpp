@@ -41,6 +41,10 @@ class Krylov {
   void start(Dilu& dilu, std::span<const Entry> b, const Scalars& tolerance);
   [[nodiscard]] bool any_left() const;
   void see_residual(const Scalars& square);
+  // Nothing in lanes that are done, or where the method breaks down.
+  [[nodiscard]] double quotient(double over, double under, std::size_t lane) const {
+    return left_[lane] && under != 0 ? over / under : 0.0;
+  }
   void start_shadows();
   void project_on_shadows(const Vector& a, Four& result, Scalars& square) const;
   void step_in_space(Dilu& dilu, std::size_t k);

@@ -58,9 +58,9 @@ class Stiffness {
   // Factorise what was assembled.
   void factorise(Increment<D>& increment);
 
-  // x = K^-1 b of what was factorised, refined until the residual is below the tolerance (largest entry, relative to b) or
-  // while that helps; by GMRES where that ends far from it. False when b is not in the range of K to
-  // working precision, or the factors are of no use.
+  // x = K^-1 b of what was factorised, refined until the residual is below the tolerance (largest entry,
+  // relative to b) or while that helps; by GMRES where that ends far from it. False when b is not in the
+  // range of K to working precision, or the factors are of no use.
   bool solve(const Increment<D>& increment, std::span<const double> b, std::span<double> x,
              double tolerance = 1e-8);
 

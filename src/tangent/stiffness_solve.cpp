@@ -1,6 +1,7 @@
 // Linear solves with the stiffness: factors, their refinement, and GMRES where that does not do.
 #include "base/constants.hpp"
 #include "base/room.hpp"
+#include "linear/largest.hpp"
 #include "tangent/stiffness.hpp"
 
 #include <algorithm>
@@ -11,41 +12,17 @@ namespace grainlaw::core {
 
 namespace {
 
-// Largest magnitude by lane of `count` registers; infinite where a number is not finite.
-template <std::size_t width>
-GRAINLAW_INLINE void find_largest(const double* values, std::size_t count, double* result) {
-  simd::Lanes<width> most{};
-  simd::Lanes<width> poison{};
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto v = simd::load<width>(values + k * width);
-    most = simd::largest(most, simd::magnitude(v));
-    poison += v * 0.0;
-  }
-  for (std::size_t k = 0; k < width; ++k) {
-    result[k] = poison[k] == 0 ? most[k] : std::numeric_limits<double>::infinity();
-  }
-}
-GRAINLAW_CLONES void largest_of_4(const double* values, std::size_t count, double* result) {
-  find_largest<4>(values, count, result);
-}
-GRAINLAW_CLONES void largest_of_8(const double* values, std::size_t count, double* result) {
-  find_largest<8>(values, count, result);
-}
-
 template <class Register>
-Register largest_by_lane(std::span<const Register> values) {
+Register largest_in_lanes(std::span<const Register> values) {
   Register result;
-  if constexpr (sizeof(Register) == 4 * sizeof(double)) {
-    largest_of_4(values.data()->lane, values.size(), result.lane);
-  } else {
-    largest_of_8(values.data()->lane, values.size(), result.lane);
-  }
+  largest_by_lane<sizeof(Register) / sizeof(double)>(values.data()->lane, values.size(),
+                                                     result.lane);
   return result;
 }
 
 template <class Register>
 double largest_of(const std::vector<Register>& values, std::size_t count) {
-  const Register result = largest_by_lane<Register>(std::span(values).first(count));
+  const Register result = largest_in_lanes<Register>(std::span(values).first(count));
   return *std::max_element(std::begin(result.lane), std::end(result.lane));
 }
 
@@ -158,10 +135,10 @@ bool Stiffness<D>::solve_together_by_factors(const Increment<D>& increment,
                                              std::span<Together<width>> x) {
   const bool earlier = factors_ == Factors::of_earlier_matrix;
   const double floor = increment.scale().rounding() / tuned::usable_solution;
-  const auto scale = largest_by_lane(b);
+  const auto scale = largest_in_lanes(b);
   const auto defect = [&] {
     matrix_.residual_together(b, x, check_together_);
-    const auto most = largest_by_lane<Together<width>>(check_together_);
+    const auto most = largest_in_lanes<Together<width>>(check_together_);
     double error = 0;
     for (std::size_t k = 0; k < width; ++k) {
       error = std::max(error, most.lane[k] / std::max(scale.lane[k], floor));

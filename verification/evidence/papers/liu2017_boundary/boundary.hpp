@@ -4,8 +4,6 @@
 
 #include "evidence/papers/results.hpp"
 
-#include <CLI/CLI.hpp>
-
 namespace verification {
 
 // Each draws figure_NN.svg and .png, writes its tables and adds its facts. What was not run is left

@@ -4,8 +4,6 @@
 
 #include "evidence/papers/results.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
 #include <optional>
 #include <string>

@@ -4,8 +4,6 @@
 
 #include "evidence/papers/results.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <optional>
 #include <string>
 #include <vector>

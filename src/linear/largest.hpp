@@ -1,0 +1,13 @@
+// The largest entries of vectors over nodes.
+#pragma once
+
+#include <cstddef>
+
+namespace grainlaw::core {
+
+// Largest magnitude by lane of `count` registers of `width` doubles, 4 or 8; infinite where a number is
+// not finite.
+template <std::size_t width>
+void largest_by_lane(const double* values, std::size_t count, double* result);
+
+}  // namespace grainlaw::core
