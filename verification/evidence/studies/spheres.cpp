@@ -1,5 +1,5 @@
-// `grainlaw_evidence spheres`: CPU time of an increment of spheres over their number, at equilibrium
-// and without jumps (solver.viscous_time), with and without the exact tangent.
+// `grainlaw_evidence spheres`: CPU time of an increment of spheres over their number, and how exact their
+// tangents are, at equilibrium and without jumps (solver.viscous_time).
 
 #include "evidence/studies/statistics.hpp"
 #include "evidence/studies/study.hpp"
@@ -13,8 +13,10 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -24,7 +26,7 @@ namespace {
 constexpr double increment = 0.001;
 constexpr double lateral_share = 0.4;  // of the axial strain, near constant stress before the peak
 
-grainlaw::Material spheres(int count, double viscous_time) {
+grainlaw::Material spheres(int count, double viscous_time, double tolerance) {
   return grainlaw::Material::parse(fmt::format(R"(dimension = 3
 [packing]
 generator = "compaction"
@@ -38,11 +40,21 @@ young = 1e8
 ratio = 0.8
 friction = 0.5463
 [solver]
-tolerance = 1e-8
+tolerance = {}
 viscous_time = {}
 )",
-                                               count, viscous_time),
+                                               count, tolerance, viscous_time),
                                    ".");
+}
+
+using Tensor3 = std::array<double, 9>;
+using Tangent3 = std::array<double, 81>;
+
+// After so many increments of triaxial compression.
+Tensor3 deformation_after(int increments) {
+  const double strain = increment * increments;
+  const double lateral = 1 + lateral_share * strain;
+  return {lateral, 0, 0, 0, lateral, 0, 0, 0, 1 - strain};
 }
 
 struct Cost {
@@ -55,12 +67,10 @@ struct Cost {
 Cost cost_of(const grainlaw::Material& material, int increments) {
   grainlaw::State state(material);
   Cost cost;
-  std::array<double, 9> P{};
-  std::array<double, 81> A{};
+  Tensor3 P{};
+  Tangent3 A{};
   for (int k = 1; k <= increments; ++k) {
-    const double strain = increment * k;
-    const double lateral = 1 + lateral_share * strain;
-    const std::array<double, 9> F{lateral, 0, 0, 0, lateral, 0, 0, 0, 1 - strain};
+    const Tensor3 F = deformation_after(k);
     const double start = cpu_seconds();
     const auto plain = state.evaluate(F, P);
     const double between = cpu_seconds();
@@ -80,7 +90,66 @@ Cost cost_of(const grainlaw::Material& material, int increments) {
   return cost;
 }
 
-void run_study(const StudyOptions& options, const std::vector<int>& counts, int increments) {
+// Of the exact tangent against central differences, the best of several steps; NaN where one fails.
+double tangent_error(grainlaw::State& state, const Tensor3& F) {
+  Tensor3 P{};
+  Tangent3 A{};
+  if (state.evaluate(F, P, GRAINLAW_WANT_TANGENT_EXACT, A).status != GRAINLAW_OK) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const double step : {1e-6, 1e-7, 1e-8}) {
+    double error = 0;
+    double size = 0;
+    for (std::size_t k = 0; k < F.size(); ++k) {
+      Tensor3 above{}, below{};
+      for (const double sign : {1.0, -1.0}) {
+        Tensor3 moved = F;
+        moved[k] += sign * step;
+        if (state.evaluate(moved, sign > 0 ? above : below).status != GRAINLAW_OK) {
+          return std::numeric_limits<double>::quiet_NaN();
+        }
+      }
+      for (std::size_t m = 0; m < F.size(); ++m) {
+        const double difference = (above[m] - below[m]) / (2 * step);
+        error += std::pow(A[F.size() * m + k] - difference, 2);
+        size += std::pow(difference, 2);
+      }
+    }
+    least = std::min(least, std::sqrt(error / size));
+  }
+  return least;
+}
+
+void check_tangents(const StudyOptions& options, int increments) {
+  Table table(
+      fmt::format("exact tangent against central differences after each of the first {} "
+                  "increments, tolerance 1e-11 [-], the best of three steps",
+                  increments),
+      {"spheres", "viscous_time[-]", "median[-]", "largest[-]", "above_1e-6[-]", "not_found[-]"});
+  for (const int count : {60, 200, 500}) {
+    for (const double time : {0.0, 100.0}) {
+      grainlaw::State state(spheres(count, time, 1e-11));
+      std::vector<double> errors;
+      for (int k = 1; k <= increments; ++k) {
+        const Tensor3 F = deformation_after(k);
+        const double error = tangent_error(state, F);
+        if (std::isfinite(error)) errors.push_back(error);
+        Tensor3 P{};
+        if (state.evaluate(F, P).status != GRAINLAW_OK) break;
+        state.commit();
+      }
+      const double largest = errors.empty() ? 0 : *std::ranges::max_element(errors);
+      const auto above = std::ranges::count_if(errors, [](double error) { return error > 1e-6; });
+      table.row({fmt::format("{}", count), fmt::format("{:g}", time), median(errors), largest,
+                 static_cast<double>(above), increments - static_cast<double>(errors.size())});
+    }
+  }
+  table.write(std::filesystem::path(options.output) / "study_spheres_tangent.csv");
+  table.print();
+}
+
+void measure_cost(const StudyOptions& options, const std::vector<int>& counts, int increments) {
   constexpr std::array<double, 2> times{0, 100};
   Table table(fmt::format("one evaluation of a 0.1 % increment, the first {} of triaxial "
                           "compression, tolerance 1e-08 [-], one thread; power: of the number, "
@@ -95,7 +164,7 @@ void run_study(const StudyOptions& options, const std::vector<int>& counts, int 
       progress.update(static_cast<double>(times.size() * c + t) /
                           static_cast<double>(times.size() * counts.size()),
                       fmt::format("{} spheres", counts[c]));
-      const Cost cost = cost_of(spheres(counts[c], times[t]), increments);
+      const Cost cost = cost_of(spheres(counts[c], times[t], 1e-8), increments);
       const double exact = average(cost.exact);
       if (c == 0) least[t] = exact;
       const double power = c == 0 ? 0
@@ -118,12 +187,15 @@ void add_spheres_study(CLI::App& study, const std::shared_ptr<StudyOptions>& opt
     int increments = 10;
   };
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = study.add_subcommand("spheres", "CPU time over the number of spheres");
+  CLI::App* command =
+      study.add_subcommand("spheres", "CPU time over the number of spheres, exact tangents");
   command->add_option("--counts", arguments->counts, "spheres, ascending")->capture_default_str();
   command->add_option("--increments", arguments->increments, "of 0.1 % each")
       ->capture_default_str();
-  command->callback(
-      [arguments, options] { run_study(*options, arguments->counts, arguments->increments); });
+  command->callback([arguments, options] {
+    check_tangents(*options, arguments->increments);
+    measure_cost(*options, arguments->counts, arguments->increments);
+  });
 }
 
 }  // namespace verification
