@@ -1,8 +1,8 @@
 // Every number that was tuned, in one place: meaning, unit, and where it comes from.
 //   sweep  `verification/run sweep NAME=VALUE` leads the paths of `grainlaw_evidence reach` with another value;
 //          verification/README.md has what came of it
-//   reach, start, newton, error  studies of `verification/run study` that it was chosen by
-//   timed  on packings of spheres made by compaction, increments of 0.1 % of a triaxial path
+//   reach, start, newton, error, spheres  studies of `verification/run study` that it was chosen by
+//   timed  as `spheres` does, by a program that was not kept
 //   method  follows from what it is compared with
 // One of them may be given to the compiler as GRAINLAW_TUNE_NAME="name" and GRAINLAW_TUNE_VALUE=value.
 #pragma once
@@ -144,7 +144,7 @@ GRAINLAW_TUNED(double, quick_refinement, 0.05);
 GRAINLAW_TUNED(double, settled_solution, 1e-9);
 
 // Spheres: Krylov methods with incomplete factors instead of factors from so many particles on; they
-// cost the same at 200, a third at 500, a fifth at 1000 [-]; timed.
+// cost the same at 200, a third at 500, a fifth at 1000 [-]; spheres, and built with 1000000.
 GRAINLAW_TUNED(std::size_t, iterative_nodes, 250);
 // Holds rattlers in the incomplete factors: of 1e-2 to 1e-4 any does as well, less or more takes twice
 // the products [of the masses]; timed.
