@@ -172,6 +172,7 @@ GRAINLAW_API grainlaw_report grainlaw_report_default(void);
  * report's residual tells. Only an equilibrium has an exact tangent: A is then that of the
  * contacts as they stick, slide or are open there, or the elastic one where the history was
  * advanced or the former would be the larger; tangent_exact is 0, and the message tells which.
+ * Of spheres it is 0 too where one with two contacts rests against one that nothing holds.
  * Errors: NULL_POINTER, BAD_HANDLE, NOT_FINITE, BAD_REPORT, BAD_ARGUMENT, OUT_OF_MEMORY;
  * recoverable: NOT_CONVERGED, CONTACTS_LOST, INVERTED, STEP_TOO_LARGE (a stretch of more than 30
  * %), COLLAPSED (a boundary under uniform stress: next to no force is left, or a particle of it

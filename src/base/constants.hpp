@@ -118,9 +118,10 @@ GRAINLAW_TUNED(long, settling_steps, 60);
 // Of the flow's own equation in a step; not where it left so many times the residual; sweep.
 GRAINLAW_TUNED(int, most_corrections, 5);
 GRAINLAW_TUNED(double, hopeless_correction, 1e4);
-// What holds the free spin of a sphere with two contacts [kt R^2]: with as much as kt R^2 Newton stalls
-// at 1e-8 to 6e-8; design of spheres.
-GRAINLAW_TUNED(double, free_spin_hold, 1e-3);
+// What holds the free spin of a sphere with two contacts to its rule [of its mass]; method.
+GRAINLAW_TUNED(double, free_spin_hold, 0.1);
+// A third sphere is in its way where the way leads so much towards it [-]; method.
+GRAINLAW_TUNED(double, least_closing, 0.05);
 // Moments of rolling mechanisms count from this on [of the tolerance]; method.
 GRAINLAW_TUNED(double, least_moment, 0.3);
 

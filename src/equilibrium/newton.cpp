@@ -1,8 +1,9 @@
 #include "equilibrium/newton.hpp"
 
+#include "base/constants.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include "base/constants.hpp"
 
 namespace grainlaw::core {
 
@@ -49,14 +50,15 @@ class PseudoTransientNewton {
         may_roll_(RollingMechanisms<D>::possible(increment.problem()) &&
                   !increment.motion().drag().acts()) {
     memory.step.assign(increment.problem().unknowns(), 0.0);
-    memory.coordinates.reserve(increment.motion().coordinates().size());
-    memory.moved.reserve(increment.motion().coordinates().size());
-    memory.flow.reserve(increment.problem().unknowns());
-    memory.total.reserve(increment.problem().unknowns());
+    const auto& z = increment.motion().coordinates();
+    for (auto* places : {&memory.coordinates, &memory.moved}) places->reserve(z.size());
+    for (auto* moves : {&memory.flow, &memory.total}) moves->reserve(memory.step.size());
     increment.refresh_masses();
     if (may_roll_) memory.mechanisms.forget(increment);
+    if (increment.hold_free_spins()) increment.update_forces();
     keep_best();
   }
+  ~PseudoTransientNewton() { increment_.release_free_spins(); }
 
   bool run(int max_factorisations) {
     const int last = increment_.cost.factorisations + max_factorisations;
@@ -68,8 +70,7 @@ class PseudoTransientNewton {
         if (increment_.residual_norm() < tolerance_) return true;
         memory_.mechanisms.hold(increment_, memory_.stiffness);
       }
-      const auto r = increment_.residual();
-      memory_.residual.assign(r.begin(), r.end());
+      memory_.residual.assign(increment_.residual().begin(), increment_.residual().end());
       const bool solved = solve();
       if (solved && may_roll_) memory_.mechanisms.see(increment_, memory_.step, least_moment());
       if (!solved) {
@@ -85,7 +86,6 @@ class PseudoTransientNewton {
 
  private:
   [[nodiscard]] double defect() const { return defect_norm(increment_, memory_.step, 0); }
-
   void assemble() { memory_.stiffness.assemble(increment_, shift_); }
 
   // Of mechanisms, that counts [N].
@@ -291,9 +291,10 @@ bool pseudo_transient_newton(Increment<D>& increment, double tolerance, int max_
   return PseudoTransientNewton<D>(increment, tolerance, memory, relaxation).run(max_factorisations);
 }
 
-template bool pseudo_transient_newton(Increment<2>&, double, int, NewtonMemory<2>&,
-                                      RelaxationMemory<2>*);
-template bool pseudo_transient_newton(Increment<3>&, double, int, NewtonMemory<3>&,
-                                      RelaxationMemory<3>*);
+#define GRAINLAW_FOR(D)                                                               \
+  template bool pseudo_transient_newton(Increment<D>&, double, int, NewtonMemory<D>&, \
+                                        RelaxationMemory<D>*);
+GRAINLAW_FOR(2)
+GRAINLAW_FOR(3)
 
 }  // namespace grainlaw::core

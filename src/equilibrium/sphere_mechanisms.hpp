@@ -1,5 +1,5 @@
-// Rolling mechanisms of spheres: larger ones than the free spins that the stiffness holds by itself were
-// not seen, so there is nothing to find and nothing to turn.
+// Rolling mechanisms of spheres: larger ones than free spins (increment/free_spins.hpp) were not seen, so
+// there is nothing to find and nothing to turn.
 #pragma once
 
 #include "equilibrium/rolling_mechanisms.hpp"

@@ -15,6 +15,7 @@ void Increment<D>::begin(const Problem<D>& problem, const Configuration<D>& from
                          const Tensor<D>& target) {
   problem_ = &problem;
   cost = {};
+  holds_spins_ = false;
   losses_.begin();
   motion_.begin(problem, from);
   history_.begin(from);
@@ -90,6 +91,20 @@ void Increment<D>::update_forces(History history) {
   for (std::size_t i = 0; i < problem_->rows(); ++i) {
     std::copy_n(&forces_[problem_->nodes() + i].x, dim, of_rows + dim * i);
   }
+  if constexpr (D == 3) {
+    if (!holds_spins_) return;
+    free_spins_.find(*this);
+    free_spins_.add_to(problem_->nodes(), residual_);
+  }
+}
+
+template <int D>
+bool Increment<D>::hold_free_spins() {
+  if constexpr (D == 3) {
+    holds_spins_ = FreeSpins::possible(*this);
+    if (!holds_spins_) free_spins_.forget();
+  }
+  return holds_spins_;
 }
 
 template <int D>

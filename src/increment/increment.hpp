@@ -5,6 +5,7 @@
 #include "contact/contact_sides.hpp"
 #include "increment/candidates.hpp"
 #include "increment/force_scale.hpp"
+#include "increment/free_spins.hpp"
 #include "increment/losses.hpp"
 #include "increment/masses.hpp"
 #include "increment/motion.hpp"
@@ -12,6 +13,7 @@
 
 #include <cstddef>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace grainlaw::core {
@@ -54,6 +56,12 @@ class Increment {
   void find_contact_forces();
   void sum_forces(std::span<ForceRecord<D>> forces);
 
+  // Of spheres whose contacts leave spins free: from the next update_forces() on the residual holds these
+  // to their rule, or no longer. Whether there is anything to hold.
+  bool hold_free_spins();
+  void release_free_spins() { holds_spins_ = false; }
+  [[nodiscard]] const auto& free_spins() const { return free_spins_; }
+
   // Of the present coordinates, with the scale of forces; of the present records, for records alone;
   // the scale alone, while the sides keep masses of their own.
   void refresh_masses();
@@ -90,6 +98,8 @@ class Increment {
   [[nodiscard]] Vec<D> fixed_branch(std::size_t c) const {
     return motion_.fixed_branch(contacts_.i[c], contacts_.j[c]);
   }
+  // Of a listed contact, x_j - x_i [m].
+  [[nodiscard]] Vec<D> branch(std::size_t c) const;
   // Overlap of a listed contact, negative across a gap [m].
   [[nodiscard]] double overlap(std::size_t c) const;
   // Whether it is open by more than rounding, without a root.
@@ -139,7 +149,7 @@ class Increment {
   void advance_contacts_and_history();
   void reduce(std::span<ForceRecord<D>> forces) const;
   void take_found_stress(std::span<ForceRecord<D>> forces) const;
-  [[nodiscard]] double branch_square(std::size_t c) const;
+  [[nodiscard]] double branch_square(std::size_t c) const { return square<D>(branch(c)); }
   [[nodiscard]] double bond_load(std::size_t c) const;
   [[nodiscard]] double worst_bond() const;
   [[nodiscard]] double potential_energy() const;
@@ -156,10 +166,13 @@ class Increment {
   std::vector<double> residual_;
   std::vector<unsigned char> held_;  // of nodes, as found last
   bool released_ = false;
+  struct Nothing {};
+  [[no_unique_address]] std::conditional_t<D == 3, FreeSpins, Nothing> free_spins_;
+  bool holds_spins_ = false;
 };
 
 template <int D>
-double Increment<D>::branch_square(std::size_t c) const {
+Vec<D> Increment<D>::branch(std::size_t c) const {
   const auto n = problem_->particles();
   const auto p = static_cast<std::size_t>(contacts_.i[c]);
   const auto q = static_cast<std::size_t>(contacts_.j[c]);
@@ -168,7 +181,7 @@ double Increment<D>::branch_square(std::size_t c) const {
     const double* x = motion_.coordinates().data() + k * n;
     l[k] = x[q] - x[p] + contacts_.offset[k][c];
   }
-  return square<D>(l);
+  return l;
 }
 
 }  // namespace grainlaw::core

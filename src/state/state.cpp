@@ -121,7 +121,12 @@ Tensor4<D> tangent_of(const Workspace<D>& w, const Outcome& outcome, TangentKind
                       grainlaw_report& report) {
   if (kind != TangentKind::exact && kind != TangentKind::elastic) return {};
   if (kind == TangentKind::exact && outcome.sensitivities && !outcome.loose) {
-    report.tangent_exact = outcome.history_advanced ? 0 : 1;
+    report.tangent_exact = outcome.history_advanced || w.sensitivity.by_chance() ? 0 : 1;
+    if (w.sensitivity.by_chance()) {
+      describe(report,
+               "a sphere of two contacts rests against one that nothing holds: where that is "
+               "has no derivative, and the tangent takes it as fixed");
+    }
     return condensed_tangent(w.increment, w.sensitivity);
   }
   const auto elastic = elastic_tangent(w.increment);

@@ -18,6 +18,7 @@ class Sensitivity {
  public:
   void reset() {
     carried_ = false;
+    by_chance_ = false;
     drag_.reset();
   }
 
@@ -32,6 +33,9 @@ class Sensitivity {
   void carry_drag(const Increment<D>& increment) { drag_.carry(increment, motion_); }
   // The same where no contact carries, at a share of the way.
   void carry_free(const Increment<D>& increment, double share);
+
+  // Whether since reset() a place hung on one that is left to chance, which has no derivative.
+  [[nodiscard]] bool by_chance() const { return by_chance_; }
 
   // Of F, at the end.
   [[nodiscard]] const DeformationChange<D>& deformation_change() const { return change_; }
@@ -55,6 +59,7 @@ class Sensitivity {
   std::vector<std::int32_t> place_;  // of a listed contact among the touching, -1 when open
   std::vector<unsigned char> held_;  // as Increment::find_held tells
   bool carried_ = false;
+  bool by_chance_ = false;
 };
 
 }  // namespace grainlaw::core

@@ -142,6 +142,64 @@ Loop loop_of(const Increment<3>& increment, const DeformationChange<3>& change,
   return {increment, inverse<3>(increment.motion().deformation()), change, history};
 }
 
+Triple product(const DeformationChange<3>& m, const Vec<3>& a) {
+  Triple result{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t l = 0; l < 3; ++l) result[k] += load(m[3 * k + l]) * a[l];
+  }
+  return result;
+}
+
+Triple cross(const Triple& a, const Vec<3>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Triple cross(const Vec<3>& a, const Triple& b) {
+  const Triple opposite = cross(b, a);
+  return {-opposite[0], -opposite[1], -opposite[2]};
+}
+
+Lanes dot(const Vec<3>& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+// Of the excess of a free spin over its rule.
+Lanes excess_change(const Loop& loop, const FreeSpins::Held& held) {
+  const auto& motion = loop.increment.motion();
+  if (held.stopped()) {
+    const Vec<3> branch = loop.increment.branch(held.third);
+    return held.third_side * dot(held.by_third, product(loop.change, grainlaw::core::product<3>(
+                                                                         loop.pull_back, branch)));
+  }
+  Lanes result = dot(
+      held.way, product(loop.change, grainlaw::core::product<3>(loop.pull_back, held.departure)));
+  if (loop.history.normal == nullptr) return result;
+  constexpr std::size_t b = Dimension<3>::unknowns;
+  const std::size_t n = loop.increment.problem().nodes();
+  const double* rotation = motion.coordinates().data() + 3 * n + held.node;
+  const Vec<3> turned{rotation[0], rotation[n], rotation[2 * n]};
+  std::array<Triple, 2> outward;
+  Triple departure{};  // of the carried start
+  Vec<3> point{};
+  const auto carried =
+      grainlaw::core::product<3>(motion.deformation(), inverse<3>(motion.start_deformation()));
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::size_t c = held.contact[k];
+    for (std::size_t m = 0; m < 3; ++m) {
+      outward[k][m] = held.side[k] * load(loop.history.normal[c][m]);
+      departure[m] += 0.5 * (load(loop.history.motion[held.node * b + m]) -
+                             load(loop.history.motion[held.neighbour[k] * b + m]));
+      if (k == 0) point[m] = held.side[k] * loop.increment.contacts().start_normal[m][c];
+    }
+  }
+  Triple chord;
+  for (std::size_t m = 0; m < 3; ++m) chord[m] = outward[1][m] - outward[0][m];
+  Triple way = cross(chord, point);
+  add(way, cross(held.chord, outward[0]));
+  const double scale = held.way_scale;
+  result += dot(turned, chord) + scale * dot(held.departure, way) +
+            dot(held.way, product(carried, departure));
+  return result;
+}
+
 void put(const Triple& from, std::array<ByDeformation<3>, 3>& to) {
   for (std::size_t k = 0; k < 3; ++k) simd::store(to[k].lane, from[k]);
 }
@@ -177,6 +235,13 @@ void add_residual_changes<3>(const Increment<3>& increment, const Stiffness<3>& 
     for (std::size_t k = 0; k < 3; ++k) {
       add_to(contact.node_i, 3 + k, -moment[k]);
       add_to(contact.node_j, 3 + k, moment[k]);
+    }
+  }
+  for (const auto& held : increment.free_spins().held()) {
+    const Lanes excess = excess_change(loop, held);
+    for (std::size_t k = 0; k < 3; ++k) {
+      double* const at = residual[held.node * b + 3 + k].lane;
+      simd::store(at, simd::load<width>(at) - held.stiffness * held.chord[k] * excess);
     }
   }
 }

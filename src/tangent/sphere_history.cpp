@@ -45,6 +45,7 @@ void HistoryDerivatives<3>::start(const Increment<3>& increment,
   const std::size_t b = Dimension<3>::unknowns;
   const Tensor<3> cell = tensor_of<3>(increment.problem().packing->cell);
   const Tensor<3> pull_back = inverse<3>(increment.motion().start_deformation());
+  motion_ = motion;
   resize_with_room(normal_, list.size());
   resize_with_room(force_, list.size());
   if (law.moments()) resize_with_room(moment_, list.size());

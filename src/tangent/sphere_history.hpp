@@ -19,6 +19,7 @@ struct HistoryChange<3> {
   const TripleByDeformation* normal = nullptr;
   const TripleByDeformation* force = nullptr;
   const TripleByDeformation* moment = nullptr;
+  const ByDeformation<3>* motion = nullptr;  // of the nodes there, component by component
 };
 
 template <>
@@ -30,12 +31,13 @@ class HistoryDerivatives<3> {
   void start(const Increment<3>& increment, std::span<const ByDeformation<3>> motion,
              const DeformationChange<3>& change);
   [[nodiscard]] HistoryChange<3> of_list(bool moments) const {
-    return {normal_.data(), force_.data(), moments ? moment_.data() : nullptr};
+    return {normal_.data(), force_.data(), moments ? moment_.data() : nullptr, motion_.data()};
   }
 
  private:
   std::vector<TripleByDeformation> carried_force_, carried_moment_;  // per contact of the history
   std::vector<TripleByDeformation> normal_, force_, moment_;         // per listed contact
+  std::span<const ByDeformation<3>> motion_;
 };
 
 }  // namespace grainlaw::core

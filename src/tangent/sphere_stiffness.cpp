@@ -87,41 +87,36 @@ void Stiffness<3>::add_moments() {
   }
 }
 
+// Rows of spins, by the places of the sphere and its neighbours as well.
 template <>
 void Stiffness<3>::hold_free_spins(const Increment<3>& increment) {
-  const ContactLaw& law = *increment.problem().law;
-  if (law.rolls() || (law.moments() && law.bond.bending_stiffness > 0)) return;
-  constexpr unsigned char two = 2, more = 3;
-  const std::size_t n = increment.problem().nodes();
-  resize_with_room(contacts_of_node_, n);
-  resize_with_room(count_of_node_, n);
-  std::fill(count_of_node_.begin(), count_of_node_.end(), static_cast<unsigned char>(0));
-  for (std::size_t k = 0; k < touching_.size(); ++k) {
-    for (const std::size_t q : {touching_[k].node_i, touching_[k].node_j}) {
-      auto& count = count_of_node_[q];
-      if (count < two) contacts_of_node_[q][count] = static_cast<std::int32_t>(k);
-      if (count < more) ++count;
+  const std::size_t edges = matrix_.edges.size();
+  const auto add_to = [](BlockColumn<8>* columns, double factor, const Vec<3>& moment,
+                         const Vec<3>& by) {
+    for (std::size_t l = 0; l < 3; ++l) {
+      for (std::size_t k = 0; k < 3; ++k) columns[l].lane[3 + k] += factor * moment[k] * by[l];
     }
-  }
-  for (std::size_t q = 0; q < n; ++q) {
-    if (count_of_node_[q] != two) continue;
-    std::array<Vec<3>, 2> point;  // of contact, from the centre
+  };
+  for (const auto& held : increment.free_spins().held()) {
+    auto* const own = matrix_.block(held.node);
+    const auto add_to_neighbour = [&](std::size_t contact, std::size_t neighbour, double factor,
+                                      const Vec<3>& by) {
+      const std::int32_t edge = edge_of_contact_[contact];
+      if (edge == not_in_graph) return;
+      const std::size_t upper =
+          edge < 0 ? held.node : matrix_.upper(static_cast<std::size_t>(edge));
+      const bool above = edge < 0 || held.node < neighbour;
+      add_to(matrix_.block(above ? upper : upper + edges), factor * held.stiffness, held.chord, by);
+    };
+    if (held.stopped()) {
+      add_to(own, -held.stiffness, held.chord, held.by_third);
+      add_to_neighbour(held.third, held.third_neighbour, 1, held.by_third);
+      continue;
+    }
+    add_to(own + 3, held.stiffness, held.chord, held.by_spin);
+    add_to(own, -held.stiffness, held.chord, held.way);
     for (std::size_t k = 0; k < 2; ++k) {
-      const auto& contact = touching_[static_cast<std::size_t>(contacts_of_node_[q][k])];
-      const double lever = contact.node_i == q ? contact.lever_i : contact.lever_i - 1;
-      for (std::size_t m = 0; m < 3; ++m) point[k][m] = lever * contact.point.branch[m];
-    }
-    const Vec<3> chord = sum(point[1], -1, point[0]);
-    const double square_length = square<3>(chord);
-    if (!(square_length > 0)) continue;
-    const auto c = touching_[static_cast<std::size_t>(contacts_of_node_[q][0])].index;
-    const double r = increment.motion().node_radius()[q];
-    const double hold = tuned::free_spin_hold * increment.contacts().tangential_stiffness[c] * r *
-                        r / square_length;
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t l = 0; l < 3; ++l) {
-        matrix_.block(q)[3 + l].lane[3 + k] += hold * chord[k] * chord[l];
-      }
+      add_to_neighbour(held.contact[k], held.neighbour[k], 0.5, held.way);
     }
   }
 }

@@ -11,9 +11,6 @@ namespace grainlaw::core {
 
 namespace {
 
-constexpr std::int32_t not_in_graph = -2;
-constexpr std::int32_t on_the_diagonal = -1;
-
 SizeOfFour block_size(const Problem<2>& problem) {
   return problem.law->rotating() ? blocks_of_3 : blocks_of_2;
 }

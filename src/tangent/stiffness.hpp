@@ -118,6 +118,10 @@ class Stiffness {
   bool iterate_together(Increment<D>& increment, std::span<const Together<width>> b,
                         std::span<Together<width>> x);
 
+  // Of contacts, instead of an edge.
+  static constexpr std::int32_t not_in_graph = -2;
+  static constexpr std::int32_t on_the_diagonal = -1;
+
   enum class Factors { none, of_earlier_matrix, of_matrix };
 
   BlockMatrix<width> matrix_;
@@ -135,8 +139,6 @@ class Stiffness {
   std::vector<std::int32_t> edge_of_link_;         // between anchors, as add_anchors() goes
   std::vector<std::int32_t> listed_i_, listed_j_;  // the contacts that the graph was made from
   std::vector<std::pair<Edge, std::int32_t>> pairs_;
-  std::vector<std::array<std::int32_t, 2>> contacts_of_node_;  // of spheres, the first two
-  std::vector<unsigned char> count_of_node_;
   std::vector<Column> ground_, right_, solution_, check_;
   std::vector<Together<width>> check_together_, kept_;
 };

@@ -1,0 +1,179 @@
+#include "increment/free_spins.hpp"
+
+#include "base/constants.hpp"
+#include "base/room.hpp"
+#include "increment/increment.hpp"
+#include "packing/geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace grainlaw::core {
+
+namespace {
+
+constexpr unsigned char two = 2, more = 3;
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+// 1 where the node is the first of the contact, else -1, and the other node.
+struct Place {
+  double side;
+  std::size_t neighbour;
+};
+Place place_of(const Increment<3>& increment, std::size_t c, std::size_t q) {
+  const auto& node = increment.problem().space->node;
+  const auto node_of = [&](const auto& ends) {
+    return static_cast<std::size_t>(node[static_cast<std::size_t>(ends[c])]);
+  };
+  const std::size_t i = node_of(increment.contacts().i);
+  const std::size_t j = node_of(increment.contacts().j);
+  return i == q ? Place{1, j} : Place{-1, i};
+}
+
+}  // namespace
+
+bool FreeSpins::possible(const Increment<3>& increment) {
+  const ContactLaw& law = *increment.problem().law;
+  const bool by_moments = law.rolls() || (law.moments() && law.bond.bending_stiffness > 0);
+  return law.rotating() && law.tangential() && !by_moments && !increment.motion().drag().acts();
+}
+
+void FreeSpins::find(const Increment<3>& increment) {
+  const auto& list = increment.contacts();
+  const auto& node = increment.problem().space->node;
+  const std::size_t n = increment.problem().nodes();
+  resize_with_room(count_, n);
+  resize_with_room(contact_, n);
+  resize_with_room(place_, n);
+  std::fill(count_.begin(), count_.end(), static_cast<unsigned char>(0));
+  for (std::size_t c = 0; c < list.size(); ++c) {
+    if (increment.surely_open(c) || !increment.carries(c)) continue;
+    for (const auto p : {list.i[c], list.j[c]}) {
+      const auto q = static_cast<std::size_t>(node[static_cast<std::size_t>(p)]);
+      if (count_[q] < two) contact_[q][count_[q]] = c;
+      if (count_[q] < more) ++count_[q];
+    }
+  }
+  reserve_with_room(held_, n);
+  forget();
+  for (std::size_t q = 0; q < n; ++q) {
+    place_[q] = none;
+    if (count_[q] != two) continue;
+    place_[q] = held_.size();
+    held_.push_back(held_at(increment, q));
+  }
+  if (held_.empty()) return;
+  find_limits(increment);
+  stop(increment);
+}
+
+FreeSpins::Held FreeSpins::held_at(const Increment<3>& increment, std::size_t q) const {
+  const auto& list = increment.contacts();
+  const auto& motion = increment.motion();
+  const std::size_t n = increment.problem().nodes();
+  const double radius = motion.node_radius()[q];
+  const auto carried = product<3>(motion.deformation(), inverse<3>(motion.start_deformation()));
+  const double* rotation = motion.coordinates().data() + 3 * n;
+  const Vec<3> turned{rotation[q], rotation[n + q], rotation[2 * n + q]};
+  Held held{};
+  held.node = q;
+  held.contact = contact_[q];
+  Vec<3> point{};  // of the first contact, over the radius
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::size_t c = held.contact[k];
+    const auto [side, neighbour] = place_of(increment, c, q);
+    held.side[k] = side;
+    held.neighbour[k] = neighbour;
+    const Vec<3> shift{list.shift[0][c], list.shift[1][c], list.shift[2][c]};
+    const Vec<3> start =
+        branch<3>(motion.start().data(), n, static_cast<std::size_t>(list.i[c]),
+                  static_cast<std::size_t>(list.j[c]), motion.start_deformation(),
+                  product<3>(tensor_of<3>(increment.problem().packing->cell), shift));
+    const Vec<3> now = increment.branch(c);
+    const Vec<3> departure = sum(now, -1, product<3>(carried, start));
+    for (std::size_t m = 0; m < 3; ++m) {
+      const double outward = held.side[k] * list.start_normal[m][c];
+      held.chord[m] += k == 0 ? -outward : outward;
+      if (k == 0) point[m] = outward;
+      held.departure[m] += 0.5 * held.side[k] * departure[m];
+    }
+  }
+  // In the ratio of the masses with which spheres relax.
+  const double inertia = 2 * increment.problem().law->ratio;
+  held.way_scale = 1 / (inertia * radius);
+  held.way = sum({}, held.way_scale, cross(held.chord, point));
+  held.by_spin = sum(held.chord, 0.5, cross(turned, held.chord));
+  held.excess = dot(held.chord, turned) + dot(held.way, held.departure);
+  held.stiffness =
+      tuned::free_spin_hold * increment.masses().of_unknowns()[3 * n + q] / square<3>(held.chord);
+  return held;
+}
+
+void FreeSpins::find_limits(const Increment<3>& increment) {
+  const auto& list = increment.contacts();
+  const auto& node = increment.problem().space->node;
+  reserve_with_room(limits_, place_.size());
+  limits_.assign(held_.size(), {Limit{unlimited, none, {}}, Limit{unlimited, none, {}}});
+  for (std::size_t c = 0; c < list.size(); ++c) {
+    const auto i = static_cast<std::size_t>(node[static_cast<std::size_t>(list.i[c])]);
+    const auto j = static_cast<std::size_t>(node[static_cast<std::size_t>(list.j[c])]);
+    if (i == j) continue;
+    if (place_[i] != none) see_third(increment, c, place_[i], 1);
+    if (place_[j] != none) see_third(increment, c, place_[j], -1);
+  }
+}
+
+// How far the sphere may roll until the contact closes, to first order.
+void FreeSpins::see_third(const Increment<3>& increment, std::size_t c, std::size_t place,
+                          double side) {
+  const Held& held = held_[place];
+  if (c == held.contact[0] || c == held.contact[1]) return;
+  const auto& list = increment.contacts();
+  const auto& motion = increment.motion();
+  const Vec<3> branch = increment.branch(c);
+  const double distance = length<3>(branch);
+  const double radius = motion.node_radius()[held.node];
+  const Vec<3> outward = sum({}, side / distance, branch);
+  // By a spin of chord about the chord: of the distance, and of the excess.
+  const Vec<3> moved = sum({}, radius / held.way_scale, held.way);
+  const double closing = dot(outward, moved);
+  if (std::abs(closing) < tuned::least_closing * length<3>(moved)) return;
+  const double turning = square<3>(held.chord) + dot(held.way, moved);
+  const double scale = turning / closing;
+  const double room = std::abs(scale) * (distance - list.reach[c]);
+  Limit& limit = limits_[place][closing > 0 ? 0 : 1];
+  if (room < limit.room) limit = {room, c, sum({}, scale, outward)};
+}
+
+// Excess goes down to zero unless it meets its lower limit first; below zero, up.
+void FreeSpins::stop(const Increment<3>& increment) {
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    Held& held = held_[k];
+    const auto& [down, up] = limits_[k];
+    const Limit* limit = nullptr;
+    if (held.excess > down.room) {
+      limit = &down;
+    } else if (held.excess < -up.room) {
+      limit = &up;
+    }
+    if (limit == nullptr) continue;
+    held.excess = limit == &down ? down.room : -up.room;
+    held.third = limit->contact;
+    held.by_third = limit->by_branch;
+    const auto [side, neighbour] = place_of(increment, held.third, held.node);
+    held.third_side = side;
+    held.third_neighbour = neighbour;
+    by_chance_ = by_chance_ || count_[neighbour] < two;
+  }
+}
+
+void FreeSpins::add_to(std::size_t nodes, std::span<double> residual) const {
+  for (const Held& held : held_) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      residual[(3 + k) * nodes + held.node] -= held.stiffness * held.excess * held.chord[k];
+    }
+  }
+}
+
+}  // namespace grainlaw::core

@@ -1,0 +1,97 @@
+// Spheres with two contacts, which these do not hold against rolling about their chord.
+#include "generate/compaction.hpp"
+#include "sphere_support.hpp"
+#include "state/scratch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace grainlaw::core::sphere_test {
+namespace {
+
+std::shared_ptr<const Material<3>> hundred_spheres(double tolerance, double increment_limit = 0) {
+  MaterialDescription description = describe(tolerance);
+  if (increment_limit > 0) description.solver.increment_limit = increment_limit;
+  GeneratorOptions options;
+  options.count = 100;
+  options.seed = 1;
+  description.packing = consolidate<3>(options, description.law);
+  return make_material<3>(description);
+}
+
+Deformation sheared_triaxially(int increments) {
+  const double strain = 1e-3 * increments;
+  return {1 + 0.4 * strain, 0.1 * strain, 0, 0, 1 + 0.4 * strain, 0, 0, 0, 1 - strain};
+}
+
+std::size_t free_spins() { return workspace<3>().increment.free_spins().held().size(); }
+
+TEST(free_spins, leave_the_tangent_exact_or_the_report_says_so) {
+  State<3> state(hundred_spheres(1e-11));
+  std::size_t most_free = 0;
+  int exact = 0;
+  for (int k = 1; k <= 8; ++k) {
+    const Deformation F = sheared_triaxially(k);
+    const Found found = evaluate(state, F, TangentKind::exact);
+    most_free = std::max(most_free, free_spins());
+    double error = std::numeric_limits<double>::infinity();
+    for (const double step : {1e-6, 1e-7, 1e-8}) {
+      error =
+          std::min(error, relative_difference(found.tangent, central_differences(state, F, step)));
+    }
+    if (found.report.tangent_exact == 1) {
+      EXPECT_LT(error, 1e-6) << k;
+      ++exact;
+    } else {
+      EXPECT_STRNE(found.report.message, "");
+    }
+    evaluate(state, F);
+    state.commit();
+  }
+  EXPECT_GE(most_free, 2U);
+  EXPECT_GE(exact, 6);
+}
+
+TEST(free_spins, leave_it_exact_through_parts) {
+  State<3> whole(hundred_spheres(1e-11));
+  for (int k = 1; k <= 4; ++k) {
+    evaluate(whole, sheared_triaxially(k));
+    whole.commit();
+  }
+  State<3> state(hundred_spheres(1e-11, 0.5));
+  state.restore(whole.committed());
+  const Deformation F = sheared_triaxially(6);
+  const Found found = evaluate(state, F, TangentKind::exact);
+  EXPECT_GE(free_spins(), 1U);
+  EXPECT_GT(found.report.subincrements, 1);
+  EXPECT_EQ(found.report.tangent_exact, 1);
+  double error = std::numeric_limits<double>::infinity();
+  for (const double step : {1e-6, 1e-7, 1e-8}) {
+    error =
+        std::min(error, relative_difference(found.tangent, central_differences(state, F, step)));
+  }
+  EXPECT_LT(error, 1e-6);
+}
+
+// Where a relaxation leaves them depends on how far it goes.
+TEST(free_spins, are_where_the_rule_says_however_they_are_solved_for) {
+  State<3> state(hundred_spheres(1e-9));
+  State<3> tighter(hundred_spheres(1e-11));
+  std::size_t most_free = 0;
+  for (int k = 1; k <= 8; ++k) {
+    const Deformation F = sheared_triaxially(k);
+    const Found one = evaluate(state, F);
+    const Found other = evaluate(tighter, F);
+    most_free = std::max(most_free, free_spins());
+    EXPECT_LT(relative_difference(one.stress, other.stress), 1e-8) << k;
+    tighter.commit();
+    state.restore(tighter.committed());
+  }
+  EXPECT_GE(most_free, 2U);
+}
+
+}  // namespace
+}  // namespace grainlaw::core::sphere_test
