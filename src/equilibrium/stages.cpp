@@ -125,7 +125,7 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
         relax(increment, tolerance, limit, History::committed, w.relaxation, 0, may_extrapolate);
     const bool lost = increment.scale().touching() == 0 || increment.collapsed();
     if (lost) return is_free(request, increment);
-    if (relaxed && tolerance == target) return true;
+    if (relaxed && tolerance == target && increment.find_free_spins() < target) return true;
     const auto is_loose = [&] { return increment.residual_norm() < request.loose_tolerance; };
     if (request.guess_loose && !relaxed && is_loose()) return outcome.loose = true;
     const bool unsettled = !relaxed && round < tuned::unsettled_rounds;

@@ -5,6 +5,7 @@
 #include "math/tensor.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -41,6 +42,10 @@ class FreeSpins {
     Vec<3> by_third;  // of the excess by the third branch, outwards [1/m]
 
     [[nodiscard]] bool stopped() const { return third != none; }
+    // On the surface [N].
+    [[nodiscard]] double force(double radius) const {
+      return stiffness * std::abs(excess) * length<3>(chord) / radius;
+    }
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 

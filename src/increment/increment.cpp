@@ -100,11 +100,24 @@ void Increment<D>::update_forces(History history) {
 
 template <int D>
 bool Increment<D>::hold_free_spins() {
-  if constexpr (D == 3) {
-    holds_spins_ = FreeSpins::possible(*this);
-    if (!holds_spins_) free_spins_.forget();
-  }
+  if constexpr (D == 3) holds_spins_ = FreeSpins::possible(*this);
   return holds_spins_;
+}
+
+template <int D>
+double Increment<D>::find_free_spins() {
+  if constexpr (D == 2) return 0;
+  if constexpr (D == 3) {
+    free_spins_.forget();
+    if (!FreeSpins::possible(*this)) return 0;
+    refresh_masses();
+    free_spins_.find(*this);
+    double largest = 0;
+    for (const auto& held : free_spins_.held()) {
+      largest = std::max(largest, held.force(motion_.node_radius()[held.node]));
+    }
+    return largest / scale_.relative();
+  }
 }
 
 template <int D>

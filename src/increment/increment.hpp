@@ -60,6 +60,8 @@ class Increment {
   // to their rule, or no longer. Whether there is anything to hold.
   bool hold_free_spins();
   void release_free_spins() { holds_spins_ = false; }
+  // At the present coordinates. What would hold them, as a residual is measured; 0 where there are none.
+  double find_free_spins();
   [[nodiscard]] const auto& free_spins() const { return free_spins_; }
 
   // Of the present coordinates, with the scale of forces; of the present records, for records alone;

@@ -54,10 +54,7 @@ bool Sensitivity<D>::solve(Increment<D>& increment, double share, double start_s
                    change_at<D>(start_share, increment, carried_change_));
     history = history_.of_list(law.moments());
   }
-  if (increment.hold_free_spins()) {
-    increment.update_forces();
-    increment.release_free_spins();
-  }
+  increment.find_free_spins();
   if constexpr (D == 3) by_chance_ = by_chance_ || increment.free_spins().by_chance();
   stiffness.assemble(increment, 0);
   const auto touching = stiffness.touching();

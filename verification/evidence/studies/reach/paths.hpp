@@ -28,8 +28,8 @@ struct Increment {
 
 struct Path {
   std::string packing;
-  std::string kind;      // "drained" or "shear"
-  double stiffness = 0;  // kn / (p t) at the start, of two discs of mean radius [-]
+  std::string kind;      // "drained", "isochoric" or "shear"
+  double stiffness = 0;  // kn / (p t) at the start, of two particles of mean radius [-]
   double friction = 0;   // tan(phi) [-]
   std::vector<Increment> increments;
   std::string gave_up;  // "", or why the path ends early

@@ -2,6 +2,7 @@
 
 #include "evidence/studies/reach/packings.hpp"
 #include "evidence/studies/reach/paths.hpp"
+#include "evidence/studies/reach/spheres.hpp"
 #include "evidence/studies/reach/tables.hpp"
 #include "evidence/studies/study.hpp"
 
@@ -101,6 +102,29 @@ void add_grid_paths(std::vector<Job>& jobs, const StudyOptions& options,
   }
 }
 
+void add_sphere_paths(std::vector<Job>& jobs, const Arguments& arguments) {
+  for (const double stiffness : {1e2, 1e3, 1e4, 1e5}) {
+    for (const double friction : {0.2, 0.5, 0.8}) {
+      const auto material = std::make_shared<Material>(
+          make_spheres(arguments.count, arguments.seed, arguments.tolerance, stiffness, friction));
+      for (const char* kind : {"drained", "isochoric", "shear"}) {
+        jobs.push_back({{fmt::format("spheres{}_{:.0e}", arguments.count, stiffness),
+                         kind,
+                         stiffness,
+                         friction,
+                         {},
+                         "",
+                         1},
+                        0,
+                        arguments.small.steps(stiffness),
+                        [=](Path& path, const Observer& observe) {
+                          lead_spheres(path, *material, arguments.small, observe);
+                        }});
+      }
+    }
+  }
+}
+
 void lead_all(std::vector<Job>& jobs, int threads) {
   double planned = 0;
   for (const Job& job : jobs) planned += job.steps;
@@ -124,7 +148,9 @@ void lead_all(std::vector<Job>& jobs, int threads) {
 
 void run_study(const StudyOptions& options, const Arguments& arguments) {
   std::vector<Job> jobs;
-  for (int repeat = 0; arguments.only != "grid" && repeat < arguments.repeats; ++repeat)
+  const bool spheres = arguments.only == "spheres";
+  if (spheres) add_sphere_paths(jobs, arguments);
+  for (int repeat = 0; !spheres && arguments.only != "grid" && repeat < arguments.repeats; ++repeat)
     add_reference_paths(jobs, options, arguments, repeat);
   if (arguments.only == "grid" || arguments.only == "all") add_grid_paths(jobs, options, arguments);
   lead_all(jobs, arguments.threads);
@@ -148,10 +174,13 @@ void add_reach_study(CLI::App& study, const std::shared_ptr<StudyOptions>& optio
       ->capture_default_str();
   command->add_option("--shear", arguments->shear, "F12 of the shear path of yade400 [-]")
       ->capture_default_str();
-  command->add_option("--only", arguments->only, "some of the paths; grid: packings of our own")
-      ->check(CLI::IsMember({"all", "drained", "shear", "grid"}))
+  command
+      ->add_option(
+          "--only", arguments->only,
+          "some of the paths; grid: packings of our own; spheres: the same of spheres, not in all")
+      ->check(CLI::IsMember({"all", "drained", "shear", "grid", "spheres"}))
       ->capture_default_str();
-  command->add_option("--count", arguments->count, "discs of a packing of the grid [-]")
+  command->add_option("--count", arguments->count, "particles of a packing of the grid [-]")
       ->check(at_least(1))
       ->capture_default_str();
   command->add_option("--seed", arguments->seed, "of the packings of the grid [-]")

@@ -116,13 +116,13 @@ std::vector<Group> groups() {
   for (const char* kind : {"drained", "shear"})
     result.push_back({fmt::format("yade400 {}", kind),
                       [=](const Path& path) { return !ours(path) && path.kind == kind; }});
-  for (const char* kind : {"drained", "shear"})
+  for (const char* kind : {"drained", "isochoric", "shear"})
     result.push_back({fmt::format("grid {}", kind),
                       [=](const Path& path) { return ours(path) && path.kind == kind; }});
   for (const double stiffness : {1e2, 1e3, 1e4, 1e5, 1e6})
     result.push_back({fmt::format("grid kn/p = {:.0e}", stiffness),
                       [=](const Path& path) { return ours(path) && path.stiffness == stiffness; }});
-  for (const double friction : {0.0, 0.2, 0.4, 0.6, 0.8})
+  for (const double friction : {0.0, 0.2, 0.4, 0.5, 0.6, 0.8})
     result.push_back({fmt::format("grid friction {}", friction),
                       [=](const Path& path) { return ours(path) && path.friction == friction; }});
   result.push_back({"all", [](const Path&) { return true; }});
