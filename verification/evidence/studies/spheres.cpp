@@ -1,6 +1,7 @@
 // `grainlaw_evidence spheres`: CPU time of an increment of spheres over their number, and how exact their
 // tangents are, at equilibrium and without jumps (solver.viscous_time).
 
+#include "evidence/studies/features/cost.hpp"
 #include "evidence/studies/statistics.hpp"
 #include "evidence/studies/study.hpp"
 
@@ -50,9 +51,10 @@ viscous_time = {}
 using Tensor3 = std::array<double, 9>;
 using Tangent3 = std::array<double, 81>;
 
-// After so many increments of triaxial compression.
-Tensor3 deformation_after(int increments) {
+// After so many increments of triaxial compression, or of simple shear.
+Tensor3 deformation_after(int increments, bool shear = false) {
   const double strain = increment * increments;
+  if (shear) return {1, 0, strain, 0, 1, 0, 0, 0, 1};
   const double lateral = 1 + lateral_share * strain;
   return {lateral, 0, 0, 0, lateral, 0, 0, 0, 1 - strain};
 }
@@ -61,7 +63,18 @@ struct Cost {
   std::vector<double> plain, exact;  // [ms]
   std::vector<double> steps, factorisations;
   int failed = 0;
+  double state = 0;  // committed and trial [B]
 };
+
+// At the end of a path: committed there, with a trial beside. The thread has all it needs.
+double state_bytes(const grainlaw::Material& material, const Tensor3& end, const Tensor3& beyond) {
+  const double before = heap_bytes();
+  grainlaw::State state(material);
+  Tensor3 P{};
+  if (state.evaluate(end, P).status == GRAINLAW_OK) state.commit();
+  static_cast<void>(state.evaluate(beyond, P));
+  return heap_bytes() - before;
+}
 
 // Triaxial compression in steps of 0.1 %.
 Cost cost_of(const grainlaw::Material& material, int increments) {
@@ -87,6 +100,7 @@ Cost cost_of(const grainlaw::Material& material, int increments) {
     cost.factorisations.push_back(plain.report.factorisations);
     state.commit();
   }
+  cost.state = state_bytes(material, deformation_after(1), deformation_after(2));
   return cost;
 }
 
@@ -123,28 +137,43 @@ double tangent_error(grainlaw::State& state, const Tensor3& F) {
   return least;
 }
 
+struct TangentErrors {
+  std::vector<double> of_exact;
+  int states = 0;
+};
+
+TangentErrors tangent_errors(const grainlaw::Material& material, bool shear, int increments) {
+  grainlaw::State state(material);
+  TangentErrors errors;
+  for (int k = 1; k <= increments; ++k) {
+    const Tensor3 F = deformation_after(k, shear);
+    const double error = tangent_error(state, F);
+    if (std::isfinite(error)) errors.of_exact.push_back(error);
+    ++errors.states;
+    Tensor3 P{};
+    if (state.evaluate(F, P).status != GRAINLAW_OK) break;
+    state.commit();
+  }
+  return errors;
+}
+
 void check_tangents(const StudyOptions& options, int increments) {
-  Table table(
-      fmt::format("exact tangent against central differences after each of the first {} "
-                  "increments, tolerance 1e-11 [-], the best of three steps",
-                  increments),
-      {"spheres", "viscous_time[-]", "median[-]", "largest[-]", "above_1e-6[-]", "not_exact[-]"});
+  Table table(fmt::format("exact tangent against central differences after each of {} increments, "
+                          "tolerance 1e-11 [-], the best of three steps",
+                          increments),
+              {"spheres", "viscous_time[-]", "path", "median[-]", "largest[-]", "above_1e-6[-]",
+               "not_exact[-]"});
   for (const int count : {60, 200, 500}) {
     for (const double time : {0.0, 100.0}) {
-      grainlaw::State state(spheres(count, time, 1e-11));
-      std::vector<double> errors;
-      for (int k = 1; k <= increments; ++k) {
-        const Tensor3 F = deformation_after(k);
-        const double error = tangent_error(state, F);
-        if (std::isfinite(error)) errors.push_back(error);
-        Tensor3 P{};
-        if (state.evaluate(F, P).status != GRAINLAW_OK) break;
-        state.commit();
+      const auto material = spheres(count, time, 1e-11);
+      for (const bool shear : {false, true}) {
+        const auto [errors, states] = tangent_errors(material, shear, increments);
+        const double largest = errors.empty() ? 0 : *std::ranges::max_element(errors);
+        const auto above = std::ranges::count_if(errors, [](double error) { return error > 1e-6; });
+        table.row({fmt::format("{}", count), fmt::format("{:g}", time),
+                   shear ? "shear" : "triaxial", median(errors), largest,
+                   static_cast<double>(above), states - static_cast<double>(errors.size())});
       }
-      const double largest = errors.empty() ? 0 : *std::ranges::max_element(errors);
-      const auto above = std::ranges::count_if(errors, [](double error) { return error > 1e-6; });
-      table.row({fmt::format("{}", count), fmt::format("{:g}", time), median(errors), largest,
-                 static_cast<double>(above), increments - static_cast<double>(errors.size())});
     }
   }
   table.write(std::filesystem::path(options.output) / "study_spheres_tangent.csv");
@@ -158,7 +187,7 @@ void measure_cost(const StudyOptions& options, const std::vector<int>& counts, i
                           "against the fewest",
                           increments),
               {"spheres", "viscous_time[-]", "cpu[ms]", "cpu_with_tangent[ms]", "power[-]",
-               "relaxation_steps[-]", "newton_steps[-]", "failed[-]"});
+               "relaxation_steps[-]", "newton_steps[-]", "failed[-]", "state[B/sphere]"});
   Progress progress("spheres");
   std::array<double, times.size()> least{};  // of the fewest [ms]
   for (std::size_t c = 0; c < counts.size(); ++c) {
@@ -174,7 +203,7 @@ void measure_cost(const StudyOptions& options, const std::vector<int>& counts, i
                                         std::log(static_cast<double>(counts[c]) / counts[0]);
       table.row({fmt::format("{}", counts[c]), fmt::format("{:g}", times[t]), average(cost.plain),
                  exact, power, average(cost.steps), average(cost.factorisations),
-                 static_cast<double>(cost.failed)});
+                 static_cast<double>(cost.failed), cost.state / counts[c]});
     }
   }
   table.write(std::filesystem::path(options.output) / "study_spheres.csv");
@@ -187,6 +216,7 @@ void add_spheres_study(CLI::App& study, const std::shared_ptr<StudyOptions>& opt
   struct Arguments {
     std::vector<int> counts{200, 500, 1000, 2000, 4000};
     int increments = 10;
+    int states = 20;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
@@ -194,8 +224,10 @@ void add_spheres_study(CLI::App& study, const std::shared_ptr<StudyOptions>& opt
   command->add_option("--counts", arguments->counts, "spheres, ascending")->capture_default_str();
   command->add_option("--increments", arguments->increments, "of 0.1 % each")
       ->capture_default_str();
+  command->add_option("--states", arguments->states, "tangents of each path")
+      ->capture_default_str();
   command->callback([arguments, options] {
-    check_tangents(*options, arguments->increments);
+    check_tangents(*options, arguments->states);
     measure_cost(*options, arguments->counts, arguments->increments);
   });
 }

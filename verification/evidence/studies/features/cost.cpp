@@ -13,9 +13,7 @@
 #endif
 
 namespace verification {
-namespace {
 
-// What malloc has handed out and not got back; only glibc says.
 double heap_bytes() {
 #if defined(__GLIBC__)
   const struct mallinfo2 info = mallinfo2();
@@ -24,6 +22,8 @@ double heap_bytes() {
   return std::numeric_limits<double>::quiet_NaN();
 #endif
 }
+
+namespace {
 
 struct Led {
   State state;

@@ -9,6 +9,9 @@
 
 namespace verification {
 
+// What malloc has handed out and not got back; only glibc says, else NaN.
+double heap_bytes();
+
 // One increment: the F that are tried one after the other; the last one is committed.
 using Increment = std::vector<Tensor>;
 
