@@ -120,6 +120,9 @@ GRAINLAW_TUNED(int, most_corrections, 5);
 GRAINLAW_TUNED(double, hopeless_correction, 1e4);
 // What holds the free spin of a sphere with two contacts to its rule [of its mass]; method.
 GRAINLAW_TUNED(double, free_spin_hold, 0.1);
+// A contact that carries less of the mean force may hold it or not, however coarse the tolerance is [-];
+// design of spheres.
+GRAINLAW_TUNED(double, least_holding_force, 1e-5);
 // A third sphere is in its way where the way leads so much towards it [-]; method.
 GRAINLAW_TUNED(double, least_closing, 0.05);
 // Moments of rolling mechanisms count from this on [of the tolerance]; method.

@@ -113,7 +113,8 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
   double target = reachable(request, increment);
   double hand_over = hand_over_of(increment.problem().nodes());
   if (has_drag(request)) hand_over = D == 2 ? tuned::drag_hand_over : target;
-  if (target > tuned::worth_newton * hand_over) hand_over = target;
+  const bool coarse = target > tuned::worth_newton * hand_over;
+  if (coarse) hand_over = target;
   bool last = false;
   for (int round = 0; !last && round < rounds; ++round) {
     last = whole && round >= enough && hand_over <= target;
@@ -125,7 +126,8 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
         relax(increment, tolerance, limit, History::committed, w.relaxation, 0, may_extrapolate);
     const bool lost = increment.scale().touching() == 0 || increment.collapsed();
     if (lost) return is_free(request, increment);
-    if (relaxed && tolerance == target && increment.find_free_spins() < target) return true;
+    const bool there = relaxed && tolerance == target;
+    if (there && (coarse || increment.find_free_spins() < target)) return true;
     const auto is_loose = [&] { return increment.residual_norm() < request.loose_tolerance; };
     if (request.guess_loose && !relaxed && is_loose()) return outcome.loose = true;
     const bool unsettled = !relaxed && round < tuned::unsettled_rounds;

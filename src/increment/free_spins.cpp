@@ -47,8 +47,13 @@ void FreeSpins::find(const Increment<3>& increment) {
   resize_with_room(contact_, n);
   resize_with_room(place_, n);
   std::fill(count_.begin(), count_.end(), static_cast<unsigned char>(0));
+  const auto& scale = increment.scale();
+  const double least = std::min(tuned::more_than_chance * scale.chance(),
+                                tuned::least_holding_force * scale.relative());
   for (std::size_t c = 0; c < list.size(); ++c) {
-    if (increment.surely_open(c) || !increment.carries(c)) continue;
+    if (increment.surely_open(c)) continue;
+    const double force = normal_force(list, c, increment.overlap(c), *increment.problem().law);
+    if (!list.bonded(c) && force <= least) continue;
     for (const auto p : {list.i[c], list.j[c]}) {
       const auto q = static_cast<std::size_t>(node[static_cast<std::size_t>(p)]);
       if (count_[q] < two) contact_[q][count_[q]] = c;
