@@ -122,7 +122,8 @@ TEST(layer_of_spheres, is_the_disc_packing) {
     Tensor<2> p{};
     grainlaw_report report{};
     Tensor4<2> a{};
-    ASSERT_EQ(plane.evaluate(f.data(), TangentKind::exact, p.data(), a.data(), report), GRAINLAW_OK);
+    ASSERT_EQ(plane.evaluate(f.data(), TangentKind::exact, p.data(), a.data(), report),
+              GRAINLAW_OK);
     const auto found = evaluate(space, F, TangentKind::exact);
     const Tensor<2> line{found.stress[0] * height / thickness, found.stress[1] * height / thickness,
                          found.stress[3] * height / thickness,

@@ -1,0 +1,73 @@
+// `grainlaw_evidence spheres`: how exact the tangents of spheres are, and what an increment costs over its error
+// and over their number, at equilibrium and without jumps (solver.viscous_time).
+
+#include "evidence/studies/spheres/spheres.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+namespace verification {
+namespace spheres {
+namespace {
+
+constexpr double lateral_share = 0.4;  // of the axial strain, near constant stress before the peak
+
+}  // namespace
+
+grainlaw::Material packed(int count, double viscous_time, double tolerance) {
+  return grainlaw::Material::parse(fmt::format(R"(dimension = 3
+[packing]
+generator = "compaction"
+count = {}
+radii = [3e-3, 6e-3]
+seed = 1
+pressure = 1e5
+[contact]
+law = "frictional"
+young = 1e8
+ratio = 0.8
+friction = 0.5463
+[solver]
+tolerance = {}
+viscous_time = {}
+)",
+                                               count, tolerance, viscous_time),
+                                   ".");
+}
+
+// After so many increments of triaxial compression, or of simple shear.
+Tensor3 deformation_after(int increments, bool shear) {
+  const double strain = increment * increments;
+  if (shear) return {1, 0, strain, 0, 1, 0, 0, 0, 1};
+  const double lateral = 1 + lateral_share * strain;
+  return {lateral, 0, 0, 0, lateral, 0, 0, 0, 1 - strain};
+}
+
+}  // namespace spheres
+
+void add_spheres_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options) {
+  struct Arguments {
+    std::vector<int> counts{200, 500, 1000, 2000, 4000};
+    int increments = 10;
+    int states = 20;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      study.add_subcommand("spheres", "CPU time over the number of spheres, exact tangents");
+  command->add_option("--counts", arguments->counts, "spheres, ascending")->capture_default_str();
+  command->add_option("--increments", arguments->increments, "of 0.1 % each")
+      ->capture_default_str();
+  command->add_option("--states", arguments->states, "tangents of each path")
+      ->capture_default_str();
+  command->callback([arguments, options] {
+    spheres::check_tangents(*options, arguments->states);
+    spheres::measure_error(*options);
+    spheres::measure_cost(*options, arguments->counts, arguments->increments);
+  });
+}
+
+}  // namespace verification

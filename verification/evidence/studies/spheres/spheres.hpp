@@ -1,0 +1,31 @@
+// The packings and paths of the study of spheres, and its parts.
+#pragma once
+
+#include "evidence/studies/study.hpp"
+
+#include <grainlaw/grainlaw.hpp>
+
+#include <array>
+#include <vector>
+
+namespace verification::spheres {
+
+using Tensor3 = std::array<double, 9>;
+using Tangent3 = std::array<double, 81>;
+
+constexpr double increment = 0.001;
+
+// Of our own, by compaction; the frictional law of YADE's 500 spheres. Throws grainlaw::Error.
+grainlaw::Material packed(int count, double viscous_time, double tolerance);
+
+// After so many increments of triaxial compression, or of simple shear.
+Tensor3 deformation_after(int increments, bool shear = false);
+
+// Exact tangents against central differences at so many states of both paths.
+void check_tangents(const StudyOptions& options, int states);
+// Stress error against CPU time, of YADE's spheres.
+void measure_error(const StudyOptions& options);
+// CPU time and memory over the number, of so many increments.
+void measure_cost(const StudyOptions& options, const std::vector<int>& counts, int increments);
+
+}  // namespace verification::spheres
