@@ -135,7 +135,26 @@ Expectation<std::array<double, 3>> direction() {
           }};
 }
 
+std::string shown(double value) { return fmt::format("{:g}", value); }
+std::string shown(bool value) { return value ? "true" : "false"; }
+std::string shown(int value) { return fmt::format("{}", value); }
+
+void TomlTable::write_note(std::string_view key, std::string_view expected,
+                           std::string_view fallback) const {
+  std::string name = path(key);
+  // The first of several tables stands for them all.
+  for (std::size_t at = name.find('['); at != std::string::npos; at = name.find('[', at + 1))
+    name.erase(at + 1, name.find(']', at) - at - 1);
+  const auto same = [&](const AskedKey& other) { return other.path == name; };
+  const auto known = std::ranges::find_if(*log_, same);
+  if (known == log_->end())
+    log_->push_back({std::move(name), std::string(expected), std::string(fallback)});
+  else if (known->expected.empty())
+    known->expected = expected;
+}
+
 TomlTable TomlTable::required_table(std::string_view key) {
+  note(key, "a table", "required");
   const toml::node* found = node(key);
   if (found == nullptr) fail(key, "nothing", "a table");
   return child(key, *found);
@@ -143,12 +162,17 @@ TomlTable TomlTable::required_table(std::string_view key) {
 
 TomlTable TomlTable::optional_table(std::string_view key) {
   static const toml::table empty;
+  note(key, "a table", "");
   const toml::node* found = node(key);
   return child(key, found == nullptr ? empty : *found);
 }
 
 void TomlTable::require_either(std::string_view one, std::string_view other) {
   const std::string expected = fmt::format("either {} or {}", one, other);
+  if (log_ != nullptr) {
+    note(one, "", fmt::format("this or {}", other));
+    note(other, "", fmt::format("this or {}", one));
+  }
   if (has(one) && has(other)) fail(other, "both", expected);
   if (!has(one) && !has(other)) fail(one, "nothing", expected);
 }
@@ -172,11 +196,13 @@ void TomlTable::fail(std::string_view key, std::string_view found,
 }
 
 const toml::node* TomlTable::node(std::string_view key) {
+  note(key, "", "");
   if (std::ranges::find(asked_, key) == asked_.end()) asked_.emplace_back(key);
   return table_->get(key);
 }
 
 std::vector<TomlTable> TomlTable::tables(std::string_view key) {
+  note(key, "tables", "");
   const toml::node* found = node(key);
   std::vector<TomlTable> result;
   if (found == nullptr) return result;
@@ -189,7 +215,7 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
 
 TomlTable TomlTable::child(std::string_view key, const toml::node& node) const {
   if (!node.is_table()) fail(key, describe(node), "a table");
-  TomlTable table(*node.as_table(), file_);
+  TomlTable table(*node.as_table(), file_, "", log_);
   table.prefix_ = path(key) + '.';
   return table;
 }

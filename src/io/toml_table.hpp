@@ -17,6 +17,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -61,6 +62,38 @@ Expectation<T> one_of(std::initializer_list<std::pair<std::string_view, T>> word
           }};
 }
 
+// What a reader asked a table for: the table of keys that the manual shows.
+struct AskedKey {
+  std::string path;      // "contact.kn"; of tables under [[segment]] "segment[].steps"
+  std::string expected;  // the text of its expectation
+  std::string fallback;  // "required", a value, or "" for nothing
+};
+using KeyLog = std::vector<AskedKey>;
+
+// The value of a key that is absent, as a page shows it.
+std::string shown(double value);
+std::string shown(bool value);
+std::string shown(int value);
+inline std::string shown(std::string_view value) { return std::string(value); }
+// Of the words that an expectation allows, the one that stands for the value; "" when none does.
+template <class U, class T>
+std::string shown_default(const Expectation<U>& expectation, const T& value) {
+  if constexpr (std::is_same_v<U, bool>)
+    return shown(static_cast<bool>(value));
+  else if constexpr (std::is_arithmetic_v<U>)
+    return shown(static_cast<double>(value));
+  else if constexpr (std::is_enum_v<U>) {
+    for (std::size_t begin = expectation.text.find('"'); begin != std::string::npos;) {
+      const std::size_t end = expectation.text.find('"', begin + 1);
+      const std::string word = expectation.text.substr(begin + 1, end - begin - 1);
+      if (expectation.read(toml::value<std::string>(word)) == static_cast<U>(value))
+        return '"' + word + '"';
+      begin = expectation.text.find('"', end + 1);
+    }
+  }
+  return "";
+}
+
 // The whole text of a file that is called by this name. Throws Error (BAD_MATERIAL) "name:line: what is
 // wrong".
 toml::table parse_toml(std::string_view text, const std::string& name);
@@ -70,12 +103,17 @@ toml::table parse_toml(std::string_view text, const std::string& name);
 class TomlTable {
  public:
   // The table that messages call by this name, "" for the file's top one. The file is only a name here;
-  // table must outlive this.
-  TomlTable(const toml::table& table, std::string file, const std::string& name = "")
-      : table_(&table), file_(std::move(file)), prefix_(name.empty() ? "" : name + '.') {}
+  // table must outlive this. What is asked for goes to the log, where there is one.
+  TomlTable(const toml::table& table, std::string file, const std::string& name = "",
+            KeyLog* log = nullptr)
+      : table_(&table),
+        file_(std::move(file)),
+        prefix_(name.empty() ? "" : name + '.'),
+        log_(log) {}
 
   template <class T>
   T required(std::string_view key, const Expectation<T>& expectation) {
+    note(key, expectation.text, "required");
     const toml::node* found = node(key);
     if (found == nullptr) fail(key, "nothing", expectation.text);
     return read(key, *found, expectation);
@@ -89,6 +127,7 @@ class TomlTable {
   // Nothing when the key is absent.
   template <class T>
   std::optional<T> optional(std::string_view key, const Expectation<T>& expectation) {
+    note(key, expectation.text, "");
     const toml::node* found = node(key);
     if (found == nullptr) return std::nullopt;
     return read(key, *found, expectation);
@@ -97,6 +136,7 @@ class TomlTable {
   // Sets value when the key is there, else leaves its default.
   template <class T, class U>
   void optional(std::string_view key, const Expectation<U>& expectation, T& value) {
+    if (log_ != nullptr) note(key, expectation.text, shown_default(expectation, value));
     if (const std::optional<U> found = optional(key, expectation)) value = static_cast<T>(*found);
   }
 
@@ -109,6 +149,11 @@ class TomlTable {
 
   // One of the two keys must be there, not both.
   void require_either(std::string_view one, std::string_view other);
+
+  // For the log: a key that is about to be asked for. What is noted first of a key stays.
+  void note(std::string_view key, std::string_view expected, std::string_view fallback) const {
+    if (log_ != nullptr) write_note(key, expected, fallback);
+  }
 
   // No key is left that nobody asked for.
   void finish() const;
@@ -131,6 +176,7 @@ class TomlTable {
     return std::move(*value);
   }
 
+  void write_note(std::string_view key, std::string_view expected, std::string_view fallback) const;
   [[nodiscard]] TomlTable child(std::string_view key, const toml::node& node) const;
   [[nodiscard]] std::string path(std::string_view key) const;
   // "file:line" of the key, or of the table when the key is missing.
@@ -140,6 +186,7 @@ class TomlTable {
   std::string file_;
   std::string prefix_;              // "contact."
   std::vector<std::string> asked_;  // in the order of asking, for the message
+  KeyLog* log_ = nullptr;
 };
 
 }  // namespace grainlaw::core

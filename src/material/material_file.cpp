@@ -156,9 +156,9 @@ MaterialDescription read_material_file(const std::string& path) {
 }
 
 MaterialDescription parse_material(std::string_view text, const std::string& base_directory,
-                                   const std::string& name) {
+                                   const std::string& name, KeyLog* log) {
   const toml::table parsed = parse_toml(text, name);
-  TomlTable top(parsed, name);
+  TomlTable top(parsed, name, "", log);
   return read_description(top, base_directory);
 }
 

@@ -1,6 +1,7 @@
 // Material files: TOML in which every key is checked.
 #pragma once
 
+#include "io/toml_table.hpp"
 #include "material/material.hpp"
 
 #include <string>
@@ -13,9 +14,10 @@ namespace grainlaw::core {
 //   path:line: table.key: found X, expected Y
 [[nodiscard]] MaterialDescription read_material_file(const std::string& path);
 
-// The same from text; name stands for the path in messages.
+// The same from text; name stands for the path in messages. Keys that are asked for go to the log, where
+// there is one.
 [[nodiscard]] MaterialDescription parse_material(std::string_view text,
                                                  const std::string& base_directory,
-                                                 const std::string& name);
+                                                 const std::string& name, KeyLog* log = nullptr);
 
 }  // namespace grainlaw::core

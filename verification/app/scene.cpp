@@ -60,8 +60,8 @@ Expectation<std::vector<double>> numbers_in(std::size_t count, const Range& rang
 }  // namespace
 
 SceneTable::SceneTable(const toml::table& table, std::filesystem::path file,
-                       const std::string& name)
-    : table_(table, file.string(), name), file_(std::move(file)) {}
+                       const std::string& name, grainlaw::core::KeyLog* log)
+    : table_(table, file.string(), name, log), file_(std::move(file)) {}
 
 SceneTable::SceneTable(grainlaw::core::TomlTable table, std::filesystem::path file)
     : table_(std::move(table)), file_(std::move(file)) {}
@@ -77,28 +77,35 @@ T SceneTable::required(std::string_view key, const Expectation<T>& expectation) 
   return as<InputError>([&] { return table_.required(key, expectation); });
 }
 
+template <class T, class Shown>
+T SceneTable::optional(std::string_view key, const Expectation<T>& expectation,
+                       const Shown& fallback) {
+  table_.note(key, expectation.text, grainlaw::core::shown(fallback));
+  return has(key) ? required(key, expectation) : T(fallback);
+}
+
 double SceneTable::number(std::string_view key, const Range& range) {
   return required(key, number_in(range));
 }
 
 double SceneTable::number_or(std::string_view key, double fallback, const Range& range) {
-  return has(key) ? number(key, range) : fallback;
+  return optional(key, number_in(range), fallback);
 }
 
 int SceneTable::integer(std::string_view key, int low) { return required(key, integer_from(low)); }
 
 int SceneTable::integer_or(std::string_view key, int fallback, int low) {
-  return has(key) ? integer(key, low) : fallback;
+  return optional(key, integer_from(low), fallback);
 }
 
 bool SceneTable::flag_or(std::string_view key, bool fallback) {
-  return has(key) ? required(key, grainlaw::core::boolean()) : fallback;
+  return optional(key, grainlaw::core::boolean(), fallback);
 }
 
 std::string SceneTable::text(std::string_view key) { return required(key, any_text()); }
 
 std::string SceneTable::text_or(std::string_view key, std::string_view fallback) {
-  return has(key) ? text(key) : std::string(fallback);
+  return optional(key, any_text(), fallback);
 }
 
 std::string SceneTable::file_name(std::string_view key) {
@@ -108,6 +115,7 @@ std::string SceneTable::file_name(std::string_view key) {
 }
 
 std::string SceneTable::file_name_or(std::string_view key, std::string_view fallback) {
+  table_.note(key, "a text in quotes", fallback);
   if (has(key)) return file_name(key);
   if (!is_file_name(fallback))
     fail(key, fmt::format("nothing, and the file is called \"{}\"", fallback), file_name_rule);
@@ -116,9 +124,11 @@ std::string SceneTable::file_name_or(std::string_view key, std::string_view fall
 
 std::string SceneTable::choice_or(std::string_view key, std::string_view fallback,
                                   const std::vector<std::string_view>& choices) {
+  const std::string expected = fmt::format("one of {}", fmt::join(choices, ", "));
+  table_.note(key, expected, '"' + std::string(fallback) + '"');
   const std::string value = text_or(key, fallback);
   if (std::find(choices.begin(), choices.end(), value) == choices.end())
-    fail(key, '"' + value + '"', fmt::format("one of {}", fmt::join(choices, ", ")));
+    fail(key, '"' + value + '"', expected);
   return value;
 }
 
@@ -141,6 +151,9 @@ std::vector<SceneTable> SceneTable::tables(std::string_view key) {
 void SceneTable::close() const {
   as<InputError>([&] { table_.finish(); });
 }
+
+SceneFile::SceneFile(std::filesystem::path path_, toml::table content_)
+    : path(std::move(path_)), content(std::move(content_)) {}
 
 SceneFile::SceneFile(const std::filesystem::path& path_) : path(path_) {
   if (!std::filesystem::is_regular_file(path))

@@ -29,7 +29,8 @@ inline constexpr Range not_negative{0, std::numeric_limits<double>::infinity(), 
 class SceneTable {
  public:
   // The table that messages call by this name, "" for the root. It must outlive this.
-  SceneTable(const toml::table& table, std::filesystem::path file, const std::string& name);
+  SceneTable(const toml::table& table, std::filesystem::path file, const std::string& name,
+             grainlaw::core::KeyLog* log = nullptr);
 
   bool has(std::string_view key) { return node(key) != nullptr; }
 
@@ -69,6 +70,9 @@ class SceneTable {
   SceneTable(grainlaw::core::TomlTable table, std::filesystem::path file);
   template <class T>
   T required(std::string_view key, const grainlaw::core::Expectation<T>& expectation);
+  template <class T, class Shown>
+  T optional(std::string_view key, const grainlaw::core::Expectation<T>& expectation,
+             const Shown& fallback);
 
   grainlaw::core::TomlTable table_;
   std::filesystem::path file_;
@@ -77,11 +81,13 @@ class SceneTable {
 // A parsed scene file; SceneTable points into it.
 struct SceneFile {
   explicit SceneFile(const std::filesystem::path& path);  // throws InputError
+  SceneFile(std::filesystem::path path, toml::table content);
 
   std::filesystem::path path;
   toml::table content;
+  grainlaw::core::KeyLog* log = nullptr;  // of the keys that the root and its tables are asked for
 
-  [[nodiscard]] SceneTable root() const { return {content, path, ""}; }
+  [[nodiscard]] SceneTable root() const { return {content, path, "", log}; }
 };
 
 }  // namespace verification
