@@ -91,7 +91,7 @@ typedef struct grainlaw_state grainlaw_state;
 
 /* ---- material ------------------------------------------------------------------------------- */
 
-/* Read a material file (TOML; keys in the README) and the packing it names, bring the packing to
+/* Read a material file (TOML; keys in docs/material.md) and the packing it names, bring the packing to
  * equilibrium at F = I, and return a new material in *out. Paths in the file are relative to it.
  * message (may be NULL) gets a zero-terminated text that names file, line, key and expectation when
  * something is wrong, truncated to message_size bytes; it is set to "" on success.
