@@ -91,10 +91,10 @@ typedef struct grainlaw_state grainlaw_state;
 
 /* ---- material ------------------------------------------------------------------------------- */
 
-/* Read a material file (TOML; keys in docs/material.md) and the packing it names, bring the packing to
- * equilibrium at F = I, and return a new material in *out. Paths in the file are relative to it.
- * message (may be NULL) gets a zero-terminated text that names file, line, key and expectation when
- * something is wrong, truncated to message_size bytes; it is set to "" on success.
+/* Read a material file (TOML; keys in docs/material.md) and the packing it names, bring the
+ * packing to equilibrium at F = I, and return a new material in *out. Paths in the file are
+ * relative to it. message (may be NULL) gets a zero-terminated text that names file, line, key and
+ * expectation when something is wrong, truncated to message_size bytes; it is set to "" on success.
  * Errors: NULL_POINTER, FILE_ERROR, BAD_MATERIAL, BAD_PACKING, NOT_CONVERGED (no equilibrium at
  * F = I, or under the prescribed stresses), CONTACTS_LOST (unless solver.contacts_lost =
  * "stress_free"), COLLAPSED, OUT_OF_MEMORY. On any error *out is NULL. */
