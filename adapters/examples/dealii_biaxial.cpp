@@ -62,10 +62,11 @@ class Biaxial {
     points_->commit();
   }
 
-  // Newton's method to a fraction of the load. True when it got there; else the state is as it was
+  // Newton's method to a fraction of the load, in a time whose unit is a load step. True when it got there; else the state is as it was
   // and ratio is the factor on the step to try next.
-  bool advance(double fraction, std::vector<double>& residuals, double& ratio) {
+  bool advance(double fraction, double time, std::vector<double>& residuals, double& ratio) {
     const Vector<double> start = displacement_;
+    points_->set_time_step(time);
     residuals.clear();
     ratio = usual_cut;
     std::string reason = "Newton did not converge";
@@ -182,7 +183,8 @@ void run(const char* material, const std::string& prefix, int steps) {
     const double goal = static_cast<double>(step) / steps;
     double next = goal;
     do {
-      if (!problem.advance(next, residuals, ratio)) {
+      const double time = next > done ? (next - done) * steps : 1;
+      if (!problem.advance(next, time, residuals, ratio)) {
         next = done + (next - done) * std::clamp(ratio, smallest_cut, usual_cut);
         if (next - done <= smallest_part / steps)
           throw std::runtime_error("load step " + std::to_string(step) + " fails in any parts");

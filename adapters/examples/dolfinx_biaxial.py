@@ -112,6 +112,7 @@ def main(material, prefix="biaxial", count="20"):
     force = "step[-],fraction[-],top_y_displacement[m],top_y_force[N/m]\n"
     newton = "step[-],iteration[-],relative_residual[-]\n"
     while steps:
+        problem.points.set_time_step(steps.part)
         converged, residuals, ratio = problem.advance(steps.load)
         if not converged:
             steps.cut(ratio)

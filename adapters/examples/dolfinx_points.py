@@ -44,6 +44,10 @@ class Points:
                 answer.A.reshape(-1, 16)
         return answer
 
+    def set_time_step(self, step):
+        """How long increments take from now on, for a material with solver.viscous_increment."""
+        self.states.set_time_step(step)
+
     def commit(self):
         self.states.commit()
         self._committed = self.P.x.array.copy(), self.A.x.array.copy()

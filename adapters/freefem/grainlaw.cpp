@@ -4,6 +4,8 @@
 //   int sand = grainlawCreate("sand.toml", n)          n points at F = I; the number of the set
 //   grainlawEvaluate(sand, F, P [, A [, threads]])     number of points that found no equilibrium
 //       F, P [dim^2, n]: component i*dim+J; A [dim^4, n]: dP_iJ/dF_kL at ((i*dim+J)*dim+k)*dim+L
+//   grainlawSetTimeStep(sand, time)                    how long increments take from now on, for a
+//                                                      material with solver.viscous_increment
 //   grainlawStepRatio(sand), grainlawFirstFailed(sand), grainlawMessage(sand)
 //       of the last evaluation: by how much to shorten the step, which point failed first (-1:
 //       none) and why
@@ -132,6 +134,10 @@ long evaluate(const long& number, const Field& F, const Field& P, const Field& A
   return evaluate(number, F, P, A, 0);
 }
 
+long set_time_step(const long& number, const double& step) {
+  return guarded("grainlawSetTimeStep", [&] { return find(number).set_time_step(step), 0L; });
+}
+
 long commit(const long& number) {
   return guarded("grainlawCommit", [&] { return find(number).commit(), 0L; });
 }
@@ -226,6 +232,7 @@ void add_functions() {
   Global.Add("grainlawCreate", "(", new OneOperator2_<long, string*, long>(create));
   add_array_functions<Vector>();
   add_array_functions<Matrix>();
+  Global.Add("grainlawSetTimeStep", "(", new OneOperator2_<long, long, double>(set_time_step));
   Global.Add("grainlawCommit", "(", new OneOperator1_<long, long>(commit));
   Global.Add("grainlawRevert", "(", new OneOperator1_<long, long>(revert));
   Global.Add("grainlawSave", "(", new OneOperator2_<long, long, string*>(save));

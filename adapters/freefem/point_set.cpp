@@ -97,6 +97,14 @@ long PointSet::evaluate(const Array& F, const Array& P, const Array* A, long thr
   return last_.summary.failed;
 }
 
+void PointSet::set_time_step(double step) {
+  const grainlaw_status status = grainlaw_points_set_time_step(points_.get(), step);
+  if (status == GRAINLAW_BAD_ARGUMENT)
+    throw std::invalid_argument("the time step is " + std::to_string(step) +
+                                ", expected a number above 0");
+  check(status);
+}
+
 void PointSet::commit() {
   const grainlaw_status status = grainlaw_points_commit(points_.get());
   if (status == GRAINLAW_NO_TRIAL)

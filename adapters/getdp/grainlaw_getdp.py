@@ -136,6 +136,7 @@ def evaluate():
     F = np.eye(run.dimension) + np.array([collected[row] for row in range(len(collected))])
     if run.states is None:
         run.states = grainlaw.States(run.material, len(run.rows))
+    run.states.set_time_step(run.steps.part)
     try:
         run.answer = run.states.evaluate(F, grainlaw.Tangent.EXACT, run.threads)
     except grainlaw.Error as error:

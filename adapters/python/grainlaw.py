@@ -142,6 +142,11 @@ class States:
             raise Error(result, _message(summary), summary.first_failed if summary.failed else None)
         return Evaluation(P, A, status, reports, summary)
 
+    def set_time_step(self, step):
+        """How long increments take from now on, e.g. `LoadSteps.part`: a material with
+        solver.viscous_increment asks for it."""
+        check(library.grainlaw_points_set_time_step(self._handle, step))
+
     def commit(self):
         """Make the trial the committed state: of all points or, when one has none, of none."""
         check(library.grainlaw_points_commit(self._handle))

@@ -58,6 +58,7 @@ def _declare(library):
                             pointer, pointer, ctypes.c_int, ctypes.POINTER(Summary)),
         "points_commit": (ctypes.c_int, pointer),
         "points_revert": (ctypes.c_int, pointer),
+        "points_set_time_step": (ctypes.c_int, pointer, ctypes.c_double),
         "points_save": (ctypes.c_int, pointer, pointer, count),
         "points_load": (ctypes.c_int, pointer, pointer, size, text, size),
         "points_measure": (ctypes.c_int, pointer, ctypes.c_int, pointer, count),

@@ -2,6 +2,7 @@
 
     steps = LoadSteps(20)
     while steps:
+        points.set_time_step(steps.part)        # for a material with drag
         if attempt(steps.load):                 # tries to reach this fraction of the load
             steps.accept()                      # after commit
         else:
@@ -47,6 +48,12 @@ class LoadSteps:
     def complete(self):
         """Whether `load` ends its load step."""
         return self.load == self._goals[self.number]
+
+    @property
+    def part(self):
+        """Share of the load step that leads to `load`: how long that takes, where a step takes 1."""
+        step = self._goals[self.number] - self._start
+        return (self.load - self.done) / step if step > 0 else 1.0
 
     def accept(self):
         part = self.load - self.done

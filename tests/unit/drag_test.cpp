@@ -68,6 +68,18 @@ TEST(drag, tangent_of_a_layer_matches_central_differences) {
   }
 }
 
+// In a held packing drag goes on to fade: moves without a strain, which no next strain continues.
+TEST(drag, moves_of_a_held_packing_are_not_expected_again) {
+  for (const double held : {0.0, 1e-9, 1e-7}) {
+    SCOPED_TRACE(held);
+    State state(make_material(with_drag(describe(reference_packing(), rough_law()))));
+    lead(state, 3);
+    evaluate(state, sum(state.committed().deformation, held, drained_step));
+    state.commit();
+    expect_derivative(state, state.committed().deformation);
+  }
+}
+
 TEST(drag, turns_with_the_increment) {
   const auto material = make_material(with_drag(describe(reference_packing(), rough_law())));
   State straight(material), turned(material);

@@ -31,6 +31,9 @@ grainlaw_status grainlaw_points_commit(grainlaw_points* handle) {
 grainlaw_status grainlaw_points_revert(grainlaw_points* handle) {
   return (void)handle, GRAINLAW_OK;
 }
+grainlaw_status grainlaw_points_set_time_step(grainlaw_points* handle, double step) {
+  return (void)handle, (void)step, GRAINLAW_OK;
+}
 
 grainlaw_status grainlaw_points_evaluate(grainlaw_points* handle, const double* F, unsigned want,
                                          double* P, double* A, grainlaw_status* status,

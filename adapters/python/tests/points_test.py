@@ -7,7 +7,7 @@ import numpy as np
 
 import grainlaw
 from grainlaw import Measure, Status, Tangent
-from support import Case, material
+from support import DATA, MATERIAL, Case, material
 
 COMPRESSED = np.array([[1.0003, 0.0002], [-0.0001, 0.9990]])
 
@@ -34,6 +34,19 @@ class Points(Case):
                 change = state.evaluate(COMPRESSED + E).P - state.evaluate(COMPRESSED - E).P
                 difference = change / (2 * step) - A[:, :, k, L]
                 self.assertLess(np.linalg.norm(difference), 1e-3 * np.linalg.norm(A))
+
+    def test_with_drag_the_stress_depends_on_the_time_that_an_increment_takes(self):
+        drag = "[solver]\nviscous_time = 100\nviscous_increment = 1\n"
+        with open(MATERIAL, encoding="utf-8") as file:
+            states = grainlaw.States(grainlaw.Material.parse(file.read() + drag, DATA), 2)
+        stresses = []
+        for step in (1, 1, 0.5):
+            states.set_time_step(step)
+            stresses.append(states.evaluate([COMPRESSED] * 2).P)
+        self.assertEqual(stresses[0].tobytes(), stresses[1].tobytes())
+        difference = np.linalg.norm(stresses[2] - stresses[0])
+        self.assertGreater(difference, 1e-6 * np.linalg.norm(stresses[0]))
+        self.assert_refused(Status.BAD_ARGUMENT, [], states.set_time_step, 0)
 
     def test_without_a_tangent_there_is_none(self):
         answer = grainlaw.State(material()).evaluate(COMPRESSED)

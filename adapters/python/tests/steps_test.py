@@ -63,6 +63,19 @@ class Steps(Case):
                 steps.cut(0.5)
         self.assertEqual(steps.accepted, [])
 
+    def test_parts_of_a_step_take_the_time_of_the_whole(self):
+        steps = LoadSteps([0, 0.5, 1])
+        self.assertEqual(steps.part, 1)
+        steps.accept()
+        self.assertEqual(steps.part, 1)
+        steps.cut(0.25)
+        parts = []
+        while steps.number == 1:
+            parts.append(steps.part)
+            steps.accept()
+        self.assertEqual(parts, [0.25, 0.5, 0.25])
+        self.assertEqual(steps.part, 1)
+
     def test_load_at_the_start_is_a_step_that_cannot_be_cut(self):
         steps = LoadSteps([0, 1])
         self.assertEqual(steps.load, 0.0)
