@@ -32,10 +32,13 @@ std::vector<PointField::Point> PointField::points_of(const Mesh& mesh) {
   return points;
 }
 
-PointField::PointField(const Mesh& mesh, const Material& material, double hourglass)
-    : points_(points_of(mesh)), set_(material, points_.size()) {
-  if (mesh.kind == ElementKind::q4r && hourglass > 0)
-    hourglass_ = Hourglass(mesh, hourglass, initial_modulus(material));
+PointField::PointField(const Model& model, const Material& material)
+    : points_(points_of(model.mesh)), set_(material, points_.size()) {
+  const Mesh& mesh = model.mesh;
+  if (mesh.kind == ElementKind::q4r && model.hourglass > 0)
+    hourglass_ = Hourglass(mesh, model.hourglass, initial_modulus(material));
+  if (model.average.length > 0)
+    average_ = {mesh, model.average.length, model.average.modulus * initial_modulus(material)};
   displacement_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * mesh.nodes.size()));
   const std::size_t n = points_.size();
   reports_.resize(n, grainlaw_report_default());
@@ -106,6 +109,7 @@ Eigen::VectorXd PointField::internal_force() const {
           weight * stress * gradient.row(static_cast<Eigen::Index>(a)).transpose();
   }
   hourglass_.add_force(displacement_, force);
+  average_.add_force(displacement_, force);
   return force;
 }
 
@@ -130,6 +134,7 @@ void PointField::add_stiffness(Triplets& triplets) const {
           }
   }
   hourglass_.add_stiffness(triplets);
+  average_.add_stiffness(triplets);
 }
 
 void PointField::commit() {

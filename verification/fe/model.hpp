@@ -10,6 +10,7 @@
 #include "fe/hourglass.hpp"
 #include "fe/mean_volume.hpp"
 #include "fe/mesh/mesh.hpp"
+#include "fe/strain_average.hpp"
 
 #include <vector>
 
@@ -23,13 +24,14 @@ struct Model {
   std::vector<Resultant> resultants;
   Loads loads;
   double hourglass = 0.05;  // of the modulus at the start; elements with one point only [-]
+  AverageOptions average;
 };
 
 // The integration points of a model, numbered element by element.
 class PointField {
  public:
-  // hourglass: Model::hourglass. Throws ComputationError when F = I cannot be evaluated.
-  PointField(const Mesh& mesh, const Material& material, double hourglass);
+  // Throws ComputationError when F = I cannot be evaluated.
+  PointField(const Model& model, const Material& material);
 
   // How long evaluations last from here on: with solver.viscous_increment the drag depends on it.
   void set_time_step(double step);
@@ -94,6 +96,7 @@ class PointField {
 
   std::vector<Point> points_;
   Hourglass hourglass_;
+  StrainAverage average_;
   Eigen::VectorXd displacement_;  // of the last evaluation [m]
   Points set_;
   grainlaw::PointsEvaluation last_;  // evaluation

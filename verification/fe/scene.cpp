@@ -26,6 +26,12 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
   SceneTable mesh = table.table("mesh");
   model.mesh = read_mesh(mesh);
   model.hourglass = mesh.number_or("hourglass", model.hourglass, not_negative);
+  model.average.length = mesh.number_or("average_length", 0, not_negative);
+  if (model.average.length > 0) {
+    if (model.mesh.kind == ElementKind::q4r)
+      mesh.fail("average_length", "elements with one point and hourglass springs", "others");
+    model.average.modulus = mesh.number_or("average_modulus", model.average.modulus, positive);
+  }
   mesh.close();
   scene.output = read_output(table, model.mesh, scene.steps);
   for (SceneTable& entry : table.tables("probe"))

@@ -44,7 +44,7 @@ class DynamicsSolver final : public Solver {
         options_(options),
         threads_(threads),
         dofs_(number_dofs(model)),
-        points_(model.mesh, material, model.hourglass),
+        points_(model, material),
         mass_(lumped_mass(model.mesh, options.density)),
         unknown_mass_(dofs_.reduce_mass(mass_)) {
     motion_.displacement = Eigen::VectorXd::Zero(mass_.size());

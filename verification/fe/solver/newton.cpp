@@ -25,7 +25,7 @@ class NewtonSolver final : public Solver {
         options_(options),
         threads_(threads),
         dofs_(number_dofs(model)),
-        points_(model.mesh, material, model.hourglass),
+        points_(model, material),
         displacement_(
             Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * model.mesh.nodes.size()))) {
     if (dofs_.unknowns == 0) throw InputError("every displacement is prescribed: nothing to solve");

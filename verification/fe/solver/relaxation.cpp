@@ -29,7 +29,7 @@ class RelaxationSolver final : public Solver {
         options_(options),
         threads_(threads),
         dofs_(number_dofs(model)),
-        points_(model.mesh, material, model.hourglass),
+        points_(model, material),
         mass_(lumped_mass(model.mesh, 1)),
         unknown_mass_(dofs_.reduce_mass(mass_)) {
     if (dofs_.unknowns == 0) throw InputError("every displacement is prescribed: nothing to solve");

@@ -95,8 +95,8 @@ void newton_facts(HierarchicalStudy& study, const MeshRun& run, const Response& 
       10 * quick >= 9 * steps);
   if (later > 0)
     study.facts.add("newton", fmt::format("{}: after the peak", r.title), "not stated",
-                    fmt::format("{} steps to {:.1f} %, {:.0f} cuts, {} steps balanced up to a jump "
-                                "of P alone",
+                    fmt::format("{} steps to {:.1f} %, {:.0f} cuts, {} steps with a part out of "
+                                "balance",
                                 later, r.strain.back(), cuts, loose),
                     "not stated");
 }
