@@ -6,7 +6,7 @@ have() { [[ -f $results/$1 ]]; }
 # What the awk programs below share: columns by name without unit, numbers in four digits.
 library='
 function name(field) { sub(/\[.*/, "", field); return field }
-function is_number(text) { return text ~ /^-?[0-9.]+(e[-+]?[0-9]+)?$/ }
+function is_number(text) { return text ~ /^-?[0-9.]+(e[-+]?[0-9][0-9]?[0-9]?)?$/ }  # no revision like 61e1436
 function pretty(text,  size) {
   if (text == "nan") return "-"
   if (!is_number(text) || text ~ /^-?[0-9]+$/) return text
