@@ -12,6 +12,8 @@ int main(int argc, char** argv) {
   verification::add_dns_command(app);
   verification::add_wave_command(app);
   verification::add_pack_command(app);
+  verification::add_import_command(app);
+  verification::add_export_command(app);
   verification::add_compare_command(app);
   verification::add_keys_command(app);
   return verification::run_program(app, argc, argv);

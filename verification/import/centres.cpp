@@ -1,0 +1,102 @@
+// Centres and radii, and whether they are discs or spheres.
+#include "app/library.hpp"
+#include "import/foreign_packing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+
+namespace verification {
+namespace {
+
+constexpr double same = 1e-9;  // of a radius: heights that count as one
+
+bool is_flat(const std::vector<Place>& centres, double radius) {
+  const auto [low, high] = std::minmax_element(
+      centres.begin(), centres.end(), [](const Place& a, const Place& b) { return a[2] < b[2]; });
+  return (*high)[2] - (*low)[2] <= same * radius;
+}
+
+// Without names: x y r, x y z r, or id x y z r of whole numbers first.
+std::array<std::size_t, 4> usual_places(std::size_t width) {
+  if (width == 3) return {1, 2, 0, 3};
+  if (width == 4) return {1, 2, 3, 4};
+  return {};
+}
+
+// LAMMPS: x, unwrapped xu, scaled xs or xsu.
+bool find_axis(Columns& columns, const std::string& axis, std::size_t place) {
+  columns.find(axis,
+               {axis, "pos_" + axis, "p" + axis, axis + "u", "position_" + axis, "c" + axis,
+                axis + "_pos", axis + "pos", "coord_" + axis},
+               place);
+  if (columns.has(axis)) return false;
+  columns.find(axis, {axis + "s", axis + "su"});
+  return columns.has(axis);
+}
+
+}  // namespace
+
+void read_centres(const SourceTable& table, const ForeignFiles& files, ForeignPacking& packing) {
+  const std::size_t width = table.rows.front().size();
+  const auto places = usual_places(width);
+  Columns columns(table, read_choice("--columns", files.columns));
+  columns.find("id", {"id", "atom-id", "b.id", "number"});
+  const bool scaled = find_axis(columns, "x", places[0]);
+  find_axis(columns, "y", places[1]);
+  find_axis(columns, "z", places[2]);
+  columns.find("r", {"r", "radius", "rad"}, places[3]);
+  if (!columns.has("r")) columns.find("d", {"d", "diameter", "diam"});
+  columns.find("density", {"density", "rho"});
+  columns.require({"x", "y"});
+  if (!columns.has("d")) columns.require({"r"});
+  columns.close("--columns");
+  if (scaled && !table.cell)
+    table.fail(table.lines.front(),
+               "found centres as shares of a box and no box, expected ITEM: BOX BOUNDS");
+
+  std::unordered_set<long> ids;
+  bool one_density = columns.has("density");
+  for (std::size_t p = 0; p < table.rows.size(); ++p) {
+    const long id = columns.has("id") ? columns.integer(p, "id") : static_cast<long>(p);
+    if (!ids.insert(id).second)
+      table.fail(table.lines[p],
+                 fmt::format("found id {} again, expected one that no other particle has", id));
+    Place centre{columns.real(p, "x"), columns.real(p, "y"),
+                 columns.has("z") ? columns.real(p, "z") : 0};
+    if (scaled) {
+      const Place s = centre;
+      for (std::size_t k = 0; k < 3; ++k) {
+        centre[k] = table.origin[k];
+        for (std::size_t m = 0; m < 3; ++m) centre[k] += (*table.cell)[3 * k + m] * s[m];
+      }
+    }
+    for (double& x : centre) x *= files.length;
+    packing.id.push_back(id);
+    packing.centre.push_back(centre);
+    packing.radius.push_back(files.length * (columns.has("d") ? 0.5 * columns.positive(p, "d")
+                                                              : columns.positive(p, "r")));
+    if (one_density) {
+      const double density = columns.positive(p, "density");
+      one_density = p == 0 || density == packing.density;
+      packing.density = one_density ? std::optional(density) : std::nullopt;
+    }
+  }
+  if (files.density > 0) packing.density = files.density;
+
+  const double largest = *std::max_element(packing.radius.begin(), packing.radius.end());
+  const bool flat = !columns.has("z") || is_flat(packing.centre, largest);
+  packing.dimension = files.dimension > 0 ? files.dimension : flat ? 2 : 3;
+  if (packing.dimension == 2 && !flat)
+    table.fail("found centres at different heights z, expected one height with --dimension 2");
+  if (packing.dimension == 3 && !columns.has("z")) columns.require({"z"});
+  if (packing.dimension == 2)
+    for (Place& centre : packing.centre) centre[2] = 0;
+  packing.read.push_back(fmt::format("{} {} from {}, {}: {}", packing.radius.size(),
+                                     packing.dimension == 3 ? "spheres" : "discs", table.path,
+                                     table.kind, columns.text()));
+}
+
+}  // namespace verification
