@@ -20,8 +20,11 @@ std::string data_blocks(const Figure& figure) {
     for (std::size_t c = 0; c < figure.panels[p].curves.size(); ++c) {
       const Curve& curve = figure.panels[p].curves[c];
       text += fmt::format("$p{}c{} << EOD\n", p, c);
-      for (std::size_t k = 0; k < curve.x.size(); ++k)
-        text += fmt::format("{:.8g} {:.8g}\n", curve.x[k], curve.y[k]);
+      for (std::size_t k = 0; k < curve.x.size(); ++k) {
+        text += fmt::format("{:.8g} {:.8g}", curve.x[k], curve.y[k]);
+        if (!curve.low.empty()) text += fmt::format(" {:.8g} {:.8g}", curve.low[k], curve.high[k]);
+        text += "\n";
+      }
       text += "EOD\n";
     }
   return text;
@@ -45,8 +48,14 @@ std::string plot_command(const Panel& panel, std::size_t number) {
   std::vector<std::string> items;
   for (std::size_t c = 0; c < panel.curves.size(); ++c) {
     const Curve& curve = panel.curves[c];
+    if (!curve.low.empty())
+      items.insert(
+          items.begin(),
+          fmt::format("$p{}c{} using 1:3:4 with filledcurves fs transparent solid 0.2 noborder lc "
+                      "rgb '{}' notitle",
+                      number, c, curve.colour));
     items.push_back(fmt::format(
-        "$p{}c{} with {} {}", number, c, style(curve),
+        "$p{}c{} using 1:2 with {} {}", number, c, style(curve),
         curve.title.empty() ? "notitle" : "title " + gnuplot_text(curve.title) + " noenhanced"));
   }
   return fmt::format("plot {}\n", fmt::join(items, ", "));
@@ -83,7 +92,10 @@ std::string common_range(const Figure& figure) {
     high += around;
   }
   if (!(high > low)) return "";
-  if (!figure.logarithmic) return fmt::format("set xrange [{}:{}]\n", low, high);
+  if (!figure.logarithmic) {
+    const double margin = figure.room * (high - low);
+    return fmt::format("set xrange [{}:{}]\n", low - margin, high + margin);
+  }
   return high > 0 ? fmt::format("set xrange [{}:{}]\n", low / room, high * room) : "";
 }
 
@@ -102,24 +114,51 @@ std::string range_command(const Panel& panel) {
   return fmt::format("set yrange [{}:{}]\n", low - 1, high + 1);
 }
 
-bool titled(const Panel& panel) {
-  return std::any_of(panel.curves.begin(), panel.curves.end(),
-                     [](const Curve& curve) { return !curve.title.empty(); });
+// Of UTF-8.
+std::size_t letters(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+  }));
+}
+
+constexpr int width = 900;  // of a picture [points]
+
+// Lines that the legend of a panel takes above it, where it lies on no curve; entries in columns as wide as
+// the longest of them.
+int legend_lines(const Panel& panel, double left) {
+  constexpr double letter = 8.8, sample = 62;  // points
+  std::size_t longest = 0, entries = 0;
+  for (const Curve& curve : panel.curves) {
+    if (curve.title.empty()) continue;
+    ++entries;
+    longest = std::max(longest, letters(curve.title));
+  }
+  if (entries == 0) return 0;
+  const double column = letter * static_cast<double>(longest) + sample;
+  const auto columns = static_cast<std::size_t>(std::max(1.0, (0.97 - left) * width / column));
+  return static_cast<int>((entries + columns - 1) / columns);
 }
 
 }  // namespace
 
 bool draw(const Figure& figure, const std::filesystem::path& stem) {
-  constexpr double gap = 0.022;
-  const double top = figure.title.empty() ? 0.975 : 0.935;
+  constexpr double row = 21;                              // of a legend [points]
   const double left = figure.logarithmic ? 0.135 : 0.12;  // powers of ten are wide
   const auto count = static_cast<double>(figure.panels.size());
   const double relative =
       std::accumulate(figure.panels.begin(), figure.panels.end(), 0.0,
                       [](double sum, const Panel& panel) { return sum + panel.height; });
-  const double height = 150 + 270 * relative;
-  const double bottom = std::max(0.085, 76 / height);  // room for the abscissa below a low picture
-  const double unit = (top - bottom - gap * (count - 1)) / relative;
+  std::vector<int> legends;
+  int lines = 0;
+  for (const Panel& panel : figure.panels) {
+    legends.push_back(legend_lines(panel, left));
+    lines += legends.back();
+  }
+  const double height = 150 + 270 * relative + row * lines;
+  const double gap = 12 / height;
+  const double top = 1 - (figure.title.empty() ? 14 : 38) / height;
+  const double bottom = 76 / height;  // room for the abscissa
+  const double unit = (top - bottom - gap * (count - 1) - row * lines / height) / relative;
 
   std::string body = data_blocks(figure);
   body +=
@@ -130,18 +169,23 @@ bool draw(const Figure& figure, const std::filesystem::path& stem) {
   body += fmt::format("set lmargin at screen {}\n", left);
   body += common_range(figure);
   if (!figure.title.empty())
-    body += fmt::format("set label 1 {} at screen {},0.968 left noenhanced\n",
-                        gnuplot_text(figure.title), left);
+    body += fmt::format("set label 1 {} at screen {},{:.4f} left noenhanced\n",
+                        gnuplot_text(figure.title), left, 1 - 18 / height);
   double upper = top;
   for (std::size_t p = 0; p < figure.panels.size(); ++p) {
     const Panel& panel = figure.panels[p];
+    const double legend = upper - 2 / height;  // its upper edge
+    upper -= row * legends[p] / height;
     const double lower = upper - unit * panel.height;
     body +=
         fmt::format("set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n", upper, lower);
     body += fmt::format("set label 2 {} at screen 0.02,{:.4f} center rotate by 90 noenhanced\n",
                         gnuplot_text(panel.ordinate), 0.5 * (upper + lower));
-    body += titled(panel)
-                ? fmt::format("set key inside {} samplen 2.5 spacing 1.15\n", panel.legend)
+    body += legends[p] > 0
+                ? fmt::format(
+                      "set key at screen 0.97,{:.4f} right top horizontal Left reverse maxrows {} "
+                      "samplen 2.5 spacing 1.1 noautotitle\n",
+                      legend, legends[p])
                 : std::string("unset key\n");
     body += log_commands(figure, panel);
     body += range_command(panel);
@@ -153,7 +197,7 @@ bool draw(const Figure& figure, const std::filesystem::path& stem) {
     upper = lower - gap;
   }
   body += "unset multiplot\n";
-  return run_gnuplot(body, stem, 900, static_cast<int>(height));
+  return run_gnuplot(body, stem, width, static_cast<int>(height));
 }
 
 }  // namespace verification

@@ -15,7 +15,8 @@ struct Curve {
   std::vector<double> y;
   std::string colour = "#0072b2";
   Stroke stroke = Stroke::solid;
-  int marker = 0;  // gnuplot's point type at every point; 0: none
+  int marker = 0;                     // gnuplot's point type at every point; 0: none
+  std::vector<double> low{}, high{};  // of a band around it; empty: none
 };
 
 struct Panel {
@@ -32,6 +33,7 @@ struct Figure {
   std::string abscissa;  // with its unit
   std::vector<Panel> panels;
   bool logarithmic = false;  // abscissa
+  double room = 0.012;       // at the ends of a linear abscissa, of its length
 };
 
 // Colours that stay apart for colour-blind readers (Okabe and Ito).

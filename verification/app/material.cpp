@@ -4,19 +4,43 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <sstream>
 #include <string>
 #include <string_view>
 
 namespace verification {
 
+namespace {
+
+// Another law does not have all of the keys of the one before: those that it would refuse are not taken
+// over. Nor is one of the two ways to say a stiffness beside the other.
+void drop_what_is_refused(toml::table& before, const toml::table& after) {
+  if (after.contains("kn")) before.erase("young");
+  if (after.contains("young")) before.erase("kn");
+  const auto law = after["law"].value_or(std::string_view());
+  if (law.empty() || law == before["law"].value_or(std::string_view())) return;
+  const auto drop = [&](std::initializer_list<std::string_view> keys) {
+    for (const std::string_view key : keys) before.erase(key);
+  };
+  if (law == "hertz") drop({"young", "kn", "ratio", "bond"});
+  if (law == "compressive")
+    drop({"ratio", "friction", "rotation", "rolling", "bond", "shear_modulus", "poisson"});
+  if (law == "frictional") drop({"bond", "shear_modulus", "poisson"});
+  if (law == "bonded") drop({"shear_modulus", "poisson"});
+}
+
+}  // namespace
+
 void merge(toml::table& target, const toml::table& changes) {
   for (const auto& [key, node] : changes) {
     toml::table* below = target[key.str()].as_table();
-    if (below != nullptr && node.is_table())
+    if (below != nullptr && node.is_table()) {
+      if (key.str() == "contact") drop_what_is_refused(*below, *node.as_table());
       merge(*below, *node.as_table());
-    else
+    } else {
       target.insert_or_assign(key, node);
+    }
   }
 }
 

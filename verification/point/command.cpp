@@ -8,6 +8,7 @@
 #include "app/jobs.hpp"
 #include "app/output.hpp"
 #include "app/text.hpp"
+#include "point/ensemble.hpp"
 #include "point/run.hpp"
 #include "point/scene.hpp"
 
@@ -28,12 +29,23 @@ struct PointArguments {
   int steps = 0;
 };
 
-// The scene's cases that were asked for, all without a wish.
+// The scene's cases that were asked for, all without a wish. A case with seeds is named without them, too.
 std::vector<PointScene> chosen(std::vector<PointScene> scenes, const std::string& prefix,
+                               const std::vector<Ensemble>& ensembles,
                                const std::vector<std::string>& wanted) {
   if (wanted.empty()) return scenes;
   std::vector<PointScene> result;
   for (const std::string& name : wanted) {
+    const auto ensemble =
+        std::find_if(ensembles.begin(), ensembles.end(),
+                     [&](const Ensemble& one) { return one.name == prefix + "_" + name; });
+    if (ensemble != ensembles.end()) {
+      for (const PointScene& scene : scenes)
+        if (std::find(ensemble->members.begin(), ensemble->members.end(), scene.name) !=
+            ensemble->members.end())
+          result.push_back(scene);
+      continue;
+    }
     const auto found = std::find_if(scenes.begin(), scenes.end(), [&](const PointScene& scene) {
       return scene.name == prefix + "_" + name;
     });
@@ -72,7 +84,8 @@ void write_ends(const std::vector<PointScene>& scenes, const std::vector<PointEn
 void run_command(const PointArguments& arguments) {
   const SceneFile file(arguments.scene);
   const std::string prefix = file.content["name"].value_or(file.path.stem().string());
-  std::vector<PointScene> scenes = chosen(read_point_scenes(file), prefix, arguments.cases);
+  std::vector<PointScene> scenes =
+      chosen(read_point_scenes(file), prefix, ensembles_of(file, prefix), arguments.cases);
   for (PointScene& scene : scenes) scene.options.max_steps = arguments.steps;
   std::vector<PointEnd> ends(scenes.size());
   CaseFailures failures(scenes.size());
@@ -85,6 +98,14 @@ void run_command(const PointArguments& arguments) {
   });
   if (file.content.contains("case"))
     write_ends(scenes, ends, output_stem(arguments.output, prefix + "_cases.csv"));
+  for (const Ensemble& ensemble : ensembles_of(file, prefix)) {
+    const auto of_it = std::find_if(scenes.begin(), scenes.end(), [&](const PointScene& scene) {
+      return scene.name == ensemble.members.front();
+    });
+    if (of_it != scenes.end())
+      write_ensemble(ensemble, output_stem(arguments.output, ensemble.name).parent_path(),
+                     of_it->abscissa, of_it->figure);
+  }
   failures.check(arguments.scene);
 }
 

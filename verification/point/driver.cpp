@@ -1,5 +1,8 @@
 #include "point/driver.hpp"
 
+#include "point/control.hpp"
+#include "point/element_test.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,74 +18,29 @@ namespace {
 // step, or another one, usually passes beside it.
 constexpr int patience = 4;
 
-// The prescribed measure (F, P or sigma) by component, and its derivative with respect to F.
-template <int D>
-struct Controlled {
-  ComponentsOf<D> value;
-  TangentOf<D> derivative;
-};
-
-template <int D>
-using Controls = std::array<Control, D * D>;
-
-template <int D>
-Controlled<D> controlled(const Controls<D>& control, const TensorOf<D>& deformation,
-                         const EvaluationOf<D>& evaluation) {
-  const ComponentsOf<D> piola = components_of<D>(evaluation.stress);
-  const ComponentsOf<D> sigma =
-      components_of<D>(cauchy_stress_of<D>(evaluation.stress, deformation));
-  const TangentOf<D> spatial =
-      cauchy_tangent<D>(evaluation.stress, evaluation.tangent, deformation);
-  Controlled<D> result{components_of<D>(deformation), TangentOf<D>::Identity()};
-  for (int k = 0; k < D * D; ++k) {
-    if (control[static_cast<std::size_t>(k)] == Control::piola) {
-      result.value(k) = piola(k);
-      result.derivative.row(k) = evaluation.tangent.row(k);
-    } else if (control[static_cast<std::size_t>(k)] == Control::cauchy) {
-      result.value(k) = sigma(k);
-      result.derivative.row(k) = spatial.row(k);
-    }
-  }
-  return result;
-}
-
-template <int D>
-Controls<D> controls_of(const Segment& segment) {
-  Controls<D> control{};
-  for (std::size_t k = 0; k < control.size(); ++k) control[k] = segment.target[k].control;
-  return control;
-}
-
-// F with the components of the diagonal that follow multiplied by one factor, so that its determinant
-// is this one. F at which none is stays as it comes out: it is refused when it is evaluated.
-template <int D>
-TensorOf<D> with_volume(TensorOf<D> deformation, const std::array<bool, 3>& follows,
-                        double determinant) {
-  constexpr double rounding = 4e-16;
-  constexpr int most = 100;
-  const auto count = static_cast<double>(std::count(follows.begin(), follows.end(), true));
-  for (int k = 0; k < most; ++k) {
-    const double ratio = determinant / deformation.determinant();
-    if (!(ratio > 0) || std::abs(ratio - 1) <= rounding) break;
-    const double factor = std::pow(ratio, 1 / count);
-    for (int i = 0; i < D; ++i)
-      if (follows[static_cast<std::size_t>(i)]) deformation(i, i) *= factor;
-  }
-  return deformation;
-}
-
 }  // namespace
 
 // What one (part of a) step is to reach.
 template <int D>
 struct PointDriverOf<D>::Goal {
-  Controls<D> control{};
+  Conditions<D> condition{};
   ComponentsOf<D> value = ComponentsOf<D>::Zero();
   double scale = 1;  // of the stress residual [Pa]
   bool mixed = false;
+  std::array<bool, 3> follows{};  // of a mixed one: what of F keeps its determinant at `volume`
+  double volume = 1;
 
   [[nodiscard]] bool stress(int k) const {
-    return control[static_cast<std::size_t>(k)] != Control::deformation;
+    return condition[static_cast<std::size_t>(k)].control != Control::deformation;
+  }
+  // Beside stresses the determinant is kept by the components that follow.
+  [[nodiscard]] bool follow() const { return mixed && (follows[0] || follows[1] || follows[2]); }
+  void steer(TangentOf<D>& matrix, ComponentsOf<D>& residual,
+             const TensorOf<D>& deformation) const {
+    if (!follow()) return;
+    follow_volume<D>(matrix, deformation, follows);
+    for (int i = 0; i < D; ++i)
+      if (follows[static_cast<std::size_t>(i)]) residual((D + 1) * i) = 0;
   }
 };
 
@@ -112,9 +70,11 @@ PointDriverOf<D>::PointDriverOf(const Material& material, const PointOptions& op
 template <int D>
 typename PointDriverOf<D>::Goal PointDriverOf<D>::goal_at(const Segment& segment,
                                                           const ComponentsOf<D>& start,
-                                                          double fraction) const {
+                                                          double volume, double fraction) const {
   Goal goal;
-  goal.control = controls_of<D>(segment);
+  goal.condition = conditions_of<D>(segment);
+  goal.follows = segment.keeps_volume;
+  goal.volume = volume;
   goal.scale = std::max(cauchy_stress_of<D>(evaluation_.stress, deformation_).norm(), 1.0);
   for (std::size_t k = 0; k < D * D; ++k) {
     const Target& target = segment.target[k];
@@ -123,9 +83,9 @@ typename PointDriverOf<D>::Goal PointDriverOf<D>::goal_at(const Segment& segment
     goal.value(i) = start(i) + fraction * (end - start(i));
     goal.mixed = goal.mixed || target.control != Control::deformation;
   }
-  if (segment.isochoric())
-    goal.value = components_of<D>(with_volume<D>(tensor_of<D>(goal.value), segment.keeps_volume,
-                                                 tensor_of<D>(start).determinant()));
+  if (segment.isochoric() && !goal.mixed)
+    goal.value =
+        components_of<D>(with_volume<D>(tensor_of<D>(goal.value), segment.keeps_volume, volume));
   return goal;
 }
 
@@ -137,9 +97,11 @@ template <int D>
 typename PointDriverOf<D>::Iterate PointDriverOf<D>::iterate(const Goal& goal, double tolerance) {
   Iterate result;
   const unsigned want = goal.mixed ? options_.tangent : 0;
-  const Controlled<D> before = controlled<D>(goal.control, deformation_, evaluation_);
+  const Controlled<D> before = controlled<D>(goal.condition, deformation_, evaluation_);
   TangentOf<D> matrix = before.derivative;  // rows of prescribed components of F are rows of I
-  ComponentsOf<D> correction = matrix.fullPivLu().solve(goal.value - before.value);
+  ComponentsOf<D> residual = goal.value - before.value;
+  goal.steer(matrix, residual, deformation_);
+  ComponentsOf<D> correction = matrix.fullPivLu().solve(residual);
   ComponentsOf<D> value = before.value;
   ComponentsOf<D> deformation = components_of<D>(deformation_);
   double best = std::numeric_limits<double>::infinity();
@@ -148,6 +110,10 @@ typename PointDriverOf<D>::Iterate PointDriverOf<D>::iterate(const Goal& goal, d
   for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
     deformation += correction;
     result.deformation = tensor_of<D>(deformation);
+    if (goal.follow()) {
+      result.deformation = with_volume<D>(result.deformation, goal.follows, goal.volume);
+      deformation = components_of<D>(result.deformation);
+    }
     result.evaluation = evaluate_of<D>(state_, result.deformation, want);
     effort_.add(result.evaluation.report);
     if (goal.mixed) ++effort_.iterations;
@@ -160,8 +126,8 @@ typename PointDriverOf<D>::Iterate PointDriverOf<D>::iterate(const Goal& goal, d
       return result;
     }
     result.deformation = deformation_gradient<D>(state_.get());
-    const Controlled<D> now = controlled<D>(goal.control, result.deformation, result.evaluation);
-    const ComponentsOf<D> residual = goal.value - now.value;
+    const Controlled<D> now = controlled<D>(goal.condition, result.deformation, result.evaluation);
+    residual = goal.value - now.value;
     const ComponentsOf<D> unforeseen =
         now.value - before.value -
         before.derivative * (components_of<D>(result.deformation) - components_of<D>(deformation_));
@@ -189,6 +155,7 @@ typename PointDriverOf<D>::Iterate PointDriverOf<D>::iterate(const Goal& goal, d
       matrix += mismatch * correction.transpose() / correction.squaredNorm();
     }
     value = now.value;
+    goal.steer(matrix, residual, result.deformation);
     correction = matrix.fullPivLu().solve(residual);
     first = false;
   }
@@ -240,13 +207,22 @@ typename PointDriverOf<D>::Iterate PointDriverOf<D>::cross_jumps(const Goal& goa
 }
 
 template <int D>
-void PointDriverOf<D>::run(const Segment& segment, const PointObserver& observe,
-                           const CutObserver& observe_cut) {
+TestEnd PointDriverOf<D>::run(const Segment& segment, const PointObserver& observe,
+                              const CutObserver& observe_cut) {
+  if (segment.test) return run_element_test<D>(*this, *segment.test, observe, observe_cut);
+  run_steps(segment, observe, observe_cut);
+  return {};
+}
+
+template <int D>
+void PointDriverOf<D>::run_steps(const Segment& segment, const PointObserver& observe,
+                                 const CutObserver& observe_cut) {
   const ComponentsOf<D> start =
-      controlled<D>(controls_of<D>(segment), deformation_, evaluation_).value;
-  if (goal_at(segment, start, 0).mixed && !has_tangent_) renew_tangent();
+      controlled<D>(conditions_of<D>(segment), deformation_, evaluation_).value;
+  const double volume = segment.volume > 0 ? segment.volume : deformation_.determinant();
+  if (goal_at(segment, start, volume, 0).mixed && !has_tangent_) renew_tangent();
   for (int step = 1; step <= segment.steps; ++step) {
-    if (options_.max_steps > 0 && record_.step >= options_.max_steps) return;
+    if (left()) return;
     const int number = record_.step + 1;
     effort_ = {};
     double done = 0;
@@ -254,7 +230,7 @@ void PointDriverOf<D>::run(const Segment& segment, const PointObserver& observe,
     TensorOf<D> committed;
     const auto attempt = [&](double next, bool loose) {
       fraction = (step - 1 + next) / segment.steps;
-      const Goal goal = goal_at(segment, start, fraction);
+      const Goal goal = goal_at(segment, start, volume, fraction);
       check(grainlaw_state_set_time_step(state_.get(), next - done), "telling the time step");
       Iterate last = iterate(goal, loose ? options_.loose_tolerance : options_.tolerance);
       if (last.stalled && options_.loose_tolerance == 0 && next - done <= crossing_part) {

@@ -45,18 +45,25 @@ class PointDriverOf {
 
   // Runs one segment. Throws StepError, saying where, when a step fails at its smallest cut;
   // the parts before it stay done.
-  void run(const Segment& segment, const PointObserver& observe,
-           const CutObserver& observe_cut = {});
+  TestEnd run(const Segment& segment, const PointObserver& observe,
+              const CutObserver& observe_cut = {});
 
+  // Whether as many steps were made as the options allow.
+  [[nodiscard]] bool left() const {
+    return options_.max_steps > 0 && record_.step >= options_.max_steps;
+  }
   [[nodiscard]] const RecordOf<D>& record() const { return record_; }
   // Of the step that did not end, after an error.
   [[nodiscard]] const Effort& unfinished() const { return effort_; }
   [[nodiscard]] const grainlaw_state* state() const { return state_.get(); }
 
  private:
+  void run_steps(const Segment& segment, const PointObserver& observe,
+                 const CutObserver& observe_cut);
   struct Goal;
   struct Iterate;
-  Goal goal_at(const Segment& segment, const ComponentsOf<D>& start, double fraction) const;
+  Goal goal_at(const Segment& segment, const ComponentsOf<D>& start, double volume,
+               double fraction) const;
   Iterate iterate(const Goal& goal, double tolerance);
   Iterate cross_jumps(const Goal& goal, Iterate last);
   void accept(const Iterate& iterate, bool has_tangent);

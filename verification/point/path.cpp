@@ -1,5 +1,7 @@
 #include "point/path.hpp"
 
+#include "point/element_test.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +29,31 @@ std::vector<std::string> component_names(int dimension) {
   return names;
 }
 
-Target read_target(SceneTable& segment, const std::string& index) {
+// The place of "sigma22" among the components, or nothing.
+std::optional<int> stress_named(std::string_view text, int dimension) {
+  const std::vector<std::string> names = component_names(dimension);
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (text == "sigma" + names[k]) return static_cast<int>(k);
+  return std::nullopt;
+}
+
+// A stress that equals another one, or F that is found for the mean pressure.
+Target read_words(SceneTable& segment, const std::string& name, int dimension) {
+  const std::string text = segment.text(name);
+  if (name[0] == 's') {
+    const auto other = stress_named(text, dimension);
+    if (!other || text == name)
+      segment.fail(name, '"' + text + '"',
+                   "a number in Pa, or the name of another stress: \"sigma22\"");
+    return {Control::difference, false, 0, *other};
+  }
+  if (name[0] != 'F' || text != "free" || !segment.has("mean_pressure"))
+    segment.fail(name, '"' + text + '"',
+                 name[0] == 'F' ? "a number, or \"free\" beside mean_pressure" : "a number");
+  return {Control::mean, false, -segment.number("mean_pressure", positive)};
+}
+
+Target read_target(SceneTable& segment, const std::string& index, int dimension) {
   Target target;
   std::string given;
   for (const Key& key : keys) {
@@ -36,7 +62,10 @@ Target read_target(SceneTable& segment, const std::string& index) {
     if (!given.empty())
       segment.fail(name, "a second condition beside " + given, "one condition per component");
     target = key.target;
-    target.value = segment.number(name);
+    if (segment.node(name)->is_string())
+      target = read_words(segment, name, dimension);
+    else
+      target.value = segment.number(name);
     given = name;
   }
   return target;
@@ -86,6 +115,17 @@ void check_tension(const SceneTable& segment, const std::string& index, const Ta
                   -target.value));
 }
 
+// One component of F is found for it.
+void check_mean_pressure(SceneTable& segment, const Segment& read) {
+  const auto free = std::count_if(read.target.begin(), read.target.end(), [](const Target& target) {
+    return target.control == Control::mean;
+  });
+  if (segment.has("mean_pressure") && free != 1)
+    segment.fail("mean_pressure",
+                 fmt::format("{} components of F that are \"free\" beside it", free),
+                 "one, which is found: F11 = \"free\"");
+}
+
 // A component of spheres in a scene of discs.
 void check_dimension(SceneTable& segment, int dimension) {
   if (dimension == 3) return;
@@ -104,16 +144,12 @@ std::array<bool, 3> read_following(SceneTable& segment, const Segment& read, int
   const std::vector<std::string> names = component_names(dimension);
   for (std::size_t k = 0; k < names.size(); ++k) {
     const std::string& index = names[k];
-    if (read.target[k].control != Control::deformation)
-      segment.fail("isochoric",
-                   fmt::format("true beside a stress, {}{}",
-                               read.target[k].control == Control::piola ? "P" : "sigma", index),
-                   "conditions on F alone: those of its diagonal that have none follow det F");
-    const bool given = segment.has("F" + index) || segment.has("dF" + index);
+    const bool given = read.target[k].control != Control::deformation || segment.has("F" + index) ||
+                       segment.has("dF" + index);
     if (index[0] == index[1]) following[static_cast<std::size_t>(index[0] - '1')] = !given;
   }
   if (std::find(following.begin(), following.end(), true) == following.end())
-    segment.fail("isochoric", "true, and all of the diagonal of F is prescribed",
+    segment.fail("isochoric", "true, and all of the diagonal of F has a condition",
                  "one of it without a condition, which follows det F");
   return following;
 }
@@ -126,9 +162,19 @@ std::vector<Segment> read_segments(SceneTable& scene, bool carries_tension, int 
   const std::vector<std::string> names = component_names(dimension);
   for (SceneTable& table : scene.tables("segment")) {
     Segment segment;
+    if (table.has("test")) {
+      segment.test = std::make_shared<ElementTest>(read_element_test(table));
+      segment.steps = segment.test->expected_steps();
+      for (Stretch& one : stretch) one.lose();
+      table.close();
+      segments.push_back(segment);
+      continue;
+    }
     segment.steps = table.integer("steps", 1);
     check_dimension(table, dimension);
-    for (std::size_t k = 0; k < names.size(); ++k) segment.target[k] = read_target(table, names[k]);
+    for (std::size_t k = 0; k < names.size(); ++k)
+      segment.target[k] = read_target(table, names[k], dimension);
+    check_mean_pressure(table, segment);
     segment.keeps_volume = read_following(table, segment, dimension);
     for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i) {
       const std::size_t k = i * static_cast<std::size_t>(dimension) + i;

@@ -6,9 +6,12 @@
 #include "app/progress.hpp"
 #include "app/snapshot.hpp"
 #include "app/written.hpp"
+#include "point/element_test.hpp"
+#include "point/figures.hpp"
 #include "point/start.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <exception>
@@ -76,6 +79,11 @@ class Observer {
   std::vector<SnapshotPanel> panels_;
 };
 
+bool has_tests(const PointScene& scene) {
+  return std::any_of(scene.segments.begin(), scene.segments.end(),
+                     [](const Segment& segment) { return segment.test != nullptr; });
+}
+
 template <int D>
 void run_path(const PointScene& scene, const std::filesystem::path& stem, PointEnd& end) {
   end = {};
@@ -118,7 +126,7 @@ void run_path(const PointScene& scene, const std::filesystem::path& stem, PointE
     end.effort.add(record.effort);
     history.add(record);
     observer.see(step.state.get(), record);
-    progress->update(static_cast<double>(record.step) / end.steps_wanted,
+    progress->update(std::min(1.0, static_cast<double>(record.step) / end.steps_wanted),
                      fmt::format("sigma{0}{0} {1:.1f} kPa, F{0}{0} {2:.4f}, F12 {3:.4f}", D,
                                  record.cauchy(D - 1, D - 1) / 1e3,
                                  record.deformation(D - 1, D - 1), record.deformation(0, 1)));
@@ -133,8 +141,16 @@ void run_path(const PointScene& scene, const std::filesystem::path& stem, PointE
   };
   start = cpu_seconds();
   std::exception_ptr stopped;
+  std::vector<std::string> reached;  // by tests that stop before their strain or stress
   try {
-    for (const Segment& segment : scene.segments) driver.run(segment, observe, observe_cut);
+    for (const Segment& segment : scene.segments) {
+      const TestEnd test = driver.run(segment, observe, observe_cut);
+      if (!test.text.empty()) reached.push_back(test.text);
+      if (test.liquefied) break;
+    }
+    // Where tests stop is known when they do.
+    if (has_tests(scene) && !driver.left()) end.steps_wanted = driver.record().step;
+    if (!reached.empty()) end.text = fmt::format("{}", fmt::join(reached, "; "));
   } catch (const StepError& error) {
     end.status = error.status;
     end.text = error.what() + why_at_start(begin, driver.record().step,
@@ -149,10 +165,18 @@ void run_path(const PointScene& scene, const std::filesystem::path& stem, PointE
   end.effort.add(driver.unfinished());
   end.steps = driver.record().step;
   end.deformation.template topLeftCorner<D, D>() = driver.record().deformation;
-  if (end.steps == end.steps_wanted && end.steps < whole)
+  if (driver.left() && end.steps < whole)
     end.text = fmt::format("left after step {} of {} as asked", end.steps, whole);
   progress.reset();
-  if (scene.figure) written.add_pictures(history.draw_figure(scene.abscissa, scene.name));
+  if (scene.figure) {
+    written.add_pictures(history.draw_figure(scene.abscissa, scene.name));
+    for (const std::string& name : scene.figures) {
+      const std::string file = figure_end(name);
+      if (draw_path_figure(name, read_csv(stem.string() + ".csv"), scene.shear, scene.name,
+                           stem.string() + file))
+        written.add(file + ".svg");
+    }
+  }
   observer.draw();
   fmt::print("{}: {}; {:.2f} s of CPU{}\n{}\n", scene.name, history.summary(driver.unfinished()),
              end.cpu, end.text == PointEnd().text ? "" : "\n  ended: " + end.text, written.text());

@@ -21,9 +21,11 @@ struct PointScene {
   int vtk_every = 0;
   std::vector<double> pictures;  // abscissae from which on the particles are drawn, increasing [-]
   double picture_force = 0;      // whose bar is a mean radius wide [N]; 0: see draw_snapshots
-  bool particle_measures = false;  // also write NAME_particles.csv
-  bool figure = true;              // draw the history
-  bool may_end = false;            // a path that ends early is a result, not a failure
+  bool particle_measures = false;    // also write NAME_particles.csv
+  bool figure = true;                // draw the history
+  std::vector<std::string> figures;  // of path_figures, drawn too
+  bool shear = false;                // of them: a simple shear
+  bool may_end = false;              // a path that ends early is a result, not a failure
 };
 
 // A scene without [[case]] is one path. Otherwise every [[case]] is one: the scene with the keys of

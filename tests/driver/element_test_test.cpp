@@ -1,0 +1,251 @@
+// Element tests of discs and spheres: what each of them keeps, where it turns and where it stops.
+#include "point/element_test.hpp"
+
+#include "../temporary_directory.hpp"
+#include "app/history.hpp"
+#include "point/ensemble.hpp"
+#include "point/figures.hpp"
+#include "point/run.hpp"
+#include "point/scene.hpp"
+#include "scene_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <string>
+
+namespace verification {
+namespace {
+
+const std::string few_spheres = R"(
+[material]
+dimension = 3
+packing = { generator = "compaction", count = 30, radii = [4e-3, 6e-3], seed = 2, pressure = 1e5 }
+contact = { law = "frictional", young = 1e8, ratio = 0.8, friction = 0.5 }
+)";
+
+class element_test : public testing::Test {
+ protected:
+  PointScene read(const std::string& text, const std::string& material = small_packing) {
+    const std::filesystem::path path = directory_.path() / "scene.toml";
+    std::ofstream(path) << "figure = false\n" << material << text;
+    return read_point_scenes(SceneFile(path)).front();
+  }
+
+  // The records of a path and how its last test ended.
+  template <int D>
+  std::vector<RecordOf<D>> path(const std::string& segments, TestEnd* end = nullptr) {
+    const PointScene scene = read(segments, D == 3 ? few_spheres : small_packing);
+    PointDriverOf<D> driver(make_material(scene.material, D), scene.options);
+    std::vector<RecordOf<D>> records{driver.record()};
+    for (const Segment& segment : scene.segments) {
+      const TestEnd one =
+          driver.run(segment, [&](const PointStepOf<D>& step) { records.push_back(step.record); });
+      if (end != nullptr) *end = one;
+    }
+    return records;
+  }
+
+  void expect_refused(const std::string& text, const std::string& told) {
+    try {
+      read("[[segment]]\n" + text);
+      ADD_FAILURE() << "accepted: " << text;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(told), std::string::npos) << error.what();
+    }
+  }
+
+  const grainlaw::test::TemporaryDirectory directory_;
+};
+
+template <int D>
+double largest_change_of_volume(const std::vector<RecordOf<D>>& records) {
+  double largest = 0;
+  for (const RecordOf<D>& record : records)
+    largest = std::max(largest, std::abs(record.deformation.determinant() - 1));
+  return largest;
+}
+
+TEST_F(element_test, undrained_keeps_det_F_at_1_to_1e_12) {
+  const std::string test = "[[segment]]\ntest = 'undrained'\nstrain = 0.02\n";
+  const auto discs = path<2>(test);
+  const auto spheres = path<3>(test);
+  EXPECT_GT(discs.size(), 10U);
+  EXPECT_GT(spheres.size(), 10U);
+  const double of_discs = largest_change_of_volume<2>(discs);
+  const double of_spheres = largest_change_of_volume<3>(spheres);
+  RecordProperty("largest_of_discs", std::to_string(1e15 * of_discs) + "e-15");
+  RecordProperty("largest_of_spheres", std::to_string(1e15 * of_spheres) + "e-15");
+  EXPECT_LT(of_discs, 1e-12);
+  EXPECT_LT(of_spheres, 1e-12);
+}
+
+TEST_F(element_test, undrained_loops_keep_det_F_at_1_to_1e_12) {
+  const auto records = path<2>(
+      "[[segment]]\ntest = 'undrained'\ncycles = 2\namplitude = { strain = 2e-3 }\nsteps = 4\n");
+  EXPECT_EQ(records.size(), 1U + 2 * 4 * 4);
+  EXPECT_LT(largest_change_of_volume<2>(records), 1e-12);
+  EXPECT_NEAR(records.back().axial_strain(), 0, 1e-12);
+}
+
+TEST_F(element_test, a_stress_may_be_prescribed_while_the_volume_is_kept) {
+  const auto records =
+      path<3>("[[segment]]\nsteps = 5\ndF33 = -0.005\nsigma11 = 'sigma22'\nisochoric = true\n");
+  EXPECT_LT(largest_change_of_volume<3>(records), 1e-12);
+  const auto& end = records.back();
+  EXPECT_NEAR(end.cauchy(0, 0), end.cauchy(1, 1), 1e-5 * end.mean_pressure());
+}
+
+TEST_F(element_test, constant_p_keeps_the_mean_pressure) {
+  const std::string test = "[[segment]]\ntest = 'constant_p'\nstrain = 0.01\n";
+  const auto discs = path<2>(test);
+  EXPECT_NEAR(discs.back().mean_pressure() / discs.front().mean_pressure(), 1, 1e-6);
+  EXPECT_NE(discs.back().axial_stress(), discs.back().lateral_stress());
+  const auto spheres = path<3>(test);
+  const auto difference = [](const RecordOf<3>& record) {
+    return record.cauchy(1, 1) - record.cauchy(0, 0);
+  };
+  EXPECT_NEAR(spheres.back().mean_pressure() / spheres.front().mean_pressure(), 1, 1e-6);
+  EXPECT_NEAR(difference(spheres.back()), difference(spheres.front()), 1);
+}
+
+TEST_F(element_test, a_mean_pressure_may_be_prescribed_beside_a_free_stretch) {
+  const auto records =
+      path<2>("[[segment]]\nsteps = 4\nF22 = 0.996\nF11 = 'free'\nmean_pressure = 120e3\n");
+  EXPECT_NEAR(records.back().mean_pressure(), 120e3, 1);
+}
+
+TEST_F(element_test, isotropic_and_k0_lead_to_their_stress) {
+  const auto isotropic =
+      path<3>("[[segment]]\ntest = 'isotropic'\npressure = 150e3\nsteps = 4\n").back();
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(isotropic.cauchy(i, i), -150e3, 1);
+  const auto k0 = path<2>("[[segment]]\ntest = 'k0'\naxial_stress = 150e3\nsteps = 4\n").back();
+  EXPECT_NEAR(k0.axial_stress(), 150e3, 1);
+  EXPECT_EQ(k0.deformation(0, 0), 1);
+  EXPECT_LT(k0.lateral_stress(), 150e3);
+  const auto looped =
+      path<2>("[[segment]]\ntest = 'isotropic'\npressure = 150e3\nsteps = 4\ncycles = 2\n");
+  EXPECT_EQ(looped.size(), 1U + 4 * 4);
+  EXPECT_NEAR(looped.back().mean_pressure(), 1e5, 1);
+}
+
+TEST_F(element_test, drained_starts_where_consolidation_ended) {
+  const auto records = path<2>(
+      "[[segment]]\ntest = 'isotropic'\npressure = 150e3\nsteps = 4\n"
+      "[[segment]]\ntest = 'drained'\nstrain = 0.01\nsteps = 10\n");
+  const double consolidated = records[4].deformation(1, 1);
+  EXPECT_NEAR(records.back().lateral_stress(), 150e3, 1);
+  EXPECT_NEAR(records.back().deformation(1, 1), consolidated * 0.99, 1e-12);
+}
+
+TEST_F(element_test, shears_keep_their_volume_or_the_stress_on_their_planes) {
+  const std::string end = "\nstrain = 0.01\n";
+  const auto volume = path<3>("[[segment]]\ntest = 'shear_constant_volume'" + end);
+  EXPECT_EQ(volume.back().deformation(0, 2), 0.01);
+  EXPECT_EQ(volume.back().deformation(2, 2), 1);
+  const auto stress = path<2>("[[segment]]\ntest = 'shear_constant_stress'" + end);
+  EXPECT_NEAR(stress.back().axial_stress() / stress.front().axial_stress(), 1, 1e-6);
+  EXPECT_EQ(stress.back().deformation(0, 0), 1);
+}
+
+TEST_F(element_test, loops_between_stresses_turn_at_them) {
+  const auto records =
+      path<2>("[[segment]]\ntest = 'drained'\ncycles = 2\namplitude = { q = 20e3 }\nstep = 2e-4\n");
+  double high = -1e9, low = 1e9;
+  for (const Record& record : records) {
+    const double q = record.axial_stress() - record.lateral_stress();
+    high = std::max(high, q);
+    low = std::min(low, q);
+  }
+  const double q = records.front().axial_stress() - records.front().lateral_stress();
+  EXPECT_NEAR(high, q + 20e3, 1e3);
+  EXPECT_NEAR(low, q - 20e3, 1e3);
+  EXPECT_NEAR(records.back().axial_stress() - records.back().lateral_stress(), q, 1e3);
+}
+
+TEST_F(element_test, stops_where_it_is_asked_to) {
+  const auto stop = [&](const std::string& at) {
+    TestEnd end;
+    path<2>("[[segment]]\ntest = 'drained'\nstrain = 0.02\nstop = { " + at + " }\n", &end);
+    return end.text;
+  };
+  EXPECT_EQ(stop("strain = 5e-3"), "strain 0.005 reached");
+  EXPECT_EQ(stop("q = 20e3").rfind("q ", 0), 0U);
+  EXPECT_EQ(stop("ratio = 0.2").rfind("q/p 0.", 0), 0U);
+  EXPECT_EQ(stop("p = 105e3").rfind("mean pressure 1", 0), 0U);
+  EXPECT_EQ(stop("axial_stress = 120e3").rfind("axial stress 1", 0), 0U);
+  EXPECT_EQ(stop("q = 1e9"), "");
+}
+
+TEST_F(element_test, ends_when_nothing_carries_any_more) {
+  TestEnd end;
+  const auto records = path<2>(
+      "[[segment]]\ntest = 'oedometric'\nstrain = -0.05\nstop = { liquefied = 0.02 }\n", &end);
+  EXPECT_TRUE(end.liquefied);
+  EXPECT_EQ(end.text.rfind("liquefied: ", 0), 0U) << end.text;
+  EXPECT_LT(records.size(), 90U);
+}
+
+TEST_F(element_test, refuses_what_it_does_not_know) {
+  expect_refused("test = 'triaxial'\n", "one of isotropic, oedometric, k0, drained, undrained");
+  expect_refused("test = 'drained'\npressure = 1e5\n", "pressure");
+  expect_refused("test = 'drained'\nstrain = 5\n", "a strain between -0.5 and 0.5");
+  expect_refused("test = 'drained'\nsteps = 3\nstep = 1e-3\n", "one of the two");
+  expect_refused("test = 'drained'\ncycles = 3\n", "amplitude");
+  expect_refused("test = 'drained'\namplitude = { q = 1e3 }\n", "one beside cycles");
+  expect_refused("test = 'drained'\nstop = { f = 1.0 }\n", "stop.f");
+  expect_refused("steps = 1\nsigma11 = 'sigma33'\n", "the name of another stress");
+  expect_refused("steps = 1\nF11 = 'free'\n", "beside mean_pressure");
+  expect_refused("steps = 1\nmean_pressure = 1e5\n", "0 components of F");
+  expect_refused("steps = 1\nF22 = 0.99\nF11 = 1.01\nisochoric = true\n", "all of the diagonal");
+}
+
+TEST_F(element_test, pictures_of_a_test_are_those_of_soil_mechanics) {
+  const PointScene compression = read("[[segment]]\ntest = 'k0'\n");
+  EXPECT_EQ(compression.figures, std::vector<std::string>{"e-log-p"});
+  const PointScene shear = read("[[segment]]\ntest = 'shear_constant_volume'\n");
+  EXPECT_EQ(shear.figures, std::vector<std::string>{"p-q"});
+  EXPECT_EQ(shear.abscissa, shear_abscissa);
+  EXPECT_EQ(figure_end("e-log-p"), "_e_log_p");
+}
+
+TEST_F(element_test, another_law_in_a_case_takes_over_what_it_knows) {
+  const PointScene scene = read(
+      "[[case]]\nname = 'hertz'\n"
+      "material = { contact = { law = 'hertz', shear_modulus = 29e9, poisson = 0.2 } }\n"
+      "segment = [{ test = 'drained', strain = 0.002, steps = 2 }]\n");
+  PointEnd end;
+  run_point(scene, directory_.path() / "hertz", end);
+  EXPECT_EQ(end.steps, 2);
+  EXPECT_EQ(scene.material.changes["contact"]["friction"].value_or(0.0), 0.5);
+  EXPECT_FALSE(scene.material.changes["contact"].as_table()->contains("young"));
+}
+
+TEST_F(element_test, an_ensemble_is_the_mean_of_its_packings_and_how_far_they_spread) {
+  const std::filesystem::path path = directory_.path() / "many.toml";
+  std::ofstream(path) << "figure = false\n"
+                      << small_packing
+                      << "[[case]]\nname = 'a'\nseeds = 3\n"
+                         "segment = [{ test = 'drained', strain = 0.002, steps = 2 }]\n";
+  const SceneFile file(path);
+  double sum = 0, squares = 0;
+  for (const PointScene& scene : read_point_scenes(file)) {
+    PointEnd end;
+    run_point(scene, directory_.path() / scene.name, end);
+    const double ratio = read_csv(directory_.path() / (scene.name + ".csv"))["stress_ratio"].back();
+    sum += ratio / 3;
+    squares += ratio * ratio / 3;
+  }
+  const auto ensembles = ensembles_of(file, "many");
+  ASSERT_EQ(ensembles.size(), 1U);
+  write_ensemble(ensembles[0], directory_.path(), axial_abscissa, false);
+  const CsvTable table = read_csv(directory_.path() / "many_a_ensemble.csv");
+  EXPECT_EQ(table["runs"].back(), 3);
+  EXPECT_NEAR(table["stress_ratio"].back(), sum, 1e-9);
+  EXPECT_NEAR(table["sd_stress_ratio"].back(), std::sqrt(1.5 * (squares - sum * sum)), 1e-6);
+}
+
+}  // namespace
+}  // namespace verification
