@@ -155,7 +155,7 @@ bool draw(const Figure& figure, const std::filesystem::path& stem) {
     lines += legends.back();
   }
   const double height = 150 + 270 * relative + row * lines;
-  const double gap = 12 / height;
+  const double gap = 20 / height;
   const double top = 1 - (figure.title.empty() ? 14 : 38) / height;
   const double bottom = 76 / height;  // room for the abscissa
   const double unit = (top - bottom - gap * (count - 1) - row * lines / height) / relative;

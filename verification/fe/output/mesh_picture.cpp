@@ -33,15 +33,31 @@ Box box(const MeshPanel& panel) {
 
 std::array<double, 2> colour_range(const MeshPanel& panel) {
   if (panel.range[0] != panel.range[1]) return panel.range;
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  std::vector<double> values;
   for (const double value : panel.values)
-    if (std::isfinite(value)) {
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-  if (!(low <= high)) return {0, 1};
+    if (std::isfinite(value)) values.push_back(value);
+  if (values.empty()) return {0, 1};
+  std::sort(values.begin(), values.end());
+  double low = values.front(), high = values.back();
+  // Where a few values alone take most of the scale, they have the colours of its ends.
+  const std::size_t few = values.size() / 200;
+  const double most = values[values.size() - 1 - few] - values[few];
+  if (few > 0 && high - low > 2 * most && most > 0) {
+    low = values[few];
+    high = values[values.size() - 1 - few];
+  }
   const double room = 1e-4 * std::max({std::abs(low), std::abs(high), 1e-12});
   return high - low > room ? std::array{low, high} : std::array{low - room, high + room};
+}
+
+// Letters of the longest number beside the scale, whose ticks are as far apart as a fifth of it or so.
+std::size_t longest_label(const std::array<double, 2>& range) {
+  const double tick = std::pow(10, std::floor(std::log10((range[1] - range[0]) / 4)));
+  std::size_t longest = 0;
+  for (const double end : range)
+    for (const double number : {std::floor(end / tick) * tick, std::ceil(end / tick) * tick})
+      longest = std::max(longest, fmt::format("{:.6g}", number).size());
+  return longest;
 }
 
 void append_closed(std::string& text, const Polygon& polygon) {
@@ -91,9 +107,8 @@ bool draw_mesh(const std::vector<MeshPanel>& panels, const std::string& title,
   constexpr double gap = 20, heading = 62, foot = 12;  // pixels
   double scale_room = 96;
   for (const MeshPanel& panel : panels) {
-    const auto [low, high] = colour_range(panel);
-    const double spread = (high - low) / std::max(std::abs(low), std::abs(high));
-    if (spread < 0.1) scale_room = std::max(scale_room, spread < 1e-2 ? 140.0 : 116.0);
+    const auto range = colour_range(panel);
+    scale_room = std::max(scale_room, 48 + 9.5 * static_cast<double>(longest_label(range)));
   }
   constexpr double widest = 900, tallest = 640;
   const auto count = static_cast<double>(panels.size());
