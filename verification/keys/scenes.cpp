@@ -23,6 +23,12 @@ constexpr std::string_view point = R"(
 [[segment]]
 steps = 1
 )";
+constexpr std::string_view free_stretch = R"(
+[[segment]]
+steps = 1
+F11 = "free"
+mean_pressure = 1
+)";
 constexpr std::string_view box = R"(
 steps = 1
 mesh = { size = [1, 1, 1], divisions = [1, 1, 1] }
@@ -122,7 +128,7 @@ Examples examples_of(std::string_view command) {
   };
   if (command == "point")
     return {[](const SceneFile& file) { static_cast<void>(read_point_scenes(file)); },
-            {with(discs, point), with(spheres, point)}};
+            {with(discs, point), with(spheres, point), with(discs, free_stretch)}};
   if (command == "solve")
     return {[](const SceneFile& file) { static_cast<void>(read_fe_scene(file)); },
             {with(discs, rectangle), with(discs, driven), with(discs, dynamics)}};
