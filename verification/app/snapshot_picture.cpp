@@ -3,12 +3,14 @@
 #include "app/text.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <sstream>
 
 namespace verification {
 namespace {
@@ -46,6 +48,48 @@ double mean_force(const Snapshot& snapshot) {
   double sum = 0;
   for (const SnapshotContact& contact : snapshot.contacts) sum += std::abs(contact.normal_force);
   return snapshot.contacts.empty() ? 0 : sum / static_cast<double>(snapshot.contacts.size());
+}
+
+// Of a periodic cell: every particle at its image within it.
+Snapshot in_cell(Snapshot snapshot) {
+  if (!snapshot.boundary.empty()) return snapshot;
+  const int d = snapshot.spheres() ? 3 : 2;
+  Eigen::MatrixXd cell(d, d);
+  for (int i = 0; i < d; ++i)
+    for (int j = 0; j < d; ++j) cell(i, j) = snapshot.cell[static_cast<std::size_t>(d * i + j)];
+  const Eigen::MatrixXd to_cell = cell.inverse();
+  for (std::size_t p = 0; p < snapshot.size(); ++p) {
+    Eigen::VectorXd x(d);
+    x(0) = snapshot.x[p];
+    x(1) = snapshot.y[p];
+    if (d == 3) x(2) = snapshot.z[p];
+    x -= cell * Eigen::VectorXd((to_cell * x).array().floor());
+    snapshot.x[p] = x(0);
+    snapshot.y[p] = x(1);
+    if (d == 3) snapshot.z[p] = x(2);
+  }
+  return snapshot;
+}
+
+// A caption in as many lines as its picture's width needs.
+std::string broken(const std::string& title, double pixels) {
+  constexpr double letter = 8.6;  // pixels a letter
+  const auto most = static_cast<std::size_t>(std::max(8.0, pixels / letter));
+  std::string text;
+  std::size_t in_line = 0;
+  std::istringstream words(title);
+  for (std::string word; words >> word;) {
+    if (in_line > 0 && in_line + 1 + word.size() > most) {
+      text += '\n';
+      in_line = 0;
+    } else if (in_line > 0) {
+      text += ' ';
+      ++in_line;
+    }
+    text += word;
+    in_line += word.size();
+  }
+  return text;
 }
 
 // Spheres as they look from the front, along y: discs in the plane of x and z, the far ones first, and
@@ -130,16 +174,16 @@ std::vector<Layer> layers(const Snapshot& snapshot, double width_per_force) {
   const double widest = 1.6 * mean(snapshot.radius);
   const auto bar = [&](auto&& choice) { return bars(snapshot, width_per_force, widest, choice); };
   return {{"inner", discs(snapshot, false),
-           "using 1:2:3 with circles fs solid border lc rgb '#b9b09d' fc rgb '#f1ede2'"},
+           "using 1:2:3 with circles fs solid border lc rgb '#8f8670' fc rgb '#f1ede2'"},
           {"boundary", discs(snapshot, true),
            "using 1:2:3 with circles fs solid border lc rgb '#9a907c' fc rgb '#d9cfb6'"},
           {"outline", outline(snapshot), "with lines lc rgb '#777777' lw 0.8 dt (4,3)"},
           {"frictional", bar([](const SnapshotContact& c) { return !c.bonded; }),
-           "with filledcurves closed fc rgb '#0072b2'"},
+           "with filledcurves closed fs transparent solid 0.75 noborder fc rgb '#0072b2'"},
           {"bonded", bar([](const SnapshotContact& c) { return c.bonded && c.normal_force >= 0; }),
-           "with filledcurves closed fc rgb '#d1281a'"},
+           "with filledcurves closed fs transparent solid 0.75 noborder fc rgb '#d1281a'"},
           {"tension", bar([](const SnapshotContact& c) { return c.bonded && c.normal_force < 0; }),
-           "with filledcurves closed fc rgb '#e69f00'"}};
+           "with filledcurves closed fs transparent solid 0.75 noborder fc rgb '#e69f00'"}};
 }
 
 long breaks(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
@@ -151,12 +195,9 @@ bool draw_snapshots(const std::vector<SnapshotPanel>& all, double force, const s
   if (all.empty()) return true;
   std::vector<SnapshotPanel> panels;
   for (const SnapshotPanel& panel : all)
-    panels.push_back({panel.title, seen_from_front(panel.snapshot)});
+    panels.push_back({panel.title, seen_from_front(in_cell(panel.snapshot))});
   constexpr double pixels_wide = 860;
   constexpr double gap = 14, line = 17, foot = 8;  // pixels
-  double heading = 56;
-  for (const SnapshotPanel& panel : panels)
-    heading = std::max(heading, 56 + line * static_cast<double>(breaks(panel.title)));
   const bool spheres = all.front().snapshot.spheres();
   double unit = force;
   for (const SnapshotPanel& panel : panels)
@@ -174,6 +215,11 @@ bool draw_snapshots(const std::vector<SnapshotPanel>& all, double force, const s
   constexpr double tallest = 500;  // pixels
   const double scale = std::min((pixels_wide - gap * (count + 1)) / total, tallest / highest);
   const double wide = scale * total + gap * (count + 1);
+  double heading = 56;
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    panels[k].title = broken(panels[k].title, scale * extents[k].width());
+    heading = std::max(heading, 56 + line * static_cast<double>(breaks(panels[k].title)));
+  }
   const double high = scale * highest + heading + foot;
 
   std::string body = "set multiplot\nunset border\nunset tics\nunset key\n";
