@@ -51,9 +51,11 @@ TEST_P(patch, the_inside_follows_an_affine_boundary) {
 }
 
 TEST_P(patch, the_stiffness_is_the_derivative_of_the_forces) {
-  const Mesh mesh = distorted_mesh();
+  Model model;
+  model.mesh = distorted_mesh();
+  const Mesh& mesh = model.mesh;
   const Material material = lattice_material();
-  PointField points(mesh, material, 0.05);
+  PointField points(model, material);
   const auto dofs = static_cast<Eigen::Index>(2 * mesh.nodes.size());
   Eigen::VectorXd place(dofs);  // neither symmetric nor affine
   for (Eigen::Index d = 0; d < dofs; ++d) place(d) = 1e-4 * std::sin(3.0 * static_cast<double>(d));

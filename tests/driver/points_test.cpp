@@ -8,9 +8,12 @@ namespace verification {
 namespace {
 
 TEST(points, a_refusal_names_the_point) {
-  const Mesh mesh = rectangle_mesh({0.1, 0.05}, {2, 1}, ElementKind::q4r);
+  Model model;
+  model.hourglass = 0;
+  model.mesh = rectangle_mesh({0.1, 0.05}, {2, 1}, ElementKind::q4r);
+  const Mesh& mesh = model.mesh;
   const Material material = lattice_material();
-  PointField points(mesh, material, 0);
+  PointField points(model, material);
   Eigen::VectorXd displacement =
       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * mesh.nodes.size()));
   for (const int node : mesh.node_sets.at("right")) displacement[2 * node] = 0.025;

@@ -48,7 +48,7 @@ constexpr std::string_view rectangle = R"(
 steps = 1
 vtk_every = 1
 newton = {}
-mesh = { size = [1, 1], divisions = [2, 2] }
+mesh = { size = [1, 1], divisions = [2, 2], average_length = 1 }
 [[prestress.segment]]
 steps = 1
 [[displacement]]
