@@ -2,6 +2,8 @@
 
 #include "app/figure.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
@@ -36,7 +38,7 @@ Stresses stresses_of(const CsvTable& table) {
 }  // namespace
 
 std::string figure_end(std::string_view name) {
-  std::string end = "_" + std::string(name);
+  std::string end = fmt::format("_{}", name);
   std::replace(end.begin(), end.end(), '-', '_');
   return end;
 }
