@@ -65,8 +65,10 @@ void FreeSpins::find(const Increment<3>& increment) {
   for (std::size_t q = 0; q < n; ++q) {
     place_[q] = none;
     if (count_[q] != two) continue;
+    const Held held = held_at(increment, q);
+    if (!(held.stiffness < unlimited)) continue;  // both contacts in one direction: no chord
     place_[q] = held_.size();
-    held_.push_back(held_at(increment, q));
+    held_.push_back(held);
   }
   if (held_.empty()) return;
   find_limits(increment);
@@ -142,12 +144,12 @@ void FreeSpins::see_third(const Increment<3>& increment, std::size_t c, std::siz
   const Vec<3> outward = sum({}, side / distance, branch);
   // By a spin of chord about the chord: of the distance, and of the excess.
   const Vec<3> moved = sum({}, radius / held.way_scale, held.way);
-  const double closing = dot(outward, moved);
-  if (std::abs(closing) < tuned::least_closing * length<3>(moved)) return;
+  const double opening = dot(outward, moved);
+  if (std::abs(opening) < tuned::least_closing * length<3>(moved)) return;
   const double turning = square<3>(held.chord) + dot(held.way, moved);
-  const double scale = turning / closing;
+  const double scale = turning / opening;
   const double room = std::abs(scale) * (distance - list.reach[c]);
-  Limit& limit = limits_[place][closing > 0 ? 0 : 1];
+  Limit& limit = limits_[place][opening > 0 ? 0 : 1];
   if (room < limit.room) limit = {room, c, sum({}, scale, outward)};
 }
 
