@@ -5,9 +5,11 @@
 #include "math/dimension.hpp"
 #include "math/tensor.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace grainlaw::core {
@@ -29,6 +31,23 @@ struct Configuration {
   std::vector<double> move;
   Tensor<D> move_stretch{};
 };
+
+// Neither infinite nor not a number.
+inline bool all_finite(std::span<const double> values) {
+  double zero = 0;
+  for (const double value : values) zero += value - value;
+  return zero == 0;
+}
+template <int D>
+bool all_finite(const Configuration<D>& c) {
+  const auto& contacts = c.contacts;
+  return all_finite(c.deformation) && all_finite(c.coordinates) && all_finite(c.stress) &&
+         std::isfinite(c.dissipated) && all_finite(c.moments) && all_finite(c.bond_gaps) &&
+         all_finite(c.move) && all_finite(c.move_stretch) &&
+         std::all_of(contacts.begin(), contacts.end(), [](const ContactHistory<D>& contact) {
+           return all_finite(contact.tangential_force);
+         });
+}
 
 // A rotation, kept in numbers `apart` doubles from each other, as an angle or a rotation vector [rad].
 template <int D>

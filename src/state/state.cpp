@@ -277,14 +277,16 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
     }
   }
 
-  const auto rotated = rotate_stress<D>(split, stress);
+  trial_.stress = rotate_stress<D>(split, stress);
   if (!bound_to_axes) rotate_configuration(split, F, particles, trial_);
-  trial_.stress = rotated;
-  if (P != nullptr) std::copy(rotated.begin(), rotated.end(), P);
-  if (A != nullptr && kind != TangentKind::none) {
-    const auto a = bound_to_axes ? tangent : rotate_tangent<D>(split, committed, stress, tangent);
-    std::copy(a.begin(), a.end(), A);
+  const bool wanted = A != nullptr && kind != TangentKind::none;
+  if (wanted && !bound_to_axes) tangent = rotate_tangent<D>(split, committed, stress, tangent);
+  if (!all_finite(tangent) || !all_finite(trial_)) {
+    describe(report, "numbers too large: the stress, the tangent or the state overflows");
+    return GRAINLAW_NOT_CONVERGED;
   }
+  if (P != nullptr) std::copy(trial_.stress.begin(), trial_.stress.end(), P);
+  if (wanted) std::copy(tangent.begin(), tangent.end(), A);
   trial_loose_ = outcome.loose;
   trial_advanced_ = outcome.history_advanced;
   has_trial_ = true;

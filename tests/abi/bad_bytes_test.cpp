@@ -1,7 +1,11 @@
 // Saved bytes that are damaged, cut, lengthened, of another material, or rubbish.
 #include "support.hpp"
 
+#include <xxhash.h>
+
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <random>
 
 namespace grainlaw::test {
@@ -82,6 +86,54 @@ TEST_F(bad_bytes, do_not_fit_a_short_buffer) {
                    GRAINLAW_BUFFER_TOO_SMALL, std::to_string(capacity));
     EXPECT_EQ(size, capacity);
     EXPECT_EQ(buffer[0], std::byte{7});
+  }
+}
+
+// With a checksum that is right, as whoever writes the format themselves may make.
+void put(Bytes& bytes, std::size_t offset, double value) {
+  std::memcpy(bytes.data() + offset, &value, sizeof value);
+  const std::uint64_t checksum = XXH3_64bits(bytes.data(), bytes.size() - sizeof checksum);
+  std::memcpy(bytes.data() + bytes.size() - sizeof checksum, &checksum, sizeof checksum);
+}
+
+TEST(bad_numbers, of_any_size_give_a_finite_answer_that_can_be_saved_or_none) {
+  const std::string contact =
+      "contact = { law = 'frictional', young = 6e8, ratio = 0.8, friction = 0.5 }\n";
+  for (const std::string& packing :
+       {"dimension = 2\nthickness = 0.1\npacking = { generator = 'hexagonal', columns = 3, rows = "
+        "2, "
+        "radius = 5e-3, pressure = 1e5, radius_spread = 0.02, seed = 1 }\n" +
+            contact,
+        "dimension = 3\npacking = { generator = 'fcc', cells = [1, 1, 1], radius = 5e-3, pressure "
+        "= "
+        "1e5 }\n" +
+            contact}) {
+    State state(Material::parse(packing, "/"));
+    const Bytes good = state.save();
+    int answers = 0;
+    for (std::size_t offset = 24; offset + 16 <= good.size(); ++offset) {
+      for (const double number : {1e308, 1e200, 1e155, 1e100, 1e30, -1e10, 1e-300}) {
+        Bytes bytes = good;
+        put(bytes, offset, number);
+        if (grainlaw_state_load(state.get(), bytes.data(), bytes.size()) != GRAINLAW_OK) continue;
+        auto F = state.measure(GRAINLAW_DEFORMATION_GRADIENT);
+        F[1] += 1e-4;
+        std::array<double, 81> A{};
+        std::array<double, 9> P{};
+        const auto status = grainlaw_evaluate(state.get(), F.data(), GRAINLAW_WANT_TANGENT_EXACT,
+                                              P.data(), A.data(), nullptr);
+        EXPECT_GE(status, 0);
+        for (const double p : P) EXPECT_TRUE(std::isfinite(p)) << offset << ' ' << number;
+        for (const double a : A) EXPECT_TRUE(std::isfinite(a)) << offset << ' ' << number;
+        if (status != GRAINLAW_OK) continue;
+        ++answers;
+        state.commit();
+        const Bytes saved = state.save();
+        EXPECT_EQ(grainlaw_state_load(state.get(), saved.data(), saved.size()), GRAINLAW_OK)
+            << offset << ' ' << number;
+      }
+    }
+    EXPECT_GT(answers, 100);
   }
 }
 
