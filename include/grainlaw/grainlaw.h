@@ -1,5 +1,5 @@
 /* grainlaw: a constitutive law made of grains. The C ABI; the only header a host needs (it includes
- * points.h, states by the set).
+ * points.h, states by the set, and particles.h, what a state is made of).
  *
  * A finite element code owns one grainlaw_state per integration point, hands it a total deformation
  * gradient F, and gets the first Piola-Kirchhoff stress P and, when asked, the tangent dP/dF of a
@@ -292,6 +292,7 @@ GRAINLAW_API grainlaw_status grainlaw_state_write_packing(const grainlaw_state*,
 }
 #endif
 
+#include <grainlaw/particles.h>
 #include <grainlaw/points.h>
 
 #endif

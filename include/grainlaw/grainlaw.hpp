@@ -140,6 +140,14 @@ class State {
     return value;
   }
 
+  // What it is made of, of the trial or, where there is none, of the committed state.
+  [[nodiscard]] std::vector<grainlaw_particle> particles() const {
+    return list<grainlaw_particle>(grainlaw_state_particles);
+  }
+  [[nodiscard]] std::vector<grainlaw_contact> contacts() const {
+    return list<grainlaw_contact>(grainlaw_state_contacts);
+  }
+
   void write_vtk(const std::string& path) const {
     check(grainlaw_state_write_vtk(get(), path.c_str()));
   }
@@ -151,6 +159,15 @@ class State {
   [[nodiscard]] grainlaw_state* get() const { return handle_.get(); }
 
  private:
+  template <class Record, class Function>
+  [[nodiscard]] std::vector<Record> list(Function* function) const {
+    std::size_t count = 0;
+    check(function(get(), nullptr, sizeof(Record), &count));
+    std::vector<Record> records(count);
+    check(function(get(), records.data(), sizeof(Record), &count));
+    return records;
+  }
+
   struct Destroy {
     void operator()(grainlaw_state* handle) const { grainlaw_state_destroy(handle); }
   };

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "homogenise/measures.hpp"
 #include "material/packing_file.hpp"
+#include "state/lists.hpp"
 #include "state/output.hpp"
 #include "state/serialise.hpp"
 
@@ -105,6 +106,16 @@ void AnyState::measure(grainlaw_measure what, double* value) const {
         grainlaw::core::measure(state.material().problem(), state.current(), what, value);
       },
       state_);
+}
+
+std::vector<grainlaw_particle> AnyState::particles() const {
+  return std::visit(
+      [](const auto& state) { return list_particles(state.material(), state.current()); }, state_);
+}
+
+std::vector<grainlaw_contact> AnyState::contacts() const {
+  return std::visit(
+      [](const auto& state) { return list_contacts(state.material(), state.current()); }, state_);
 }
 
 void AnyState::write_force_chains(const std::string& path) const {

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace grainlaw::core {
 
@@ -52,6 +53,8 @@ class AnyState {
 
   // Of the trial, or of the committed state when there is none.
   void measure(grainlaw_measure what, double* value) const;
+  [[nodiscard]] std::vector<grainlaw_particle> particles() const;
+  [[nodiscard]] std::vector<grainlaw_contact> contacts() const;
   void write_force_chains(const std::string& path) const;
   void write_packing(const std::string& prefix) const;
 

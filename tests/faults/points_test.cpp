@@ -112,6 +112,24 @@ TEST_F(points_without_memory, are_not_copied) {
               n);
 }
 
+TEST_F(points_without_memory, have_their_particles_listed_later) {
+  const Set set = with_trial();
+  const grainlaw_state* const state = grainlaw_points_state(set.get(), 0);
+  std::size_t count = 0;
+  ASSERT_EQ(grainlaw_state_contacts(state, nullptr, sizeof(grainlaw_contact), &count), GRAINLAW_OK);
+  std::vector<grainlaw_contact> contacts(count);
+  expect_told(
+      [&] {
+        return grainlaw_state_contacts(state, contacts.data(), sizeof(grainlaw_contact), &count);
+      },
+      [&] { EXPECT_EQ(contacts[0].weight, 0); },
+      [&] {
+        EXPECT_EQ(contacts[0].weight, 1);
+        contacts.assign(count, {});
+      },
+      3);
+}
+
 TEST_F(points_without_memory, are_all_evaluated_later) {
   Answer expected;
   std::thread([&] { expected = evaluate(make().get()); }).join();

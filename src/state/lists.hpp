@@ -1,0 +1,22 @@
+// Particles and contacts of an equilibrium, as hosts get them.
+#pragma once
+
+#include "material/material.hpp"
+
+#include <grainlaw/grainlaw.h>
+
+#include <vector>
+
+namespace grainlaw::core {
+
+// In the order of the packing.
+template <int D>
+[[nodiscard]] std::vector<grainlaw_particle> list_particles(const Material<D>& material,
+                                                            const Configuration<D>& at);
+
+// Ordered by i, j and shift.
+template <int D>
+[[nodiscard]] std::vector<grainlaw_contact> list_contacts(const Material<D>& material,
+                                                          const Configuration<D>& at);
+
+}  // namespace grainlaw::core
