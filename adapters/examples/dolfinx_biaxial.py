@@ -15,8 +15,8 @@ from petsc4py import PETSc
 
 import grainlaw
 from dolfinx_points import Points
-from grainlaw_files import write_whole
-from grainlaw_steps import LoadSteps
+from grainlaw.files import write_whole
+from grainlaw.steps import LoadSteps
 
 WIDTH, HEIGHT = 0.05, 0.1   # m
 SIDE_PRESSURE = 100e3       # Pa, dead load

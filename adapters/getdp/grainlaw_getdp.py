@@ -15,8 +15,8 @@ import sys
 import numpy as np
 
 import grainlaw
-from grainlaw_files import write_whole
-from grainlaw_steps import LoadSteps
+from grainlaw.files import write_whole
+from grainlaw.steps import LoadSteps
 
 FAILED, GO_ON, CUT, CONVERGED = 0, 1, 2, 3
 PATIENCE = 4  # iterations without halving the residual before a step is cut

@@ -5,7 +5,7 @@ import tempfile
 import unittest
 from unittest import mock
 
-from grainlaw_files import write_whole
+from grainlaw.files import write_whole
 
 
 class Files(unittest.TestCase):

@@ -5,6 +5,9 @@
 #define FIELD(name) printf("Report %s %zu\n", #name, offsetof(grainlaw_report, name));
 #define SUMMARY_FIELD(name) printf("Summary %s %zu\n", #name, offsetof(grainlaw_summary, name));
 
+#define PARTICLE_FIELD(name) printf("Particle %s %zu\n", #name, offsetof(grainlaw_particle, name));
+#define CONTACT_FIELD(name) printf("Contact %s %zu\n", #name, offsetof(grainlaw_contact, name));
+
 int main(void) {
 #define GRAINLAW_X(name, value, text) printf("Status %s %d\n", #name, (int)(name));
   GRAINLAW_STATUS_LIST(GRAINLAW_X)
@@ -33,6 +36,25 @@ int main(void) {
   SUMMARY_FIELD(failed)
   SUMMARY_FIELD(first_failed)
   SUMMARY_FIELD(message)
+  PARTICLE_FIELD(position)
+  PARTICLE_FIELD(rotation)
+  PARTICLE_FIELD(radius)
+  PARTICLE_FIELD(source)
+  PARTICLE_FIELD(contacts)
+  CONTACT_FIELD(branch)
+  CONTACT_FIELD(normal)
+  CONTACT_FIELD(overlap)
+  CONTACT_FIELD(normal_force)
+  CONTACT_FIELD(tangential_force)
+  CONTACT_FIELD(moment)
+  CONTACT_FIELD(weight)
+  CONTACT_FIELD(i)
+  CONTACT_FIELD(j)
+  CONTACT_FIELD(shift)
+  CONTACT_FIELD(sliding)
+  CONTACT_FIELD(bonded)
+  printf("sizeof Particle %zu\n", sizeof(grainlaw_particle));
+  printf("sizeof Contact %zu\n", sizeof(grainlaw_contact));
   printf("sizeof Report %zu\n", sizeof(grainlaw_report));
   printf("sizeof Summary %zu\n", sizeof(grainlaw_summary));
   return 0;

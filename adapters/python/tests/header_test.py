@@ -6,8 +6,8 @@ import subprocess
 import unittest
 
 import grainlaw
-import grainlaw_names
-from grainlaw_library import library, status_text
+from grainlaw import names
+from grainlaw.library import library, status_text
 from support import material
 
 
@@ -24,12 +24,12 @@ class Header(unittest.TestCase):
     def test_enumerations_are_those_of_the_header(self):
         for kind in ("Status", "Measure", "Tangent"):
             said = [(name.removeprefix("GRAINLAW_"), int(value)) for name, value in self.said[kind]]
-            ours = [(entry.name, entry.value) for entry in getattr(grainlaw_names, kind)]
+            ours = [(entry.name, entry.value) for entry in getattr(names, kind)]
             self.assertEqual(ours, said)
 
     def test_structs_have_the_size_and_offsets_of_the_header(self):
         for name, size in self.said["sizeof"]:
-            ours = getattr(grainlaw_names, name)
+            ours = getattr(names, name)
             self.assertEqual(ctypes.sizeof(ours), int(size))
             for field, offset in self.said[name]:
                 self.assertEqual(getattr(ours, field).offset, int(offset), field)
@@ -47,8 +47,8 @@ class Header(unittest.TestCase):
             state.measure(max(grainlaw.Measure) + 1)
 
     def test_version_is_that_of_the_header(self):
-        self.assertEqual(grainlaw.version(), grainlaw_names.VERSION)
-        self.assertEqual(library.grainlaw_version().decode(), grainlaw_names.VERSION)
+        self.assertEqual(grainlaw.version(), names.VERSION)
+        self.assertEqual(library.grainlaw_version().decode(), names.VERSION)
 
 
 if __name__ == "__main__":

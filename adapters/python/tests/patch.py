@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The patch through grainlaw.py:  patch.py MATERIAL.toml PATH.csv > python.csv"""
+"""The patch through the package:  patch.py MATERIAL.toml PATH.csv > python.csv"""
 import sys
 
 import numpy as np

@@ -4,7 +4,7 @@ import unittest
 import numpy as np
 
 import grainlaw
-from grainlaw_steps import LoadSteps, StepTooSmall
+from grainlaw.steps import LoadSteps, StepTooSmall
 from support import Case, material
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 import grainlaw
 from grainlaw import Status, Tangent
-from grainlaw_steps import LoadSteps
+from grainlaw.steps import LoadSteps
 from support import Case, material
 
 ALL = 1 | 4 | 8  # invalid, division by zero, overflow

@@ -1,27 +1,41 @@
-"""The shared library behind grainlaw.py: where it is, its functions, its handles and errors."""
+"""The shared library: where it is, its functions, its handles and errors."""
+from __future__ import annotations
+
 import ctypes
 import os
+from collections.abc import Callable
+from typing import Any
 
-from grainlaw_names import ABI, VERSION, Report, Status, Summary
+from .names import ABI, VERSION, Report, Status, Summary
 
 
 class Error(Exception):
     """A call the library, or this module before it, refused: status (Status), message, and the
     number of the point where it was one point of several, else None."""
 
-    def __init__(self, status, message="", point=None):
+    status: Status | int
+    message: str
+    point: int | None
+
+    def __init__(self, status: int, message: str = "", point: int | None = None) -> None:
         self.point = point
         known = status in Status._value2member_map_  # a later library may have more
         self.status = Status(status) if known else int(status)
         self.message = message or status_text(status)
-        super().__init__(f"{self.message} [{self.status.name if known else status}]")
+        name = self.status.name if isinstance(self.status, Status) else status
+        super().__init__(f"{self.message} [{name}]")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (int(self.status), self.message, self.point)
 
 
-def _open():
+def _open() -> ctypes.CDLL:
     file = f"libgrainlaw.so.{ABI}"
+    here = os.path.dirname(os.path.abspath(__file__))
     chosen = os.environ.get("GRAINLAW_LIBRARY")
-    beside = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", file)
-    path = chosen or (beside if os.path.exists(beside) else file)
+    # In the package, as pip installs it, or three above, as CMake does.
+    near = [os.path.join(here, file), os.path.join(here, "..", "..", "..", file)]
+    path = chosen or next((one for one in near if os.path.exists(one)), file)
     try:
         library = ctypes.CDLL(path)
         _declare(library)
@@ -38,11 +52,11 @@ def _open():
     return library
 
 
-def _declare(library):
+def _declare(library: ctypes.CDLL) -> None:
     pointer, size = ctypes.c_void_p, ctypes.c_size_t
     text, out = ctypes.c_char_p, ctypes.POINTER(ctypes.c_void_p)
     count = ctypes.POINTER(size)
-    functions = {
+    functions: dict[str, tuple[Any, ...]] = {
         "status_text": (text, ctypes.c_int),
         "version": (text,),
         "material_load": (ctypes.c_int, text, out, text, size),
@@ -62,6 +76,8 @@ def _declare(library):
         "points_save": (ctypes.c_int, pointer, pointer, count),
         "points_load": (ctypes.c_int, pointer, pointer, size, text, size),
         "points_measure": (ctypes.c_int, pointer, ctypes.c_int, pointer, count),
+        "state_particles": (ctypes.c_int, pointer, pointer, size, count),
+        "state_contacts": (ctypes.c_int, pointer, pointer, size, count),
         "state_write_vtk": (ctypes.c_int, pointer, text),
         "state_write_packing": (ctypes.c_int, pointer, text),
     }
@@ -70,34 +86,39 @@ def _declare(library):
         function.restype, function.argtypes = result, arguments
 
 
-def _size(default):
-    # Returned by value: room for the struct of any later version.
-    class Any(ctypes.Structure):
-        _fields_ = [("size", ctypes.c_size_t), ("rest", ctypes.c_char * 65536)]
+class _Any(ctypes.Structure):
+    """Returned by value: room for the struct of any later version."""
+    _fields_ = [("size", ctypes.c_size_t), ("rest", ctypes.c_char * 65536)]
 
-    default.restype = Any
-    return default().size
+
+def _size(default: Any) -> int:
+    default.restype = _Any
+    return int(default().size)
 
 
 library = _open()
 
 
-def status_text(status):
+def status_text(status: int) -> str:
     """English text of a status."""
-    return library.grainlaw_status_text(status).decode()
+    text: bytes = library.grainlaw_status_text(status)
+    return text.decode()
 
 
-def version():
+def version() -> str:
     """Version of the library in use, "major.minor.patch"."""
-    return library.grainlaw_version().decode()
+    text: bytes = library.grainlaw_version()
+    return text.decode()
 
 
-def check(status, message=""):
+def check(status: int, message: str = "") -> None:
+    """Raises Error for a status that is not OK."""
     if status != Status.OK:
         raise Error(status, message)
 
 
-def c_text(value):
+def c_text(value: str | os.PathLike[str]) -> bytes:
+    """As the library takes paths and texts."""
     encoded = os.fsencode(value)
     if b"\0" in encoded:
         raise Error(Status.BAD_ARGUMENT, f"a text for the library holds a zero byte: {value!r}")
@@ -107,10 +128,11 @@ def c_text(value):
 class Handle:
     """Owner of one C handle."""
 
-    def __init__(self, create, destroy, *arguments):
+    def __init__(self, create: Callable[..., int], destroy: Callable[..., None],
+                 *arguments: Any) -> None:
         self._as_parameter_ = ctypes.c_void_p()
         self._destroy = destroy
         check(create(*arguments, ctypes.byref(self._as_parameter_)))
 
-    def __del__(self):
+    def __del__(self) -> None:
         self._destroy(self._as_parameter_)

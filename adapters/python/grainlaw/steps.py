@@ -8,8 +8,10 @@
         else:
             steps.cut(answer.step_ratio)        # after revert
 """
+from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 SMALLEST_CUT, USUAL_CUT = 0.1, 0.5   # of a part that failed, in one go
 GROWTH = 2.0                         # of the part after one that went well
@@ -24,7 +26,7 @@ class LoadSteps:
     from 0 to 1, or the ascending fractions themselves; a first one of 0 is a step of its own, for
     loads that act from the start. No part gets smaller than its step / 2**max_cuts."""
 
-    def __init__(self, loads, max_cuts=10):
+    def __init__(self, loads: int | Iterable[float], max_cuts: int = 10) -> None:
         if isinstance(loads, int):
             loads = [(k + 1) / loads for k in range(loads)]
         self._goals = [float(load) for load in loads]
@@ -38,24 +40,25 @@ class LoadSteps:
         self._start = self.done = 0.0
         self.number = 0          #: of the load step, from 0
         self.cuts = 0            #: so far
-        self.accepted = []       #: fractions that were committed
+        self.accepted: list[float] = []   #: fractions that were committed
         self.load = self._goals[0]
 
-    def __bool__(self):
+    def __bool__(self) -> bool:
         return self.number < len(self._goals)
 
     @property
-    def complete(self):
+    def complete(self) -> bool:
         """Whether `load` ends its load step."""
         return self.load == self._goals[self.number]
 
     @property
-    def part(self):
+    def part(self) -> float:
         """Share of the load step that leads to `load`: how long that takes, where a step takes 1."""
         step = self._goals[self.number] - self._start
         return (self.load - self.done) / step if step > 0 else 1.0
 
-    def accept(self):
+    def accept(self) -> None:
+        """`load` was reached and is committed; `load` becomes the next one."""
         part = self.load - self.done
         complete = self.complete
         self.done = self.load
@@ -68,7 +71,9 @@ class LoadSteps:
         else:
             self._aim(GROWTH * part)
 
-    def cut(self, ratio):
+    def cut(self, ratio: float) -> None:
+        """`load` was not reached: it comes nearer, by the ratio of the way that seems feasible.
+        Raises StepTooSmall."""
         step = self._goals[self.number] - self._start
         ratio = max(SMALLEST_CUT, min(USUAL_CUT, ratio)) if math.isfinite(ratio) else USUAL_CUT
         part = (self.load - self.done) * ratio
@@ -78,7 +83,7 @@ class LoadSteps:
         self.cuts += 1
         self._aim(part)
 
-    def _aim(self, part):
+    def _aim(self, part: float) -> None:
         goal = self._goals[self.number]
         # A rest that is nothing but round-off is not a part.
         near = self.done + part >= goal - 1e-9 * (goal - self._start)

@@ -1,4 +1,6 @@
 """Files that are either the old one or the whole new one, whatever a write meets."""
+from __future__ import annotations
+
 import contextlib
 import errno
 import itertools
@@ -6,11 +8,11 @@ import os
 import stat
 
 
-def write_whole(path, data):
+def write_whole(path: str | os.PathLike[str], data: str | bytes) -> None:
     """Write text or bytes beside the file, wait until it is on the disk, and put it in the place of
     the old one. On an OSError the old file is as it was, and nothing is left beside it. A device or
     a pipe is written to as it is."""
-    data = data.encode() if isinstance(data, str) else data
+    content = data.encode() if isinstance(data, str) else data
     target = os.path.realpath(path)
     try:
         mode = os.stat(target).st_mode
@@ -20,14 +22,14 @@ def write_whole(path, data):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), os.fspath(path))
     if mode is not None and not stat.S_ISREG(mode):
         with open(target, "wb", buffering=0) as file:
-            _write(file.fileno(), data)
+            _write(file.fileno(), content)
         return
     temporary, descriptor = _beside(target)
     try:
         try:
             if mode is not None:
                 os.fchmod(descriptor, stat.S_IMODE(mode))
-            _write(descriptor, data)
+            _write(descriptor, content)
             os.fsync(descriptor)
         finally:
             os.close(descriptor)
@@ -45,7 +47,7 @@ def write_whole(path, data):
             os.close(directory)
 
 
-def _beside(target):
+def _beside(target: str) -> tuple[str, int]:
     for number in itertools.count():
         temporary = f"{target}.{os.getpid()}-{number}.new"
         with contextlib.suppress(FileExistsError):
@@ -53,6 +55,6 @@ def _beside(target):
     raise AssertionError  # count() does not end
 
 
-def _write(descriptor, data):
+def _write(descriptor: int, data: bytes) -> None:
     while data:
         data = data[os.write(descriptor, data):]

@@ -1,0 +1,33 @@
+"""grainlaw for Python: a material law made of grains, over numpy arrays.
+
+Conventions are those of grainlaw.h: F[i, J] = dx_i/dX_J [-], P in Pa with tension positive,
+A[i, J, k, L] = dP_iJ/dF_kL [Pa], SI units. d is the dimension of the material, 2 or 3.
+
+    material = grainlaw.Material("sand.toml")
+    points = grainlaw.States(material, 240)
+    answer = points.evaluate(F, grainlaw.Tangent.EXACT)     # F: (240, d, d)
+    if answer.ok:
+        points.commit()                                     # answer.P, answer.A
+    else:
+        points.revert()                 # and retry with answer.step_ratio of the step
+
+    result = grainlaw.tests.drained(material, strain=0.05)  # the tests of a soil laboratory
+    result.plot()
+
+A status < 0 raises Error and leaves what is committed as it was; a recoverable one (> 0) is an
+answer. The library is $GRAINLAW_LIBRARY, or the one this package was installed with, or the one
+the dynamic loader finds.
+
+    grainlaw.tests      element tests, one call each, and any mixed path
+    grainlaw.steps      load steps that are cut, for hosts whose loop is written in Python
+    grainlaw.files      files that are the old one or the whole new one
+"""
+from . import files, steps, tests
+from .library import Error, status_text, version
+from .material import Material
+from .names import Measure, Status, Tangent
+from .points import Evaluation, State, States
+
+__all__ = ["Error", "Evaluation", "Material", "Measure", "State", "States", "Status", "Tangent",
+           "files", "status_text", "steps", "tests", "version"]
+__version__ = version()

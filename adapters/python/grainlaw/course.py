@@ -1,0 +1,202 @@
+"""One element test on its way: where its steps lead, where it turns and what ends it. Pressures, q and
+strains are positive in compression; axis d, the last, is the axial one; a shear moves the last plane
+along axis 1: F12 of discs, F13 of spheres."""
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from .control import Condition, Segment, cauchy
+from .lead import Lead, StepError
+from .result import Result
+
+MOST_STEPS_OF_A_LEG = 100000
+NEAR, LEAST = 1e-3, 0.02   # of an amplitude of stress that is met; of a step that leads to it
+WEAK = 0.1                 # of the pressure at the start: what is left then does not carry
+
+
+@dataclass(frozen=True)
+class Loops:
+    """Loops of a test: it turns at plus and minus a strain and ends at 0, or at so much above and
+    below the q of the start and ends there. q is axial less lateral stress, of a shear the shear
+    stress."""
+
+    count: int
+    strain: float | None = None   #: [-]
+    q: float | None = None        #: [Pa]
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.count, int) or self.count < 1:
+            raise ValueError(f"expected a number of loops >= 1, got {self.count!r}")
+        if (self.strain is None) == (self.q is None):
+            raise ValueError("expected one of strain (0.005 for 0.5 %) and q (Pa) of the loops")
+        if not 0 < self.amplitude < (0.5 if self.q is None else math.inf):
+            raise ValueError(f"expected an amplitude above 0, of strain below 0.5, got "
+                             f"{self.amplitude!r}")
+
+    @property
+    def amplitude(self) -> float:
+        """[-] or [Pa]"""
+        value = self.strain if self.q is None else self.q
+        assert value is not None
+        return value
+
+
+@dataclass(frozen=True)
+class Stop:
+    """What ends a test before its strain or stress; what is None never does."""
+
+    strain: float | None = None         #: axial, or shear, since the start, absolute [-]
+    q: float | None = None              #: axial less lateral stress, or shear stress, absolute [Pa]
+    ratio: float | None = None          #: q over mean pressure, absolute [-]
+    p: float | None = None              #: mean pressure, reached from either side [Pa]
+    axial_stress: float | None = None   #: reached from either side [Pa]
+    #: Share of the mean pressure at the start below which there is no soil any more [-]; None: 0.01
+    #: where volume is kept, else 0, which never ends it.
+    liquefied: float | None = None
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if value is not None and not (0 <= value <= 1 if name == "liquefied" else value > 0):
+                raise ValueError(f"expected a stop.{name} above 0"
+                                 f"{' and at most 1' if name == 'liquefied' else ''}, got {value!r}")
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A test: to(way) leads to that much of the leading strain [-], or, by share, to that share of
+    the way of what is led."""
+
+    to: Callable[[float], Segment]
+    end: float                 # strain [-]; by share 1
+    step: float                # strain, or share, of a step [-]
+    shear: bool = False
+    by_share: bool = False
+    keeps_volume: bool = False
+
+
+class Course:
+    """Leads along a plan and keeps what it finds in the result."""
+
+    def __init__(self, lead: Lead, plan: Plan, loops: Loops | int, stop: Stop | None,
+                 result: Result) -> None:
+        self._lead, self._plan, self._loops, self._result = lead, plan, loops, result
+        self._stop = stop or Stop()
+        share = 0.01 if plan.keeps_volume else 0.0
+        self._liquefied = share if self._stop.liquefied is None else self._stop.liquefied
+        self._start_F, self._p, self._q = lead.F, self.pressure, self.deviator
+        self._way = 0.0
+
+    @property
+    def pressure(self) -> float:
+        """Mean, compression positive [Pa]."""
+        return -float(np.trace(cauchy(self._lead.P, self._lead.F))) / len(self._lead.F)
+
+    @property
+    def deviator(self) -> float:
+        """q [Pa]."""
+        sigma = cauchy(self._lead.P, self._lead.F)
+        if self._plan.shear:
+            return float(sigma[0, -1])
+        return float(np.mean(np.diagonal(sigma)[:-1]) - sigma[-1, -1])
+
+    @property
+    def axial(self) -> float:
+        """Axial stress, compression positive [Pa]."""
+        return -float(cauchy(self._lead.P, self._lead.F)[-1, -1])
+
+    def run(self) -> None:
+        """To the end, or to what stops it. Raises StepError."""
+        try:
+            if isinstance(self._loops, Loops):
+                self._loop(self._loops)
+            elif self._to(self._plan.end):
+                self._back_and_forth(self._loops)
+        except StepError:
+            if not self._liquefied > 0 or self.pressure > WEAK * self._p:
+                raise
+            self._result.liquefied = True
+            self._result.ended = (f"liquefied: no equilibrium after a mean pressure of "
+                                  f"{self.pressure:.4g} Pa, {self.pressure / self._p:.2g} of that at "
+                                  "the start")
+
+    def _back_and_forth(self, loops: int) -> None:
+        """Of a test that stresses lead, from its end."""
+        for turn in range(2 * loops - 1):
+            if not self._to(self._plan.end if turn % 2 else 0):
+                return
+
+    def _loop(self, loops: Loops) -> None:
+        for count in range(loops.count):
+            for side in (1.0, -1.0):
+                on = (self._to(side * loops.amplitude) if loops.q is None
+                      else self._to_q(self._q + side * loops.amplitude, side, loops.amplitude))
+                if not on:
+                    self._result.ended += f", in loop {count + 1} of {loops.count}"
+                    return
+        if loops.q is None:
+            self._to(0)
+        else:
+            self._to_q(self._q, 1, loops.amplitude)
+
+    def _make(self, way: float) -> bool:
+        """One step; False when the test is over."""
+        p, axial = self.pressure, self.axial
+        self._lead.run(self._plan.to(way), lambda: self._result.add(self._lead))
+        self._way = way
+        self._result.ended = self._stopped(p, axial)
+        return not self._result.ended
+
+    def _to(self, to: float) -> bool:
+        """In equal steps to a strain."""
+        start = self._way
+        count = max(1, math.ceil(abs(to - start) / self._plan.step - 1e-9))
+        return all(self._make(to if k == count else start + (to - start) * k / count)
+                   for k in range(1, count + 1))
+
+    def _to_q(self, wanted: float, direction: float, amplitude: float) -> bool:
+        """Until q is what is wanted, in this direction; the last steps are shorter, so that it is
+        met."""
+        share, step = 1.0, self._plan.step
+        for _ in range(MOST_STEPS_OF_A_LEG):
+            before, start = direction * self.deviator, self._way
+            if before >= direction * wanted - NEAR * amplitude:
+                return True
+            if not self._make(start + direction * share * step):
+                return False
+            slope = (direction * self.deviator - before) / abs(self._way - start)
+            rest = direction * (wanted - self.deviator)
+            share = min(max(rest / (slope * step), LEAST), 1.0) if slope > 0 else 1.0
+            if abs(self._way) > abs(self._plan.end):
+                self._result.ended = f"strain {self._way:.4g} reached before q {wanted:.4g} Pa"
+                return False
+        return False
+
+    def _stopped(self, p_before: float, axial_before: float) -> str:
+        stop, p, q = self._stop, self.pressure, abs(self.deviator)
+        strain = self._way
+        if self._plan.by_share:
+            strain = 1 - float(self._lead.F[-1, -1] / self._start_F[-1, -1])
+        if self._liquefied > 0 and p < self._liquefied * self._p:
+            self._result.liquefied = True
+            return (f"liquefied: mean pressure {p:.4g} Pa, {p / self._p:.2g} of that at the start")
+        if stop.strain is not None and abs(strain) >= stop.strain * (1 - 1e-9):
+            return f"strain {strain:.6g} reached"
+        if stop.q is not None and q >= stop.q:
+            return f"q {q:.6g} Pa reached"
+        if stop.ratio is not None and q >= stop.ratio * p:
+            return f"q/p {q / p:.6g} reached"
+        if stop.p is not None and (p_before - stop.p) * (p - stop.p) <= 0:
+            return f"mean pressure {p:.6g} Pa reached"
+        if (stop.axial_stress is not None
+                and (axial_before - stop.axial_stress) * (self.axial - stop.axial_stress) <= 0):
+            return f"axial stress {self.axial:.6g} Pa reached"
+        return ""
+
+
+def keep(count: int) -> list[Condition]:
+    """F of every component stays."""
+    return [Condition() for _ in range(count)]

@@ -1,0 +1,174 @@
+"""What a test comes to, step by step, in numpy arrays."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .control import cauchy
+from .names import Measure
+from .points import Array, State
+
+if TYPE_CHECKING:
+    from .lead import Lead
+
+_MEASURES = {"void_ratio": Measure.VOID_RATIO, "coordination": Measure.COORDINATION,
+             "coordination_no_rattlers": Measure.COORDINATION_NO_RATTLERS,
+             "fabric": Measure.FABRIC, "anisotropy": Measure.ANISOTROPY,
+             "mean_overlap": Measure.MEAN_OVERLAP, "elastic_energy": Measure.ELASTIC_ENERGY,
+             "dissipated_energy": Measure.DISSIPATED_ENERGY, "contacts": Measure.CONTACTS,
+             "broken_bonds": Measure.BROKEN_BONDS}
+
+
+class Result:
+    """Rows of a test, n of them: the start, and every step. Axis d, the last, is the axial one.
+
+    F                         (n, d, d) deformation gradient dx_i/dX_J [-]
+    P                         (n, d, d) first Piola-Kirchhoff stress [Pa], tension positive
+    sigma                     (n, d, d) Cauchy stress [Pa], tension positive
+    axial_strain              (n,) 1 - F22, of spheres 1 - F33 [-], shortening positive
+    volumetric_strain         (n,) det F - 1 [-], dilation positive
+    shear_strain              (n,) F12 / F22, of spheres F13 / F33 [-]
+    shear_stress              (n,) sigma12, of spheres sigma13 [Pa]
+    axial_stress              (n,) [Pa], compression positive
+    lateral_stress            (n,) [Pa], compression positive; of spheres the mean of two
+    mean_pressure             (n,) -tr sigma / d [Pa]
+    deviatoric_stress         (n,) axial - lateral stress [Pa]
+    void_ratio                (n,) volume of voids / volume of particles [-]
+    coordination              (n,) 2 C / N over all particles [-]
+    coordination_no_rattlers  (n,) [-]
+    fabric                    (n, d, d) (1/C) sum n n [-]
+    anisotropy                (n,) largest / smallest eigenvalue of the fabric - 1 [-]
+    mean_overlap              (n,) of touching contacts [m]
+    elastic_energy            (n,) stored in the contacts [J]
+    dissipated_energy         (n,) by friction, rolling, broken bonds since F = I [J]
+    external_work             (n,) of P on dF since the start of the test [J]
+    contacts, sliding         (n,) number of touching contacts; of those at the limit of friction [-]
+    broken_bonds              (n,) since F = I [-]
+    """
+
+    state: State             #: where the test ended; may be led on
+    ended: str               #: what ended it before its end, with the number, or ""
+    liquefied: bool          #: whether that was a lack of pressure
+    loose_parts: int         #: parts of steps that ended out of balance, beside a jump of the stress
+    before: Result | None    #: of the consolidation
+
+    def __init__(self, state: State, before: Result | None = None) -> None:
+        self.state, self.before = state, before
+        self.ended, self.liquefied, self.loose_parts = "", False, 0
+        self._rows: list[dict[str, Any]] = []
+
+    def add(self, lead: Lead) -> None:
+        """A row of where the state is."""
+        row: dict[str, Any] = {name: self.state.measure(what) for name, what in _MEASURES.items()}
+        row.update(F=lead.F, P=lead.P, sigma=cauchy(lead.P, lead.F), external_work=lead.work,
+                   sliding=float(lead.report["sliding"]))
+        self._rows.append(row)
+        self.loose_parts = lead.loose_parts
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    def __repr__(self) -> str:
+        return (f"<Result of {len(self) - 1} steps, {self.ended or 'done'}: axial strain "
+                f"{self.axial_strain[-1]:.4g} [-], mean pressure {self.mean_pressure[-1]:.4g} Pa, "
+                f"void ratio {self.void_ratio[-1]:.4g} [-]>")
+
+    def __getattr__(self, name: str) -> Array:
+        rows = self.__dict__.get("_rows")
+        if not rows or name not in rows[0]:
+            raise AttributeError(f"a Result has no {name}; help(grainlaw.tests.Result) lists what")
+        return np.array([row[name] for row in rows])
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *(self._rows[0] if self._rows else [])]
+
+    @property
+    def axial_strain(self) -> Array:
+        """(n,) shortening positive [-]"""
+        return 1 - self.F[:, -1, -1]
+
+    @property
+    def volumetric_strain(self) -> Array:
+        """(n,) dilation positive [-]"""
+        strain: Array = np.linalg.det(self.F) - 1
+        return strain
+
+    @property
+    def shear_strain(self) -> Array:
+        """(n,) [-]"""
+        strain: Array = self.F[:, 0, -1] / self.F[:, -1, -1]
+        return strain
+
+    @property
+    def shear_stress(self) -> Array:
+        """(n,) [Pa]"""
+        return self.sigma[:, 0, -1]
+
+    @property
+    def axial_stress(self) -> Array:
+        """(n,) compression positive [Pa]"""
+        return -self.sigma[:, -1, -1]
+
+    @property
+    def lateral_stress(self) -> Array:
+        """(n,) compression positive [Pa]"""
+        stress: Array = -np.diagonal(self.sigma, axis1=1, axis2=2)[:, :-1].mean(axis=1)
+        return stress
+
+    @property
+    def mean_pressure(self) -> Array:
+        """(n,) compression positive [Pa]"""
+        pressure: Array = -np.trace(self.sigma, axis1=1, axis2=2) / self.sigma.shape[1]
+        return pressure
+
+    @property
+    def deviatoric_stress(self) -> Array:
+        """(n,) axial less lateral stress [Pa]"""
+        return self.axial_stress - self.lateral_stress
+
+    def columns(self) -> dict[str, Array]:
+        """All of it by name, tensors component by component ("sigma12"), each (n,): for
+        numpy.savetxt or a data frame of pandas."""
+        names = [*(name for name, value in vars(Result).items() if isinstance(value, property)),
+                 *self._rows[0]]
+        result: dict[str, Array] = {}
+        for name in names:
+            values = np.asarray(getattr(self, name))
+            if values.ndim == 1:
+                result[name] = values
+            else:
+                d = values.shape[1]
+                for i in range(d):
+                    for j in range(d):
+                        result[f"{name}{i + 1}{j + 1}"] = values[:, i, j]
+        return result
+
+    def plot(self, shear: bool | None = None) -> Any:
+        """Stress, volume and coordination number over the axial strain, or of a simple shear over
+        the shear strain: a figure of matplotlib, shown by its .show() or kept by its
+        .savefig("sand.png"). Raises ImportError where matplotlib is not installed."""
+        try:
+            from matplotlib.figure import Figure  # type: ignore[import]
+        except ImportError:
+            raise ImportError("plot() needs matplotlib (Debian: apt-get install "
+                              "python3-matplotlib)") from None
+        if shear is None:
+            shear = bool(np.ptp(self.shear_strain) > np.ptp(self.axial_strain))
+        over = self.shear_strain if shear else self.axial_strain
+        figure = Figure(figsize=(6, 7), layout="constrained")
+        stress, volume, contacts = figure.subplots(3, 1, sharex=True)
+        if shear:
+            stress.plot(over, self.shear_stress / 1e3, label="shear stress")
+        else:
+            stress.plot(over, self.axial_stress / 1e3, label="axial stress")
+            stress.plot(over, self.lateral_stress / 1e3, label="lateral stress")
+        stress.plot(over, self.mean_pressure / 1e3, label="mean pressure")
+        stress.set_ylabel("stress [kPa]")
+        stress.legend()
+        volume.plot(over, self.void_ratio)
+        volume.set_ylabel("void ratio [-]")
+        contacts.plot(over, self.coordination_no_rattlers)
+        contacts.set_ylabel("coordination, no rattlers [-]")
+        contacts.set_xlabel("shear strain [-]" if shear else "axial strain [-]")
+        return figure

@@ -1,0 +1,275 @@
+"""Element tests of a soil laboratory, one call each, of discs and spheres by the same words.
+
+    result = drained(material, strain=0.05, consolidation=200e3)
+    result.axial_stress, result.void_ratio, result.state        # help(Result) lists all, with units
+    result.plot().savefig("drained.png")
+
+Every test starts from a Material, at F = I, or from a State, which it leads on: tests one after the
+other on the same State are a history. Pressures [Pa], q [Pa] and strains [-] are positive in
+compression. Axis d, the last, is the axial one; a shear moves F12 of discs, F13 of spheres.
+
+All of them take:
+    loops          Loops(count, strain=... or q=...): up and down instead of one way
+    stop           Stop(strain, q, ratio, p, axial_stress, liquefied): what ends the test first
+    consolidation  isotropic pressure [Pa] that is brought on before, in 20 steps; result.before
+    tolerance      largest error of a prescribed stress / norm of the stress at the start of a step [-]
+
+Ctrl-C ends a test between two evaluations: Interrupted, a KeyboardInterrupt, has the rows so far as
+its `result`, whose state is where the last one left it. A step that fails in its smallest part raises
+StepFailed, which has them too.
+"""
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from .components import read_conditions
+from .control import Condition, Segment, cauchy
+from .course import Course, Loops, Plan, Stop, keep
+from .interrupt import Interrupts
+from .lead import Lead, Options, StepError
+from .material import Material
+from .points import Array, State
+from .result import Result
+
+__all__ = ["Interrupted", "Loops", "Result", "StepFailed", "Stop", "constant_p", "drained",
+           "isotropic", "k0", "oedometric", "path", "shear_constant_stress",
+           "shear_constant_volume", "undrained"]
+
+STEPS = 20            # where stresses lead
+Start = Material | State
+
+
+class StepFailed(Exception):
+    """A step of a test failed in its smallest part too; `result` is what was reached before, `status`
+    the Status of the last evaluation."""
+
+    def __init__(self, message: str, status: int, result: Result) -> None:
+        super().__init__(message)
+        self.status, self.result = status, result
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C ended a test; `result` is what was reached before."""
+
+    def __init__(self, result: Result) -> None:
+        super().__init__(f"after step {len(result) - 1}")
+        self.result = result
+
+
+def isotropic(start: Start, pressure: float | None = None, steps: int = STEPS, *,
+              loops: int = 0, stop: Stop | None = None, tolerance: float = 1e-8) -> Result:
+    """All normal stresses to `pressure` [Pa], twice what it is by default; shears of F stay. `loops`:
+    so many times there and back."""
+    def plan(lead: Lead) -> Plan:
+        F, sigma = lead.F, cauchy(lead.P, lead.F)
+        end = _pressure("pressure", pressure, -2 * float(sigma.trace()) / len(F))
+
+        def to(way: float) -> Segment:
+            conditions = keep(F.size)
+            for i in range(len(F)):
+                conditions[_kk(F, i)] = _stress(sigma[i, i] + way * (-end - sigma[i, i]))
+            return Segment(conditions)
+
+        return Plan(to, 1.0, 1 / _count(steps), by_share=True)
+
+    return _run(start, plan, loops, stop, None, tolerance)
+
+
+def k0(start: Start, axial_stress: float | None = None, steps: int = STEPS, *, loops: int = 0,
+       stop: Stop | None = None, consolidation: float | None = None,
+       tolerance: float = 1e-8) -> Result:
+    """The axial stress to `axial_stress` [Pa], twice what it is by default; lateral strains stay 0.
+    `loops`: so many times there and back."""
+    def plan(lead: Lead) -> Plan:
+        F, sigma = lead.F, cauchy(lead.P, lead.F)
+        end = _pressure("axial_stress", axial_stress, -2 * float(sigma[-1, -1]))
+
+        def to(way: float) -> Segment:
+            conditions = keep(F.size)
+            conditions[-1] = _stress(sigma[-1, -1] + way * (-end - sigma[-1, -1]))
+            return Segment(conditions)
+
+        return Plan(to, 1.0, 1 / _count(steps), by_share=True)
+
+    return _run(start, plan, loops, stop, consolidation, tolerance)
+
+
+def oedometric(start: Start, strain: float = 0.02, step: float = 5e-4, *,
+               loops: Loops | None = None, stop: Stop | None = None,
+               consolidation: float | None = None, tolerance: float = 1e-8) -> Result:
+    """Axial strain [-], in steps of `step` [-]; lateral strains stay 0."""
+    return _strained(start, strain, step, lambda F, sigma, conditions: (), loops, stop,
+                     consolidation, tolerance)
+
+
+def drained(start: Start, strain: float = 0.1, step: float = 1e-3, *,
+            lateral_stress: float | None = None, loops: Loops | None = None,
+            stop: Stop | None = None, consolidation: float | None = None,
+            tolerance: float = 1e-8) -> Result:
+    """Axial strain [-], in steps of `step` [-]; the lateral stresses stay, as they are or
+    `lateral_stress` [Pa]."""
+    def hold(F: Array, sigma: Array, conditions: list[Condition]) -> Sequence[int]:
+        for i in range(len(F) - 1):
+            conditions[_kk(F, i)] = _stress(-_pressure("lateral_stress", lateral_stress,
+                                                       -sigma[i, i]))
+        return ()
+
+    return _strained(start, strain, step, hold, loops, stop, consolidation, tolerance)
+
+
+def undrained(start: Start, strain: float = 0.1, step: float = 1e-3, *,
+              loops: Loops | None = None, stop: Stop | None = None,
+              consolidation: float | None = None, tolerance: float = 1e-8) -> Result:
+    """Axial strain [-], in steps of `step` [-]; det F stays, to 1e-15, lateral stretches share one
+    factor. Ends where the mean pressure is a hundredth of that at the start (stop.liquefied)."""
+    return _strained(start, strain, step, lambda F, sigma, conditions: range(len(F) - 1), loops,
+                     stop, consolidation, tolerance)
+
+
+def constant_p(start: Start, strain: float = 0.1, step: float = 1e-3, *,
+               loops: Loops | None = None, stop: Stop | None = None,
+               consolidation: float | None = None, tolerance: float = 1e-8) -> Result:
+    """Axial strain [-], in steps of `step` [-]; the mean pressure stays, and of spheres the
+    difference of the lateral stresses."""
+    def hold(F: Array, sigma: Array, conditions: list[Condition]) -> Sequence[int]:
+        conditions[0] = Condition("mean", float(sigma.trace()) / len(F), False)
+        for i in range(1, len(F) - 1):
+            conditions[_kk(F, i)] = Condition("difference", float(sigma[i, i] - sigma[0, 0]), False)
+        return ()
+
+    return _strained(start, strain, step, hold, loops, stop, consolidation, tolerance)
+
+
+def shear_constant_volume(start: Start, strain: float = 0.1, step: float = 1e-3, *,
+                          loops: Loops | None = None, stop: Stop | None = None,
+                          consolidation: float | None = None, tolerance: float = 1e-8) -> Result:
+    """Shear strain [-], in steps of `step` [-]; all else of F stays. Ends where the mean pressure is
+    a hundredth of that at the start (stop.liquefied)."""
+    return _strained(start, strain, step, lambda F, sigma, conditions: (), loops, stop,
+                     consolidation, tolerance, shear=True, keeps_volume=True)
+
+
+def shear_constant_stress(start: Start, strain: float = 0.1, step: float = 1e-3, *,
+                          normal_stress: float | None = None, loops: Loops | None = None,
+                          stop: Stop | None = None, consolidation: float | None = None,
+                          tolerance: float = 1e-8) -> Result:
+    """Shear strain [-], in steps of `step` [-]; the normal stress on its planes stays, as it is or
+    `normal_stress` [Pa]."""
+    def hold(F: Array, sigma: Array, conditions: list[Condition]) -> Sequence[int]:
+        conditions[-1] = _stress(-_pressure("normal_stress", normal_stress, -sigma[-1, -1]))
+        return ()
+
+    return _strained(start, strain, step, hold, loops, stop, consolidation, tolerance, shear=True)
+
+
+def path(start: Start, steps: int, *, isochoric: bool = False, mean_pressure: float | None = None,
+         stop: Stop | None = None, consolidation: float | None = None, tolerance: float = 1e-8,
+         **components: float | str) -> Result:
+    """Any mixed path, by the keys of a [[segment]] of a scene, linearly in equal steps from where
+    the state is; components of F without a condition stay.
+
+    F11=1.01            component of F at its end [-]
+    dF12=0.02           the same, added to F at the start [-]
+    P22=-100e3          first Piola-Kirchhoff stress at its end [Pa], tension positive
+    sigma11=-100e3      Cauchy stress at its end [Pa], tension positive
+    sigma11="sigma22"   two stresses stay equal
+    F11="free", mean_pressure=1e5   F11 is found for the mean pressure [Pa], compression positive
+    isochoric=True      components of the diagonal of F without a condition follow by one factor, so
+                        that det F stays
+    """
+    count = _count(steps)
+
+    def plan(lead: Lead) -> Plan:
+        conditions, follows = read_conditions(len(lead.F), components, isochoric, mean_pressure)
+        first = lead.values(conditions)
+        last = [value + one.value if one.added else one.value
+                for value, one in zip(first, conditions)]
+        volume = float(np.linalg.det(lead.F))
+
+        def to(way: float) -> Segment:
+            return Segment([dataclasses.replace(one, value=a + way * (b - a), added=False)
+                            for one, a, b in zip(conditions, first, last)], follows, volume)
+
+        return Plan(to, 1.0, 1 / count, by_share=True)
+
+    return _run(start, plan, 0, stop, consolidation, tolerance)
+
+
+def _strained(start: Start, strain: float, step: float,
+              hold: Callable[[Array, Array, list[Condition]], Sequence[int]],
+              loops: Loops | None, stop: Stop | None, consolidation: float | None,
+              tolerance: float, shear: bool = False, keeps_volume: bool = False) -> Result:
+    """A test led by a strain. hold(F, sigma, conditions) sets what is held, and returns the axes
+    whose stretches keep det F."""
+    if not 0 < abs(strain) < 0.5:
+        raise ValueError(f"expected a strain between -0.5 and 0.5, 0.05 for 5 % of compression, "
+                         f"got {strain!r}")
+    if not 0 < step < 0.1:
+        raise ValueError(f"expected a strain of one step, above 0 and below 0.1, got {step!r}")
+
+    def plan(lead: Lead) -> Plan:
+        F, sigma = lead.F, cauchy(lead.P, lead.F)
+        held = keep(F.size)
+        follows = hold(F, sigma, held)
+        volume = float(np.linalg.det(F))
+
+        def to(way: float) -> Segment:
+            conditions = list(held)
+            if shear:
+                conditions[len(F) - 1] = Condition("F", F[0, -1] + way * F[-1, -1], False)
+            else:
+                conditions[-1] = Condition("F", F[-1, -1] * (1 - way), False)
+            return Segment(conditions, follows, volume)
+
+        return Plan(to, strain, step, shear, keeps_volume=keeps_volume or bool(follows))
+
+    return _run(start, plan, loops or 0, stop, consolidation, tolerance)
+
+
+def _run(start: Start, planner: Callable[[Lead], Plan], loops: Loops | int, stop: Stop | None,
+         consolidation: float | None, tolerance: float) -> Result:
+    state = State(start) if isinstance(start, Material) else start
+    if not isinstance(state, State):
+        raise TypeError(f"expected a Material or a State, got {type(start).__name__}")
+    before = None
+    if consolidation is not None:
+        before = isotropic(state, consolidation, tolerance=tolerance)
+    result = Result(state, before)
+    try:
+        with Interrupts() as interrupts:
+            lead = Lead(state, Options(tolerance), interrupts)
+            result.add(lead)
+            Course(lead, planner(lead), loops, stop, result).run()
+    except StepError as error:
+        where = f"step {len(result)} (from axial strain {result.axial_strain[-1]:.6g} [-])"
+        raise StepFailed(f"{where}: {error}", error.status, result) from None
+    except KeyboardInterrupt:
+        result.ended = "interrupted"
+        raise Interrupted(result) from None
+    return result
+
+
+def _kk(F: Array, i: int) -> int:
+    """Number of the component ii."""
+    return (len(F) + 1) * i
+
+
+def _stress(value: float) -> Condition:
+    return Condition("sigma", float(value), False)
+
+
+def _count(steps: int) -> int:
+    if not isinstance(steps, int) or steps < 1:
+        raise ValueError(f"expected a number of steps >= 1, got {steps!r}")
+    return steps
+
+
+def _pressure(name: str, value: float | None, otherwise: float) -> float:
+    if value is None:
+        return otherwise
+    if not value > 0:
+        raise ValueError(f"expected a {name} above 0 Pa, compression positive, got {value!r}")
+    return value

@@ -1,0 +1,269 @@
+"""Element tests: they hold what they say, go where `grainlaw point` goes, and end where they are told."""
+import csv
+import functools
+import os
+import signal
+import subprocess
+import tempfile
+import threading
+import unittest
+from unittest import mock
+
+import numpy as np
+
+import grainlaw
+from grainlaw import Measure, Status, tests
+from grainlaw.lead import Options
+from grainlaw.tests import Loops, Stop
+from support import DATA, Case, material
+
+SPHERES = os.path.join(DATA, "spheres500.toml")
+PROGRAM = os.environ.get("GRAINLAW_PROGRAM")
+
+# The call, and the same as a segment of a scene.
+SAME = [
+    (lambda m: tests.isotropic(m, 150e3, 5), 'test = "isotropic"\npressure = 150e3\nsteps = 5'),
+    (lambda m: tests.k0(m, 150e3, 5), 'test = "k0"\naxial_stress = 150e3\nsteps = 5'),
+    (lambda m: tests.oedometric(m, 0.003), 'test = "oedometric"\nstrain = 0.003'),
+    (lambda m: tests.drained(m, 0.004), 'test = "drained"\nstrain = 0.004'),
+    (lambda m: tests.undrained(m, 0.004), 'test = "undrained"\nstrain = 0.004'),
+    (lambda m: tests.constant_p(m, 0.004), 'test = "constant_p"\nstrain = 0.004'),
+    (lambda m: tests.shear_constant_volume(m, 0.004),
+     'test = "shear_constant_volume"\nstrain = 0.004'),
+    (lambda m: tests.shear_constant_stress(m, 0.004),
+     'test = "shear_constant_stress"\nstrain = 0.004'),
+    (lambda m: tests.undrained(m, 0.05, loops=Loops(2, q=30e3)),
+     'test = "undrained"\nstrain = 0.05\ncycles = 2\namplitude = { q = 30e3 }'),
+    (lambda m: tests.drained(m, -0.05, loops=Loops(1, strain=2e-3)),
+     'test = "drained"\nstrain = -0.05\ncycles = 1\namplitude = { strain = 2e-3 }'),
+    (lambda m: tests.k0(m, steps=4, loops=1), 'test = "k0"\nsteps = 4\ncycles = 1'),
+    (lambda m: tests.drained(m, stop=Stop(ratio=0.4)), 'test = "drained"\nstop = { ratio = 0.4 }'),
+    (lambda m: tests.path(m, 4, F22=0.997, dF12=0.002, P11=-110e3),
+     "steps = 4\nF22 = 0.997\ndF12 = 0.002\nP11 = -110e3"),
+    (lambda m: tests.path(m, 4, F22=0.997, F11="free", mean_pressure=110e3),
+     'steps = 4\nF22 = 0.997\nF11 = "free"\nmean_pressure = 110e3'),
+]
+OF_SPHERES = [
+    (lambda m: tests.drained(m, 0.002), 'test = "drained"\nstrain = 0.002'),
+    (lambda m: tests.undrained(m, 0.002), 'test = "undrained"\nstrain = 0.002'),
+    (lambda m: tests.constant_p(m, 0.002), 'test = "constant_p"\nstrain = 0.002'),
+    (lambda m: tests.shear_constant_stress(m, 0.002),
+     'test = "shear_constant_stress"\nstrain = 0.002'),
+    (lambda m: tests.path(m, 2, F33=0.998, sigma11="sigma22", isochoric=True),
+     'steps = 2\nF33 = 0.998\nsigma11 = "sigma22"\nisochoric = true'),
+]
+
+
+def by_program(file, segment):
+    """Columns of `grainlaw point`."""
+    with tempfile.TemporaryDirectory() as directory:
+        scene = os.path.join(directory, "scene.toml")
+        with open(scene, "w", encoding="utf-8") as out:
+            out.write(f'material = "{file}"\nfigure = false\n[[segment]]\n{segment}\n')
+        subprocess.run([PROGRAM, "point", scene, "--output", directory], check=True,
+                       stdout=subprocess.DEVNULL)
+        with open(os.path.join(directory, "scene.csv"), encoding="utf-8") as table:
+            rows = list(csv.DictReader(table))
+    return {name.split("[")[0]: np.array([float(row[name]) for row in rows]) for name in rows[0]}
+
+
+class AsInTheProgram(Case):
+    def compare(self, path, cases):
+        for call, segment in cases:
+            with self.subTest(segment=segment):
+                ours, theirs = call(material(path)), by_program(path, segment)
+                columns = ours.columns()
+                self.assertEqual(len(ours), len(theirs["F11"]))
+                scale = np.linalg.norm(ours.sigma[0])
+                for i in range(1, ours.F.shape[1] + 1):
+                    for j in range(1, ours.F.shape[1] + 1):
+                        name = f"sigma{i}{j}"
+                        self.assertLess(abs(columns[name] - theirs[name]).max(), 1e-7 * scale, name)
+                        name = f"F{i}{j}"
+                        self.assertLess(abs(columns[name] - theirs[name]).max(), 1e-9, name)
+                for name in ("void_ratio", "coordination", "axial_strain", "elastic_energy",
+                             "dissipated_energy", "external_work", "sliding"):
+                    size = abs(theirs[name]).max()
+                    self.assertLess(abs(columns[name] - theirs[name]).max(), 1e-6 * size + 1e-12,
+                                    name)
+
+    @unittest.skipUnless(PROGRAM, "the command grainlaw is not built")
+    def test_discs(self):
+        self.compare(os.path.join(DATA, "rve400.toml"), SAME)
+
+    @unittest.skipUnless(PROGRAM, "the command grainlaw is not built")
+    def test_spheres(self):
+        self.compare(SPHERES, OF_SPHERES)
+
+
+class Elements(Case):
+    def test_what_a_test_holds_is_held(self):
+        m = material()
+        near = 1e-8 * np.linalg.norm(tests.path(m, 1).sigma[0])
+        result = tests.drained(m, 0.003)
+        self.assertLess(np.ptp(result.lateral_stress), 2 * near)
+        self.assertAlmostEqual(result.axial_strain[-1], 0.003)
+        self.assertLess(np.ptp(tests.constant_p(m, 0.003).mean_pressure), 2 * near)
+        self.assertLess(np.ptp(tests.shear_constant_stress(m, 0.003).axial_stress), 2 * near)
+        self.assertEqual(np.ptp(tests.k0(m, steps=3).F[:, 0, 0]), 0)
+        isotropic = tests.isotropic(m, 130e3, 3)
+        self.assertLess(abs(isotropic.lateral_stress[-1] - 130e3), near)
+        self.assertLess(abs(isotropic.axial_stress[-1] - 130e3), near)
+
+    def test_undrained_keeps_the_volume_by_itself(self):
+        for path, strain in ((None, 0.02), (SPHERES, 0.003)):
+            result = tests.undrained(material(path) if path else material(), strain)
+            self.assertLess(abs(result.volumetric_strain).max(), 1e-15)
+
+    def test_work_is_stored_or_dissipated(self):
+        result = tests.drained(material(), 0.01, 2e-4)
+        stored = result.elastic_energy - result.elastic_energy[0]
+        lost = result.dissipated_energy - result.dissipated_energy[0]
+        self.assertLess(abs(stored + lost - result.external_work)[-1],
+                        0.01 * result.external_work[-1])
+
+    def test_consolidation_comes_before_and_tests_follow_each_other(self):
+        at_once = tests.drained(material(), 0.002, consolidation=150e3)
+        self.assertAlmostEqual(at_once.mean_pressure[0] / 150e3, 1, places=7)
+        self.assertEqual(len(at_once.before), 21)
+        state = grainlaw.State(material())
+        tests.isotropic(state, 150e3)
+        after = tests.drained(state, 0.002)
+        self.assertEqual(after.sigma.tobytes(), at_once.sigma.tobytes())
+        self.assertEqual(state.save(), at_once.state.save())
+
+    def test_a_stop_ends_and_says_so(self):
+        m = material()
+        for stop, words in ((Stop(q=30e3), "q 3"), (Stop(strain=0.002), "strain 0.002 reached"),
+                            (Stop(ratio=0.3), "q/p 0.3"), (Stop(p=105e3), "mean pressure 1"),
+                            (Stop(axial_stress=120e3), "axial stress 12")):
+            result = tests.drained(m, step=1e-4, stop=stop)
+            self.assertIn(words, result.ended)
+            self.assertLess(len(result), 22)
+            self.assertFalse(result.liquefied)
+        liquefied = tests.oedometric(m, -0.01, 2e-4, stop=Stop(liquefied=0.5))
+        self.assertTrue(liquefied.liquefied)
+        self.assertIn("liquefied: mean pressure", liquefied.ended)
+        self.assertEqual(tests.drained(m, 0.002).ended, "")
+
+    def test_loops_end_where_they_began(self):
+        result = tests.shear_constant_volume(material(), loops=Loops(2, strain=2e-3))
+        self.assertAlmostEqual(result.shear_strain[-1], 0)
+        self.assertEqual(len(result), 1 + 2 + 4 + 4 + 4 + 2)
+        stressed = tests.drained(material(), step=1e-4, loops=Loops(1, q=20e3))
+        q = stressed.deviatoric_stress - stressed.deviatoric_stress[0]
+        self.assertLess(abs(q.max() - 20e3), 1e3)
+        self.assertLess(abs(q.min() + 20e3), 1e3)
+
+    def test_what_cannot_be_meant_is_told(self):
+        m = material()
+        for call, words in (
+                (lambda: tests.drained(m, 0.6), "0.05 for 5 %"),
+                (lambda: tests.drained(m, 0.01, -1), "one step"),
+                (lambda: tests.drained(m, lateral_stress=-1e5), "compression positive"),
+                (lambda: tests.isotropic(m, 0), "pressure above 0"),
+                (lambda: tests.k0(m, steps=0), "number of steps"),
+                (lambda: Loops(0, q=1), "number of loops"), (lambda: Loops(1), "one of strain"),
+                (lambda: Loops(1, strain=1), "below 0.5"), (lambda: Stop(q=-1), "stop.q"),
+                (lambda: Stop(liquefied=2), "at most 1"),
+                (lambda: tests.path(m, 2, F22=-0.01), "a stretch"),
+                (lambda: tests.path(m, 2, F22=0.99, dF22=0.1), "second condition"),
+                (lambda: tests.path(m, 2, sigma11="sigma11"), "name of another stress"),
+                (lambda: tests.path(m, 2, mean_pressure=1e5), "\"free\""),
+                (lambda: tests.path(m, 2, F11=1, F22=1, isochoric=True), "follows det F")):
+            with self.assertRaises(ValueError) as caught:
+                call()
+            self.assertIn(words, str(caught.exception))
+        for call in (lambda: tests.path(m, 2, F33=0.9), lambda: tests.path(m, 2, strain=0.1),
+                     lambda: tests.drained("sand.toml")):
+            self.assertRaises(TypeError, call)
+
+    def test_a_step_that_fails_keeps_what_was_reached(self):
+        once = functools.partial(Options, max_cuts=1)
+        with mock.patch("grainlaw.tests.Options", once):
+            with self.assertRaises(tests.StepFailed) as caught:
+                tests.path(material(), 4, F11=1.013, F22=1.013)   # grains part
+        result, text = caught.exception.result, str(caught.exception)
+        self.assertEqual(caught.exception.status, Status.CONTACTS_LOST)
+        self.assertIn("step 2", text)
+        self.assertIn("lost its contacts", text)
+        F = result.state.measure(Measure.DEFORMATION_GRADIENT)
+        self.assertGreaterEqual(F[0, 0], result.F[-1, 0, 0])
+
+    def test_columns_have_every_component(self):
+        columns = tests.oedometric(material(), 0.001).columns()
+        self.assertEqual({len(column) for column in columns.values()}, {3})
+        for name in ("axial_strain", "sigma12", "fabric22", "void_ratio", "sliding"):
+            self.assertIn(name, columns)
+
+    def test_an_unknown_column_is_told(self):
+        with self.assertRaisesRegex(AttributeError, "help"):
+            tests.path(material(), 1).strains  # pylint: disable=expression-not-assigned
+
+    def test_help_tells_shapes_and_units(self):
+        for thing, words in ((tests.Result, "(n, d, d) Cauchy stress [Pa]"),
+                             (grainlaw.States.contacts, "(d,) on j [N]"),
+                             (grainlaw.Evaluation, "(n, d, d, d, d) tangent"),
+                             (grainlaw.Measure, "VOLUME: current volume [m3]"),
+                             (tests.drained, "[Pa]"), (tests.path, "tension positive")):
+            self.assertIn(words, thing.__doc__)
+
+    def test_a_plot_has_stress_volume_and_contacts(self):
+        try:
+            import matplotlib  # pylint: disable=import-outside-toplevel,unused-import
+        except ImportError:
+            with self.assertRaisesRegex(ImportError, "python3-matplotlib"):
+                tests.path(material(), 1).plot()
+            return
+        for result, words in ((tests.drained(material(), 0.002), "axial strain [-]"),
+                              (tests.shear_constant_volume(material(), 0.002), "shear strain [-]")):
+            figure = result.plot()
+            self.assertEqual(len(figure.axes), 3)
+            self.assertEqual(figure.axes[-1].get_xlabel(), words)
+            with tempfile.TemporaryDirectory() as directory:
+                file = os.path.join(directory, "test.png")
+                figure.savefig(file)
+                self.assertGreater(os.path.getsize(file), 10000)
+
+
+class CtrlC(Case):
+    def interrupted(self, after, call):
+        """The exception of a call that gets SIGINT so many seconds after it began."""
+        timer = threading.Timer(after, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(tests.Interrupted) as caught:
+            call()
+        timer.join()
+        return caught.exception
+
+    def test_loses_nothing(self):
+        for after in (0.05, 0.1, 0.2):
+            state = grainlaw.State(material())
+            stopped = self.interrupted(after, lambda: tests.drained(state, 0.3, 1e-4))  # pylint: disable=cell-var-from-loop
+            result = stopped.result
+            self.assertEqual(result.ended, "interrupted")
+            self.assertGreater(len(result), 1)
+            # The state is where the last row is, and goes on as if nothing had been.
+            F = state.measure(Measure.DEFORMATION_GRADIENT)
+            self.assertEqual(F.tobytes(), result.F[-1].tobytes())
+            whole = tests.drained(material(), 1e-4 * (len(result) - 1), 1e-4)
+            self.assertEqual(whole.sigma.tobytes(), result.sigma.tobytes())
+            self.assertEqual(whole.state.save(), state.save())
+
+    def test_the_handler_of_the_host_is_back_afterwards(self):
+        self.interrupted(0.05, lambda: tests.drained(material(), 0.3, 1e-4))
+        self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+
+    def test_a_set_keeps_what_is_committed(self):
+        states = grainlaw.States(material(), 4)
+        before = states.save()
+        timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            while True:
+                states.evaluate(np.tile(np.diag([1.0, 0.995]), (4, 1, 1)))
+        self.assertEqual(states.save(), before)
+
+
+if __name__ == "__main__":
+    unittest.main()

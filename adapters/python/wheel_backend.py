@@ -1,0 +1,117 @@
+"""What pip asks for a wheel (PEP 517), with CMake and the standard library alone, so that no network is
+needed.
+
+    pip install .
+    pip install --config-settings=build-dir=build/release .    takes a build that is there
+
+The library is compiled as a release in build/python, or where build-dir, or $GRAINLAW_BUILD, says.
+"""
+import base64
+import hashlib
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+import tarfile
+import tempfile
+import tomllib
+import zipfile
+
+here = pathlib.Path(__file__).resolve().parent
+root = here.parent.parent
+headers = [root / "include/grainlaw" / name for name in ("grainlaw.h", "points.h", "particles.h")]
+needed = "g++ make cmake libsuitesparse-dev libeigen3-dev libfmt-dev libtomlplusplus-dev libxxhash-dev"
+in_sdist = ("CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "pyproject.toml", "adapters/python",
+            "include", "src")
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    """The name of the wheel that was written."""
+    settings = config_settings or {}
+    build = pathlib.Path(settings.get("build-dir") or os.environ.get("GRAINLAW_BUILD")
+                         or root / "build/python").resolve()
+    files = {f"grainlaw/{file.name}": file.read_bytes() for file in
+             [*sorted((here / "grainlaw").glob("*.py")), here / "grainlaw/py.typed"]}
+    files["grainlaw/names.py"] = subprocess.run([sys.executable, here / "make_names", *headers],
+                                                check=True, stdout=subprocess.PIPE).stdout
+    major = version().split(".", maxsplit=1)[0]
+    files[f"grainlaw/libgrainlaw.so.{major}"] = library(build, major)
+    platform = re.sub(r"\W", "_", sysconfig.get_platform())
+    name = f"grainlaw-{version()}-py3-none-{platform}.whl"
+    info = f"grainlaw-{version()}.dist-info"
+    files[f"{info}/METADATA"] = metadata().encode()
+    files[f"{info}/WHEEL"] = (f"Wheel-Version: 1.0\nGenerator: grainlaw\nRoot-Is-Purelib: false\n"
+                              f"Tag: py3-none-{platform}\n").encode()
+    files[f"{info}/LICENSE"] = (root / "LICENSE").read_bytes()
+    record = [f"{file},sha256={digest(data)},{len(data)}" for file, data in files.items()]
+    files[f"{info}/RECORD"] = "\n".join([*record, f"{info}/RECORD,,", ""]).encode()
+    with zipfile.ZipFile(pathlib.Path(wheel_directory) / name, "w", zipfile.ZIP_DEFLATED) as wheel:
+        for file, data in files.items():
+            entry = zipfile.ZipInfo(file)   # of 1980: the same sources make the same bytes
+            entry.external_attr = 0o100644 << 16
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            wheel.writestr(entry, data)
+    return name
+
+
+def build_sdist(sdist_directory, config_settings=None):
+    """The name of the archive of sources that was written: what the wheel is made of."""
+    name = f"grainlaw-{version()}"
+    with tarfile.open(pathlib.Path(sdist_directory) / f"{name}.tar.gz", "w:gz") as archive:
+        for path in in_sdist:
+            archive.add(root / path, f"{name}/{path}",
+                        filter=lambda entry: None if "__pycache__" in entry.name else entry)
+    return f"{name}.tar.gz"
+
+
+def library(build, major):
+    """The shared library, compiled where it is not up to date, without the names that nobody needs."""
+    if not shutil.which("cmake"):
+        sys.exit(f"grainlaw is compiled by CMake, which is not found: apt-get install {needed}")
+    jobs = str(len(os.sched_getaffinity(0)))
+    try:
+        if not (build / "CMakeCache.txt").exists():
+            subprocess.run(["cmake", "-S", root, "-B", build, "-DCMAKE_BUILD_TYPE=Release",
+                            "-DGRAINLAW_TESTS=OFF", "-DGRAINLAW_VERIFICATION=OFF",
+                            "-DGRAINLAW_ADAPTERS=OFF"], check=True)
+        subprocess.run(["cmake", "--build", build, "--target", "grainlaw", "--parallel", jobs],
+                       check=True)
+    except subprocess.CalledProcessError:
+        sys.exit(f"grainlaw could not be compiled, see above. It needs: apt-get install {needed}")
+    built = build / f"libgrainlaw.so.{major}"
+    if not built.exists():
+        sys.exit(f"{build} makes no shared library")
+    if not shutil.which("strip"):
+        return built.read_bytes()
+    with tempfile.TemporaryDirectory() as directory:
+        stripped = pathlib.Path(directory) / "stripped"
+        subprocess.run(["strip", "--strip-unneeded", "-o", stripped, built], check=True)
+        return stripped.read_bytes()
+
+
+def version():
+    """That of the header."""
+    numbers = re.findall(r"#define GRAINLAW_VERSION_\w+ (\d+)", headers[0].read_text())
+    return ".".join(numbers)
+
+
+def metadata():
+    """METADATA of the wheel, from pyproject.toml."""
+    project = tomllib.loads((root / "pyproject.toml").read_text())["project"]
+    lines = ["Metadata-Version: 2.1", f"Name: {project['name']}", f"Version: {version()}",
+             f"Summary: {project['description']}", "License: BSD-3-Clause",
+             f"Requires-Python: {project['requires-python']}"]
+    lines += [f"Requires-Dist: {one}" for one in project["dependencies"]]
+    for extra, packages in project["optional-dependencies"].items():
+        lines += [f"Provides-Extra: {extra}",
+                  *(f'Requires-Dist: {one}; extra == "{extra}"' for one in packages)]
+    readme = (root / project["readme"]).read_text()
+    return "\n".join([*lines, "Description-Content-Type: text/markdown", "", readme])
+
+
+def digest(data):
+    """As RECORD has it."""
+    return base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
