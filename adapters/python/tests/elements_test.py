@@ -78,13 +78,13 @@ class AsInTheProgram(Case):
                 for i in range(1, ours.F.shape[1] + 1):
                     for j in range(1, ours.F.shape[1] + 1):
                         name = f"sigma{i}{j}"
-                        self.assertLess(abs(columns[name] - theirs[name]).max(), 1e-7 * scale, name)
+                        self.assertLess(abs(columns[name] - theirs[name]).max(), 1e-10 * scale, name)
                         name = f"F{i}{j}"
-                        self.assertLess(abs(columns[name] - theirs[name]).max(), 1e-9, name)
+                        self.assertLess(abs(columns[name] - theirs[name]).max(), 1e-11, name)
                 for name in ("void_ratio", "coordination", "axial_strain", "elastic_energy",
                              "dissipated_energy", "external_work", "sliding"):
                     size = abs(theirs[name]).max()
-                    self.assertLess(abs(columns[name] - theirs[name]).max(), 1e-6 * size + 1e-12,
+                    self.assertLess(abs(columns[name] - theirs[name]).max(), 1e-8 * size + 1e-15,
                                     name)
 
     @unittest.skipUnless(PROGRAM, "the command grainlaw is not built")
