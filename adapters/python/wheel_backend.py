@@ -39,13 +39,9 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
                                                 check=True, stdout=subprocess.PIPE).stdout
     major = version().split(".", maxsplit=1)[0]
     files[f"grainlaw/libgrainlaw.so.{major}"] = library(build, major)
-    platform = re.sub(r"\W", "_", sysconfig.get_platform())
-    name = f"grainlaw-{version()}-py3-none-{platform}.whl"
+    name = f"grainlaw-{version()}-{tag()}.whl"
     info = f"grainlaw-{version()}.dist-info"
-    files[f"{info}/METADATA"] = metadata().encode()
-    files[f"{info}/WHEEL"] = (f"Wheel-Version: 1.0\nGenerator: grainlaw\nRoot-Is-Purelib: false\n"
-                              f"Tag: py3-none-{platform}\n").encode()
-    files[f"{info}/LICENSE"] = (root / "LICENSE").read_bytes()
+    files |= {f"{info}/{file}": data for file, data in information().items()}
     record = [f"{file},sha256={digest(data)},{len(data)}" for file, data in files.items()]
     files[f"{info}/RECORD"] = "\n".join([*record, f"{info}/RECORD,,", ""]).encode()
     with zipfile.ZipFile(pathlib.Path(wheel_directory) / name, "w", zipfile.ZIP_DEFLATED) as wheel:
@@ -55,6 +51,15 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
             entry.compress_type = zipfile.ZIP_DEFLATED
             wheel.writestr(entry, data)
     return name
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """The name of the directory that was written: what the wheel will say of itself."""
+    directory = pathlib.Path(metadata_directory) / f"grainlaw-{version()}.dist-info"
+    directory.mkdir(parents=True)
+    for file, data in information().items():
+        (directory / file).write_bytes(data)
+    return directory.name
 
 
 def build_sdist(sdist_directory, config_settings=None):
@@ -96,6 +101,18 @@ def version():
     """That of the header."""
     numbers = re.findall(r"#define GRAINLAW_VERSION_\w+ (\d+)", headers[0].read_text())
     return ".".join(numbers)
+
+
+def tag():
+    """Any Python 3, as ctypes is all that is asked of it, on this kind of machine."""
+    return "py3-none-" + re.sub(r"\W", "_", sysconfig.get_platform())
+
+
+def information():
+    """Files of the wheel about itself."""
+    wheel = f"Wheel-Version: 1.0\nGenerator: grainlaw\nRoot-Is-Purelib: false\nTag: {tag()}\n"
+    return {"METADATA": metadata().encode(), "WHEEL": wheel.encode(),
+            "LICENSE": (root / "LICENSE").read_bytes()}
 
 
 def metadata():

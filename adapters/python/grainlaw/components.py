@@ -10,9 +10,10 @@ KINDS = {"F": ("F", False), "dF": ("F", True), "P": ("P", False), "sigma": ("sig
 
 
 def read_conditions(d: int, components: Mapping[str, float | str], isochoric: bool,
-                    mean_pressure: float | None) -> tuple[list[Condition], Sequence[int]]:
+                    mean_pressure: float | None,
+                    tension: bool) -> tuple[list[Condition], Sequence[int]]:
     """Conditions row by row, and the axes whose stretches keep det F. Raises TypeError for what is
-    no component, ValueError for what cannot be meant."""
+    no component, ValueError for what cannot be meant, as tension of contacts that bear none."""
     conditions = [Condition() for _ in range(d * d)]
     given: dict[int, str] = {}
     for name, value in components.items():
@@ -25,6 +26,10 @@ def read_conditions(d: int, components: Mapping[str, float | str], isochoric: bo
             raise ValueError(f"{name} is a second condition beside {given[k]}")
         given[k] = name
         conditions[k] = _condition(name, value, *KINDS[found[1]], d, mean_pressure)
+        if (k % (d + 1) == 0 and conditions[k].kind in ("P", "sigma") and not tension
+                and conditions[k].value > 0):
+            raise ValueError(f"{name} is {value}, which is tension; expected a number <= 0, as contacts "
+                             "without bonds carry none")
         if (k % (d + 1) == 0 and conditions[k].kind == "F"
                 and 1 * conditions[k].added + conditions[k].value <= 0.5):
             raise ValueError(f"{name} is {value}; expected a stretch: 1 undeformed, 0.99 after 1 % "

@@ -4,6 +4,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import os
+import tomllib
 from collections.abc import Callable
 from typing import Any
 
@@ -36,6 +37,11 @@ class Material:
         material._create(library.grainlaw_material_parse, c_text(text), c_text(base_directory))
         material.text, material.directory = text, os.path.abspath(base_directory)
         return material
+
+    @property
+    def description(self) -> dict[str, Any]:
+        """The keys of the file, as tomllib reads them."""
+        return tomllib.loads(self.text)
 
     def __repr__(self) -> str:
         return f"<Material of {'discs' if self.dimension == 2 else 'spheres'}, {self.directory}>"

@@ -22,6 +22,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -50,6 +51,9 @@ class StepFailed(Exception):
         super().__init__(message)
         self.status, self.result = status, result
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return StepFailed, (str(self), self.status, self.result)
+
 
 class Interrupted(KeyboardInterrupt):
     """Ctrl-C ended a test; `result` is what was reached before."""
@@ -57,6 +61,9 @@ class Interrupted(KeyboardInterrupt):
     def __init__(self, result: Result) -> None:
         super().__init__(f"after step {len(result) - 1}")
         self.result = result
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Interrupted, (self.result,)
 
 
 def isotropic(start: Start, pressure: float | None = None, steps: int = STEPS, *,
@@ -183,7 +190,9 @@ def path(start: Start, steps: int, *, isochoric: bool = False, mean_pressure: fl
     count = _count(steps)
 
     def plan(lead: Lead) -> Plan:
-        conditions, follows = read_conditions(len(lead.F), components, isochoric, mean_pressure)
+        contact = lead.state.material.description.get("contact", {})
+        conditions, follows = read_conditions(len(lead.F), components, isochoric, mean_pressure,
+                                              tension=contact.get("law") == "bonded")
         first = lead.values(conditions)
         last = [value + one.value if one.added else one.value
                 for value, one in zip(first, conditions)]
@@ -234,6 +243,10 @@ def _run(start: Start, planner: Callable[[Lead], Plan], loops: Loops | int, stop
     state = State(start) if isinstance(start, Material) else start
     if not isinstance(state, State):
         raise TypeError(f"expected a Material or a State, got {type(start).__name__}")
+    # Answers that start from the last trial are as exact as the library's own equilibrium.
+    solver = state.material.description.get("solver", {})
+    if solver.get("start") == "trial":
+        tolerance = max(tolerance, solver.get("tolerance", 1e-6))
     before = None
     if consolidation is not None:
         before = isotropic(state, consolidation, tolerance=tolerance)

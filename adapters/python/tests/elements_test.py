@@ -2,6 +2,7 @@
 import csv
 import functools
 import os
+import pickle
 import signal
 import subprocess
 import tempfile
@@ -167,6 +168,7 @@ class Elements(Case):
                 (lambda: Loops(1, strain=1), "below 0.5"), (lambda: Stop(q=-1), "stop.q"),
                 (lambda: Stop(liquefied=2), "at most 1"),
                 (lambda: tests.path(m, 2, F22=-0.01), "a stretch"),
+                (lambda: tests.path(m, 2, sigma11=1e5), "which is tension"),
                 (lambda: tests.path(m, 2, F22=0.99, dF22=0.1), "second condition"),
                 (lambda: tests.path(m, 2, sigma11="sigma11"), "name of another stress"),
                 (lambda: tests.path(m, 2, mean_pressure=1e5), "\"free\""),
@@ -189,6 +191,21 @@ class Elements(Case):
         self.assertIn("lost its contacts", text)
         F = result.state.measure(Measure.DEFORMATION_GRADIENT)
         self.assertGreaterEqual(F[0, 0], result.F[-1, 0, 0])
+
+    def test_a_material_that_starts_from_the_last_trial_is_led_as_far_as_it_is_exact(self):
+        trial = grainlaw.Material.parse(material().text + '[solver]\nstart = "trial"\n',
+                                        material().directory)
+        ours, reference = (tests.drained(m, 0.003) for m in (trial, material()))
+        difference = np.linalg.norm(ours.sigma[-1] - reference.sigma[-1])
+        self.assertLess(difference, 1e-3 * np.linalg.norm(reference.sigma[-1]))
+
+    def test_results_and_failures_travel_between_processes(self):
+        result = tests.oedometric(material(), 0.001)
+        for thing in (result, tests.Interrupted(result), tests.StepFailed("why", 1, result)):
+            again = pickle.loads(pickle.dumps(thing))
+            again = again if isinstance(again, tests.Result) else again.result
+            self.assertEqual(again.sigma.tobytes(), result.sigma.tobytes())
+            self.assertEqual(again.state.save(), result.state.save())
 
     def test_columns_have_every_component(self):
         columns = tests.oedometric(material(), 0.001).columns()
