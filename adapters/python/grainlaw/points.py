@@ -10,6 +10,7 @@ from typing import Any, Self
 import numpy as np
 import numpy.typing as npt
 
+from . import plots
 from .library import Error, Handle, c_text, check, library, status_text
 from .material import AnyPath, Material
 from .names import Contact, Particle, Report, Status, Summary
@@ -211,6 +212,12 @@ class States:
         """
         return records(library.grainlaw_state_contacts, self._state(point), Contact,
                        self.dimension)
+
+    def plot(self, point: int = 0) -> Any:
+        """Particles and force chains of a point, a figure of matplotlib: a bar joins two centres, its
+        width goes with the normal force; spheres are seen along axis 2, with the contacts that carry
+        more than the mean. Raises ImportError where matplotlib is not installed."""
+        return plots.packing(self.particles(point), self.contacts(point))
 
     def write_vtk(self, path: AnyPath, point: int = 0) -> None:
         """Particles and force chains of a point as a .vtp file for ParaView."""

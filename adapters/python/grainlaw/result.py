@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from . import plots
 from .control import cauchy
 from .names import Measure
 from .points import Array, State
@@ -148,27 +149,4 @@ class Result:
         """Stress, volume and coordination number over the axial strain, or of a simple shear over
         the shear strain: a figure of matplotlib, shown by its .show() or kept by its
         .savefig("sand.png"). Raises ImportError where matplotlib is not installed."""
-        try:
-            from matplotlib.figure import Figure  # type: ignore[import]
-        except ImportError:
-            raise ImportError("plot() needs matplotlib (Debian: apt-get install "
-                              "python3-matplotlib)") from None
-        if shear is None:
-            shear = bool(np.ptp(self.shear_strain) > np.ptp(self.axial_strain))
-        over = self.shear_strain if shear else self.axial_strain
-        figure = Figure(figsize=(6, 7), layout="constrained")
-        stress, volume, contacts = figure.subplots(3, 1, sharex=True)
-        if shear:
-            stress.plot(over, self.shear_stress / 1e3, label="shear stress")
-        else:
-            stress.plot(over, self.axial_stress / 1e3, label="axial stress")
-            stress.plot(over, self.lateral_stress / 1e3, label="lateral stress")
-        stress.plot(over, self.mean_pressure / 1e3, label="mean pressure")
-        stress.set_ylabel("stress [kPa]")
-        stress.legend()
-        volume.plot(over, self.void_ratio)
-        volume.set_ylabel("void ratio [-]")
-        contacts.plot(over, self.coordination_no_rattlers)
-        contacts.set_ylabel("coordination, no rattlers [-]")
-        contacts.set_xlabel("shear strain [-]" if shear else "axial strain [-]")
-        return figure
+        return plots.history(self, shear)

@@ -242,6 +242,23 @@ class Elements(Case):
                 figure.savefig(file)
                 self.assertGreater(os.path.getsize(file), 10000)
 
+    def test_a_plot_of_a_packing_has_its_particles_and_contacts(self):
+        try:
+            from matplotlib.collections import LineCollection  # pylint: disable=import-outside-toplevel
+        except ImportError:
+            return
+        for path, share in ((None, 1), (SPHERES, 0.6)):
+            state = grainlaw.State(material(path) if path else material())
+            axes = state.plot().axes[0]
+            chains = [c for c in axes.collections if isinstance(c, LineCollection)]
+            drawn, there = len(chains[0].get_segments()), len(state.contacts())
+            self.assertLessEqual(drawn, share * there)
+            self.assertGreater(drawn, 0.2 * there)
+            # Both fill the view: centres and bars are in the same unit.
+            box = axes.dataLim
+            self.assertLess(np.ptp(state.particles()["position"][:, 0]), box.width)
+            self.assertLess(box.width, 2 * np.ptp(state.particles()["position"][:, 0]))
+
 
 class CtrlC(Case):
     def interrupted(self, after, call):

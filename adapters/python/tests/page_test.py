@@ -21,7 +21,7 @@ class Page(Case):
         try:
             import matplotlib  # pylint: disable=import-outside-toplevel,unused-import
         except ImportError:
-            blocks[0] = re.sub("^result.plot.*$", "", blocks[0], flags=re.M)
+            blocks = [re.sub(r"^\w+\.plot.*$", "", block, flags=re.M) for block in blocks]
         names = {}
         with tempfile.TemporaryDirectory() as directory, contextlib.chdir(directory):
             text = (pathlib.Path(DATA) / "rve400.toml").read_text(encoding="utf-8")
