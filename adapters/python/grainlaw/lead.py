@@ -81,33 +81,37 @@ class Lead:
         return controlled(conditions, self.F, self.P, self._tangent())[0]
 
     def run(self, segment: Segment, record: Callable[[], None]) -> None:
-        """One step. Calls record() at its end, and after Ctrl-C at the end of the last part of it that
-        was committed. Raises StepError, the parts before it stay done."""
+        """One step. Calls record() at its end; where Ctrl-C or a failure ends it before, at the end of
+        the last part of it that was committed, if any. Raises KeyboardInterrupt and StepError."""
         start = self.values(segment.conditions)
         end = np.array([start[k] + one.value if one.added else one.value
                         for k, one in enumerate(segment.conditions)])
-        done, part = 0.0, 1.0
+        F = self.F
         try:
-            while done < 1:
-                to = 1.0 if done + part > 1 - 1e-9 else done + part
-                self.state.set_time_step(to - done)
-                attempt = self._attempt(segment, start + to * (end - start), to - done)
-                if attempt.converged:
-                    self._accept(attempt)
-                    done, part = to, min(1 - to, GROWTH * (to - done))
-                    continue
-                self.state.revert()
-                part = (to - done) * min(max(attempt.ratio, SMALLEST_CUT), USUAL_CUT)
-                if part < 2.0**-self._options.max_cuts:
-                    raise StepError(attempt.status,
-                                    f"a step failed {100 * done:.3g} % along, in parts of "
-                                    f"{to - done:.1e} of it too: {attempt.reason}")
-        except KeyboardInterrupt:
+            self._solve_in_parts(segment, start, end)
+        except (KeyboardInterrupt, StepError):
             self.state.revert()
-            if done > 0:
+            if self.F is not F:
                 record()
             raise
         record()
+
+    def _solve_in_parts(self, segment: Segment, start: Array, end: Array) -> None:
+        done, part = 0.0, 1.0
+        while done < 1:
+            to = 1.0 if done + part > 1 - 1e-9 else done + part
+            self.state.set_time_step(to - done)
+            attempt = self._attempt(segment, start + to * (end - start), to - done)
+            if attempt.converged:
+                self._accept(attempt)
+                done, part = to, min(1 - to, GROWTH * (to - done))
+                continue
+            self.state.revert()
+            part = (to - done) * min(max(attempt.ratio, SMALLEST_CUT), USUAL_CUT)
+            if part < 2.0**-self._options.max_cuts:
+                raise StepError(attempt.status,
+                                f"a step failed {100 * done:.3g} % along, in parts of "
+                                f"{to - done:.1e} of it too: {attempt.reason}")
 
     def _attempt(self, segment: Segment, goal: Array, part: float) -> Attempt:
         attempt = self._newton(segment, goal)

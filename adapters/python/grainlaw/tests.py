@@ -257,8 +257,8 @@ def _run(start: Start, planner: Callable[[Lead], Plan], loops: Loops | int, stop
             result.add(lead)
             Course(lead, planner(lead), loops, stop, result).run()
     except StepError as error:
-        where = f"step {len(result)} (from axial strain {result.axial_strain[-1]:.6g} [-])"
-        raise StepFailed(f"{where}: {error}", error.status, result) from None
+        raise StepFailed(f"after axial strain {result.axial_strain[-1]:.6g} [-] {error}", error.status,
+                         result) from None
     except KeyboardInterrupt:
         result.ended = "interrupted"
         raise Interrupted(result) from None

@@ -187,10 +187,11 @@ class Elements(Case):
                 tests.path(material(), 4, F11=1.013, F22=1.013)   # grains part
         result, text = caught.exception.result, str(caught.exception)
         self.assertEqual(caught.exception.status, Status.CONTACTS_LOST)
-        self.assertIn("step 2", text)
+        self.assertIn("after axial strain -0.0", text)
         self.assertIn("lost its contacts", text)
         F = result.state.measure(Measure.DEFORMATION_GRADIENT)
-        self.assertGreaterEqual(F[0, 0], result.F[-1, 0, 0])
+        self.assertEqual(F.tobytes(), result.F[-1].tobytes())
+        self.assertGreater(F[0, 0], 1)
 
     def test_a_material_that_starts_from_the_last_trial_is_led_as_far_as_it_is_exact(self):
         trial = grainlaw.Material.parse(material().text + '[solver]\nstart = "trial"\n',
