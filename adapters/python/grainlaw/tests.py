@@ -257,8 +257,8 @@ def _run(start: Start, planner: Callable[[Lead], Plan], loops: Loops | int, stop
             result.add(lead)
             Course(lead, planner(lead), loops, stop, result).run()
     except StepError as error:
-        raise StepFailed(f"after axial strain {result.axial_strain[-1]:.6g} [-] {error}", error.status,
-                         result) from None
+        where = f"after axial strain {result.axial_strain[-1]:.6g} [-] " if len(result) else ""
+        raise StepFailed(f"{where}{error}", error.status, result) from None
     except KeyboardInterrupt:
         result.ended = "interrupted"
         raise Interrupted(result) from None

@@ -289,6 +289,14 @@ class CtrlC(Case):
         self.interrupted(0.05, lambda: tests.drained(material(), 0.3, 1e-4))
         self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
 
+    def test_a_test_in_another_thread_leaves_signals_alone(self):
+        results = []
+        worker = threading.Thread(
+            target=lambda: results.append(tests.oedometric(material(), 0.002)))
+        worker.start()
+        worker.join()
+        self.assertEqual(len(results[0]), 5)
+
     def test_a_set_keeps_what_is_committed(self):
         states = grainlaw.States(material(), 4)
         before = states.save()
