@@ -261,32 +261,55 @@ class Elements(Case):
             self.assertLess(box.width, 2 * np.ptp(state.particles()["position"][:, 0]))
 
 
+class Pressed(grainlaw.State):
+    """A state during one of whose evaluations Ctrl-C is pressed."""
+    evaluations = 0
+
+    def evaluate(self, F, tangent=None, threads=1):
+        self.evaluations += 1
+        if self.evaluations == self.last:
+            signal.raise_signal(signal.SIGINT)
+        return super().evaluate(F, tangent, threads)
+
+
 class CtrlC(Case):
-    def interrupted(self, after, call):
-        """The exception of a call that gets SIGINT so many seconds after it began."""
-        timer = threading.Timer(after, os.kill, (os.getpid(), signal.SIGINT))
-        timer.start()
+    def interrupted(self, evaluation):
+        """A state, and the exception that ends a test during this evaluation of it."""
+        state = Pressed(material())
+        state.last = evaluation
         with self.assertRaises(tests.Interrupted) as caught:
-            call()
-        timer.join()
-        return caught.exception
+            tests.drained(state, 0.3, 1e-4)
+        self.assertEqual(state.evaluations, evaluation)
+        return state, caught.exception
 
     def test_loses_nothing(self):
-        for after in (0.05, 0.1, 0.2):
-            state = grainlaw.State(material())
-            stopped = self.interrupted(after, lambda: tests.drained(state, 0.3, 1e-4))  # pylint: disable=cell-var-from-loop
+        for evaluation in (1, 2, 40, 41, 42, 43):
+            state, stopped = self.interrupted(evaluation)
             result = stopped.result
             self.assertEqual(result.ended, "interrupted")
-            self.assertGreater(len(result), 1)
-            # The state is where the last row is, and goes on as if nothing had been.
+            # The state is where the last row is, and that is where it would have been.
             F = state.measure(Measure.DEFORMATION_GRADIENT)
             self.assertEqual(F.tobytes(), result.F[-1].tobytes())
-            whole = tests.drained(material(), 1e-4 * (len(result) - 1), 1e-4)
-            self.assertEqual(whole.sigma.tobytes(), result.sigma.tobytes())
-            self.assertEqual(whole.state.save(), state.save())
+            if len(result) > 1:
+                whole = tests.drained(material(), 1e-4 * (len(result) - 1), 1e-4)
+                self.assertEqual(whole.sigma.tobytes(), result.sigma.tobytes())
+                self.assertEqual(whole.state.save(), state.save())
+        self.assertGreater(len(result), 10)
+
+    def test_between_parts_of_a_step_keeps_what_is_committed(self):
+        # Steps of 35 % are refused and cut.
+        state = Pressed(material())
+        state.last = 3
+        with self.assertRaises(tests.Interrupted) as caught:
+            tests.path(state, 1, F22=0.65)
+        result = caught.exception.result
+        self.assertEqual(len(result), 2)
+        F = state.measure(Measure.DEFORMATION_GRADIENT)
+        self.assertEqual(F.tobytes(), result.F[-1].tobytes())
+        self.assertTrue(0.65 < F[1, 1] < 1)
 
     def test_the_handler_of_the_host_is_back_afterwards(self):
-        self.interrupted(0.05, lambda: tests.drained(material(), 0.3, 1e-4))
+        self.interrupted(10)
         self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
 
     def test_a_test_in_another_thread_leaves_signals_alone(self):
