@@ -151,6 +151,15 @@ TEST_F(brick, run_writes_its_table_and_stops_where_it_is_asked_to) {
   ASSERT_EQ(table.rows(), 2U);
   EXPECT_NEAR(table["axial_strain"][1], 1e-3, 1e-9);
   EXPECT_NEAR(table["lateral_stress"][1], lateral, 1e-5 * lateral);
+  // The side that is led carries the axial stress, on an area that the lateral ties move.
+  const CsvTable forces = read_csv(directory_ / "run_force.csv");
+  ASSERT_EQ(forces.rows(), 2U);
+  EXPECT_NEAR(forces["top_z_displacement"][1], -1e-3, 1e-12);
+  const double area =
+      (1 + forces["right_x_displacement"][1]) * (1 + forces["back_y_displacement"][1]);
+  EXPECT_NEAR(forces["top_z_force"][1], -table["axial_stress"][1] * area, 1e-6 * lateral);
+  EXPECT_NEAR(forces["top_z_force"][1], -forces["bottom_z_force"][1], 1e-6 * lateral);
+  EXPECT_NEAR(forces["right_x_force"][1], 0, 1e-6 * lateral);
 }
 
 TEST_F(brick, mistakes_of_scenes_are_told) {

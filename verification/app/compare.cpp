@@ -145,12 +145,9 @@ void draw_comparison(const std::string& title, const std::vector<Curves>& runs,
   Figure figure{title, "axial strain [%]", {}};
   const bool spheres =
       std::any_of(runs.begin(), runs.end(), [](const Curves& run) { return run.spheres; });
-  Panel ratio{spheres ? "stress ratio axial / lateral [-]" : "stress ratio σ22 / σ11 [-]",
-              {},
-              1.5,
-              "bottom right"};
-  Panel volumetric{"volumetric strain, dilation + [%]", {}, 1, ""};
-  Panel coordination{"coordination number [-]", {}, 1, ""};
+  Panel ratio{spheres ? "stress ratio axial / lateral [-]" : "stress ratio σ22 / σ11 [-]", {}, 1.5};
+  Panel volumetric{"volumetric strain, dilation + [%]"};
+  Panel coordination{"coordination number [-]"};
   // The first on top, so that the lines of the others do not hide it.
   for (std::size_t k = runs.size(); k-- > 0;) {
     const Curves& run = runs[k];

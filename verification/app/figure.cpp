@@ -126,7 +126,7 @@ constexpr int width = 900;  // of a picture [points]
 // Lines that the legend of a panel takes above it, where it lies on no curve; entries in columns as wide as
 // the longest of them.
 int legend_lines(const Panel& panel, double left) {
-  constexpr double letter = 8.8, sample = 62;  // points
+  constexpr double letter = 10, sample = 62;  // points
   std::size_t longest = 0, entries = 0;
   for (const Curve& curve : panel.curves) {
     if (curve.title.empty()) continue;

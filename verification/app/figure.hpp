@@ -21,11 +21,10 @@ struct Curve {
 
 struct Panel {
   std::string ordinate;  // with its unit
-  std::vector<Curve> curves;
-  double height = 1;                 // relative to the other panels
-  std::string legend = "top right";  // in gnuplot's words
-  bool logarithmic = false;          // ordinate
-  double lowest = 0;                 // lower end of a logarithmic ordinate; 0: of the data
+  std::vector<Curve> curves{};
+  double height = 1;         // relative to the other panels
+  bool logarithmic = false;  // ordinate
+  double lowest = 0;         // lower end of a logarithmic ordinate; 0: of the data
 };
 
 struct Figure {

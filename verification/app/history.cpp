@@ -64,8 +64,7 @@ std::vector<Panel> stress_of_discs(const Columns& columns) {
            {columns.curve("-σ11", "sigma11", -kilopascal, colour::blue),
             columns.curve("-σ22", "sigma22", -kilopascal, colour::orange),
             columns.curve("σ12", "sigma12", kilopascal, colour::green)},
-           1.3,
-           "top left"}};
+           1.3}};
 }
 
 std::vector<Panel> stress_of_spheres(const Columns& columns) {
@@ -73,8 +72,7 @@ std::vector<Panel> stress_of_spheres(const Columns& columns) {
                {columns.curve("-σ33, axial", "sigma33", -kilopascal, colour::orange),
                 columns.curve("-σ22", "sigma22", -kilopascal, colour::green),
                 columns.curve("-σ11", "sigma11", -kilopascal, colour::blue, Stroke::dashed)},
-               1.2,
-               "center right"};
+               1.2};
   if (columns.shear())
     stress.curves.push_back(columns.curve("σ" + columns.sheared(), "sigma" + columns.sheared(),
                                           kilopascal, colour::purple));
@@ -83,8 +81,7 @@ std::vector<Panel> stress_of_spheres(const Columns& columns) {
            {columns.curve("deviatoric stress q", "deviatoric_stress", kilopascal, colour::purple),
             columns.curve("mean pressure p", "mean_pressure", kilopascal, colour::black,
                           Stroke::dashed)},
-           0.9,
-           "bottom right"}};
+           0.9}};
 }
 
 Panel fabric_of_spheres(const Columns& columns) {
@@ -92,8 +89,7 @@ Panel fabric_of_spheres(const Columns& columns) {
           {columns.curve("33, axial", "fabric33", 1, colour::orange),
            columns.curve("22", "fabric22", 1, colour::green),
            columns.curve("11", "fabric11", 1, colour::blue, Stroke::dashed)},
-          0.9,
-          "center right"};
+          0.9};
 }
 
 }  // namespace

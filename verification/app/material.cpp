@@ -124,7 +124,8 @@ Material make_material(const MaterialSource& source, int dimension) {
     if (const int found = material.dimension(); found != dimension)
       throw InputError(fmt::format(
           "{}: dimension: found {}, expected {}{}", origin, found, dimension,
-          found == 3 ? ": this command is of the plane, `point` and `solve` take spheres" : ""));
+          found == 3 ? ": this command is of the plane, `point`, `solve` and `pack` take spheres"
+                     : ""));
     return material;
   } catch (const grainlaw::StatusError& error) {
     const std::string_view told = as_it_is ? error.what() : without_line(error.what(), text.base);

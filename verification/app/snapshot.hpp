@@ -72,8 +72,8 @@ struct SnapshotPanel {
 };
 
 // stem.svg and stem.png: discs, the frame and force chains, side by side at one scale. A bar between
-// two centres is as wide as a mean radius when it carries `force` [N]; 0: twice the mean normal
-// force of the first panel that has forces. Bonded contacts have another colour than frictional ones.
+// two centres is as wide as a mean radius when it carries `force` [N]; 0: four times the mean normal
+// force of the panel where that is largest. Bonded contacts have another colour than frictional ones.
 // Spheres are seen along y, without contacts that carry less than the mean, and with twelve times the mean.
 bool draw_snapshots(const std::vector<SnapshotPanel>& panels, double force,
                     const std::string& title, const std::filesystem::path& stem);

@@ -73,7 +73,7 @@ Snapshot in_cell(Snapshot snapshot) {
 
 // A caption in as many lines as its picture's width needs.
 std::string broken(const std::string& title, double pixels) {
-  constexpr double letter = 8.6;  // pixels a letter
+  constexpr double letter = 10;  // pixels a letter
   const auto most = static_cast<std::size_t>(std::max(8.0, pixels / letter));
   std::string text;
   std::size_t in_line = 0;
@@ -197,11 +197,12 @@ bool draw_snapshots(const std::vector<SnapshotPanel>& all, double force, const s
   for (const SnapshotPanel& panel : all)
     panels.push_back({panel.title, seen_from_front(in_cell(panel.snapshot))});
   constexpr double pixels_wide = 860;
-  constexpr double gap = 14, line = 17, foot = 8;  // pixels
+  constexpr double gap = 14, line = 22, foot = 8;  // pixels
   const bool spheres = all.front().snapshot.spheres();
   double unit = force;
-  for (const SnapshotPanel& panel : panels)
-    if (unit == 0) unit = (spheres ? 12 : 2) * mean_force(panel.snapshot);
+  if (force == 0)
+    for (const SnapshotPanel& panel : panels)
+      unit = std::max(unit, (spheres ? 12 : 4) * mean_force(panel.snapshot));
   const double width_per_force = unit > 0 ? mean(panels.front().snapshot.radius) / unit : 0;
 
   std::vector<Extent> extents;
@@ -215,16 +216,19 @@ bool draw_snapshots(const std::vector<SnapshotPanel>& all, double force, const s
   constexpr double tallest = 500;  // pixels
   const double scale = std::min((pixels_wide - gap * (count + 1)) / total, tallest / highest);
   const double wide = scale * total + gap * (count + 1);
-  double heading = 56;
+  const std::string head = broken(title, wide - 2 * gap);
+  const double captions = 40 + line * static_cast<double>(breaks(head));  // from above
+  double heading = captions + 16;
   for (std::size_t k = 0; k < panels.size(); ++k) {
     panels[k].title = broken(panels[k].title, scale * extents[k].width());
-    heading = std::max(heading, 56 + line * static_cast<double>(breaks(panels[k].title)));
+    heading =
+        std::max(heading, captions + 16 + line * static_cast<double>(breaks(panels[k].title)));
   }
   const double high = scale * highest + heading + foot;
 
   std::string body = "set multiplot\nunset border\nunset tics\nunset key\n";
   body += fmt::format("set label 1 {} at screen {:.5f},{:.5f} left noenhanced\n",
-                      gnuplot_text(title), gap / wide, 1 - 16 / high);
+                      gnuplot_text(head), gap / wide, 1 - 16 / high);
   double left = gap;
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const Extent& e = extents[k];
@@ -243,7 +247,7 @@ bool draw_snapshots(const std::vector<SnapshotPanel>& all, double force, const s
                         millimetre * e.low[0], millimetre * e.high[0], millimetre * e.low[1],
                         millimetre * e.high[1]);
     body += fmt::format("set label 2 {} at screen {:.5f},{:.5f} left noenhanced\n",
-                        gnuplot_text(panels[k].title), left / wide, 1 - 40 / high);
+                        gnuplot_text(panels[k].title), left / wide, 1 - captions / high);
     body += fmt::format("plot {}\nunset label 1\n", fmt::join(items, ", "));
     left = right + gap;
   }

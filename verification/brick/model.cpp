@@ -4,6 +4,39 @@
 
 namespace verification {
 
+namespace {
+
+// Every condition that holds nodes, with its name.
+template <class Function>
+void for_each_condition(const BrickModel& model, Function&& function) {
+  for (const auto& condition : model.displacements)
+    function(condition.name, condition.nodes, condition.component);
+  for (const auto& tie : model.ties) function(tie.name, tie.nodes, tie.component);
+}
+
+}  // namespace
+
+std::vector<std::string> force_columns(const BrickModel& model) {
+  std::vector<std::string> columns;
+  for_each_condition(model, [&](const std::string& name, const std::vector<int>&, int) {
+    columns.push_back(name + "_displacement[m]");
+    columns.push_back(name + "_force[N]");
+  });
+  return columns;
+}
+
+std::vector<double> force_values(const BrickModel& model, const Eigen::VectorXd& displacement,
+                                 const Eigen::VectorXd& residual) {
+  std::vector<double> values;
+  for_each_condition(model, [&](const std::string&, const std::vector<int>& nodes, int component) {
+    double force = 0;
+    for (const int node : nodes) force -= residual(3 * node + component);
+    values.push_back(displacement(3 * nodes.front() + component));
+    values.push_back(force);
+  });
+  return values;
+}
+
 BrickUnknowns::BrickUnknowns(const BrickModel& model) {
   const std::size_t components = 3 * model.mesh.nodes.size();
   constexpr int open = -2;

@@ -14,11 +14,13 @@ namespace verification {
 
 struct BrickModel {
   struct Displacement {
+    std::string name;  // for tables, e.g. "top_z"
     std::vector<int> nodes;
     int component = 0;
     double value = 0;  // at time 1, reached linearly [m]
   };
   struct Tie {
+    std::string name;
     std::vector<int> nodes;
     int component = 0;
   };
@@ -32,6 +34,12 @@ struct BrickModel {
   std::vector<Tie> ties;
   std::vector<Pressure> pressures;
 };
+
+// Of every prescribed displacement and every tie, in this order: what the columns of a table are called,
+// and how far it moves [m] with the force [N] that it exerts on the body.
+std::vector<std::string> force_columns(const BrickModel& model);
+std::vector<double> force_values(const BrickModel& model, const Eigen::VectorXd& displacement,
+                                 const Eigen::VectorXd& residual);
 
 // Which unknown every component of displacement is; of node n component i is 3 n + i.
 struct BrickUnknowns {

@@ -32,6 +32,8 @@ class BrickNewton {
 
   [[nodiscard]] const BrickField& field() const { return field_; }
   [[nodiscard]] const Eigen::VectorXd& displacement() const { return displacement_; }
+  // External minus internal force there [N].
+  [[nodiscard]] const Eigen::VectorXd& residual() const { return system_.residual; }
 
  private:
   Attempt equilibrate(double time, double tolerance, std::vector<double>& residuals);

@@ -2,6 +2,7 @@
 
 #include "app/history.hpp"
 #include "app/interrupt.hpp"
+#include "app/load_figure.hpp"
 #include "app/output.hpp"
 #include "app/progress.hpp"
 #include "app/written.hpp"
@@ -30,11 +31,14 @@ void run_brick_scene(const SceneFile& file, const std::string& directory, int st
   const double start = cpu();
   const PackingStart begin =
       look_at_start(State(material).get(), scene.material, stem.string() + "_start");
-  warn(scene.name, begin);
+  tell_start(scene.name, begin);
   BrickNewton solver(scene.model, material, scene.newton, scene.threads);
   Written written(stem);
   History history(stem, record_columns<3>());
-  written.add(".csv");
+  std::vector<std::string> columns = force_columns(scene.model);
+  columns.insert(columns.begin(), "step[-]");
+  CsvWriter forces(stem.string() + "_force.csv", columns);
+  for (const char* end : {".csv", "_force.csv"}) written.add(end);
   std::optional<Progress> progress(scene.name);
   std::exception_ptr stopped;
   std::string end;
@@ -51,6 +55,9 @@ void run_brick_scene(const SceneFile& file, const std::string& directory, int st
                          });
       done = number;
       history.add(step.record);
+      std::vector<double> row = force_values(scene.model, solver.displacement(), solver.residual());
+      row.insert(row.begin(), number);
+      forces.row(row);
       progress->update(fraction(),
                        fmt::format("axial strain {:.2f} %, sigma33 {:.1f} kPa, {} iterations",
                                    100 * step.record.axial_strain(), step.record.cauchy(2, 2) / 1e3,
@@ -67,7 +74,14 @@ void run_brick_scene(const SceneFile& file, const std::string& directory, int st
   if (end.empty() && done < scene.steps)
     end = fmt::format("left after step {} of {} as asked", done, scene.steps);
   progress.reset();
-  if (done >= 0) written.add_pictures(history.draw_figure(scene.abscissa, scene.name));
+  if (done >= 0) {
+    written.add_pictures(history.draw_figure(scene.abscissa, scene.name));
+    std::vector<std::string> conditions;
+    for (const auto& condition : scene.model.displacements) conditions.push_back(condition.name);
+    if (draw_load_figure(read_csv(forces.path()), conditions, "N", scene.name,
+                         stem.string() + "_force"))
+      written.add("_force.svg");
+  }
   fmt::print("{}: {}; {:.2f} s of CPU{}\n{}\n", scene.name, history.summary(), cpu() - start,
              end.empty() ? "" : "\n  ended: " + end, written.text());
   if (stopped) std::rethrow_exception(stopped);

@@ -54,6 +54,11 @@ int read_component(SceneTable& table) {
   return name[0] - 'x';
 }
 
+// "top_z"
+std::string name_of(SceneTable& table, int component) {
+  return table.text("on") + '_' + "xyz"[component];
+}
+
 bool overlap(const std::vector<int>& a, const std::vector<int>& b) {
   return std::any_of(a.begin(), a.end(),
                      [&](int node) { return std::find(b.begin(), b.end(), node) != b.end(); });
@@ -64,6 +69,7 @@ void read_conditions(SceneTable& scene, BrickModel& model) {
     BrickModel::Displacement condition;
     condition.nodes = read_set(table, model.mesh.node_sets);
     condition.component = read_component(table);
+    condition.name = name_of(table, condition.component);
     condition.value = table.number("value");
     for (const auto& other : model.displacements)
       if (other.component == condition.component && other.value != condition.value &&
@@ -77,6 +83,7 @@ void read_conditions(SceneTable& scene, BrickModel& model) {
     BrickModel::Tie tie;
     tie.nodes = read_set(table, model.mesh.node_sets);
     tie.component = read_component(table);
+    tie.name = name_of(table, tie.component);
     const auto taken = [&](const auto& other) {
       return other.component == tie.component && overlap(other.nodes, tie.nodes);
     };

@@ -5,6 +5,7 @@
 #include "app/progress.hpp"
 #include "app/snapshot.hpp"
 #include "app/written.hpp"
+#include "point/start.hpp"
 
 #include <fmt/format.h>
 
@@ -58,7 +59,10 @@ SpecimenEnd run_specimen(const SpecimenScene& scene, const std::filesystem::path
   int steps = 0, done = 0;
   for (const SpecimenSegment& segment : scene.segments) steps += segment.steps;
   const auto observe = [&](const grainlaw_state* state, const Record& record) {
-    if (!start) start = record;
+    if (!start) {
+      start = record;
+      tell_start(scene.name, look_at_start(state, scene.material, stem.string() + "_state"));
+    }
     done = record.step;
     history.add(record);
     if (scene.vtk_every > 0 && record.step % scene.vtk_every == 0) {

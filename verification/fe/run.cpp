@@ -76,7 +76,7 @@ class Run {
         scene_.prestress.empty() ? scene_.material
                                  : prestressed(scene_.material, scene_.prestress, stem_));
     start_ = look_at_start(State(material).get(), scene_.material, stem_.string() + "_start");
-    warn(scene_.name, start_);
+    tell_start(scene_.name, start_);
     if (scene_.cycle) cycle_.emplace(*scene_.cycle, scene_.model, 1.0 / scene_.steps);
     const bool found = std::filesystem::exists(checkpoint_);
     if (options.restart && found) {

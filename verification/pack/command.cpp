@@ -6,11 +6,13 @@
 #include "app/interrupt.hpp"
 #include "app/material.hpp"
 #include "app/output.hpp"
+#include "app/snapshot.hpp"
 #include "app/text.hpp"
 #include "app/written.hpp"
 #include "pack/picture.hpp"
 #include "pack/rose.hpp"
 #include "pack/written.hpp"
+#include "point/start.hpp"
 
 #include <fmt/format.h>
 
@@ -38,13 +40,16 @@ struct PackArguments {
 // One packing, made and written.
 struct Made {
   State state;
-  WrittenPacking written;
+  PackingStart start;
+  std::optional<WrittenPacking> discs;  // none: spheres
   std::filesystem::path stem;
   double seconds;  // of CPU, to make the material
 
   [[nodiscard]] double scalar(grainlaw_measure what) const {
     return measure_scalar(state.get(), what);
   }
+  [[nodiscard]] std::string name() const { return stem.filename().string(); }
+  [[nodiscard]] std::size_t boundary() const { return discs ? discs->boundary.size() : 0; }
   [[nodiscard]] double volume_fraction() const { return 1 / (1 + scalar(GRAINLAW_VOID_RATIO)); }
 };
 
@@ -63,10 +68,11 @@ Made make(const PackArguments& arguments, std::optional<long> seed) {
   source.file = arguments.recipe;
   source.base = source.file.parent_path();
   if (seed) change(source, "packing", "seed", *seed);
+  const int dimension = dimension_of(source);
   const double start = cpu_seconds();
   std::optional<Material> material;
   try {
-    material = make_material(source);
+    material = make_material(source, dimension);
   } catch (const ComputationError& error) {
     throw ComputationError(
         fmt::format("{}; after {:.2f} s of CPU", error.what(), cpu_seconds() - start));
@@ -75,19 +81,20 @@ Made make(const PackArguments& arguments, std::optional<long> seed) {
   State state(*material);
   const auto stem = output_stem(arguments.output, name_of(arguments));
   check(grainlaw_state_write_packing(state.get(), stem.c_str()), "writing " + stem.string());
-  WrittenPacking written = read_written(stem.string());
-  return {std::move(state), std::move(written), stem, seconds};
+  PackingStart look = look_at_start(state.get(), source, stem.string() + "_state");
+  std::optional<WrittenPacking> discs;
+  if (dimension == 2) discs = read_written(stem.string());
+  return {std::move(state), std::move(look), std::move(discs), stem, seconds};
 }
 
 void print_packing(const Made& made) {
   const std::vector<double> sigma = measure(made.state.get(), GRAINLAW_CAUCHY_STRESS);
-  const Rose rose = contact_rose(made.written);
   const auto line = [](const char* what, double value, const char* unit) {
     fmt::print("  {:<42} {:>12.6g} {}\n", what, value, unit);
   };
-  line("particles", static_cast<double>(made.written.radius.size()), "[-]");
-  if (!made.written.periodic()) {
-    line("of them on the boundary", static_cast<double>(made.written.boundary.size()), "[-]");
+  line("particles", made.start.particles, "[-]");
+  if (made.boundary() > 0) {
+    line("of them on the boundary", static_cast<double>(made.boundary()), "[-]");
     line("particles, copies of a side counted once", made.scalar(GRAINLAW_PARTICLES), "[-]");
   }
   line("touching contacts, copies counted once", made.scalar(GRAINLAW_CONTACTS), "[-]");
@@ -96,13 +103,26 @@ void print_packing(const Made& made) {
   line("coordination, all particles", made.scalar(GRAINLAW_COORDINATION), "[-]");
   line("coordination, without rattlers", made.scalar(GRAINLAW_COORDINATION_NO_RATTLERS), "[-]");
   line("fabric anisotropy", made.scalar(GRAINLAW_ANISOTROPY), "[-]");
-  line("its major direction, against axis 1", rose.direction * 180 / M_PI, "deg");
+  if (made.discs)
+    line("its major direction, against axis 1", contact_rose(*made.discs).direction * 180 / M_PI,
+         "deg");
   line("mean overlap", made.scalar(GRAINLAW_MEAN_OVERLAP) * 1e6, "um");
-  line("stress 11 (tension positive)", sigma[0] / 1e3, "kPa");
-  line("stress 12", sigma[1] / 1e3, "kPa");
-  line("stress 21", sigma[2] / 1e3, "kPa");
-  line("stress 22", sigma[3] / 1e3, "kPa");
+  const auto d = static_cast<std::size_t>(made.start.dimension);
+  for (std::size_t k = 0; k < d * d; ++k)
+    line(fmt::format("stress {}{}{}", k / d + 1, k % d + 1, k == 0 ? " (tension positive)" : "")
+             .c_str(),
+         sigma[k] / 1e3, "kPa");
   line("CPU time to make it", made.seconds, "s");
+}
+
+bool draw(const Made& made) {
+  const std::string title = fmt::format(
+      "{}: {} particles, volume fraction {:.3f}, coordination {:.2f}; bar width: normal force",
+      made.name(), made.start.particles, made.volume_fraction(),
+      made.scalar(GRAINLAW_COORDINATION));
+  if (made.discs) return draw_packing(*made.discs, made.stem, title);
+  const SnapshotFiles files(made.stem.string() + "_state");
+  return draw_snapshots({{"", files.take(made.state.get())}}, 0, title, made.stem);
 }
 
 // One line for each seed, to choose one; each is written as NAME_sSEED.
@@ -121,7 +141,7 @@ void compare_seeds(PackArguments arguments, long first) {
       arguments.name = fmt::format("{}_s{}", name, seed);
       const Made made = make(arguments, seed);
       fmt::print("{:>6} {:>9} {:>9} {:>9.4f} {:>9.3f} {:>11.3f} {:>9.4f} {:>8.2f}\n", seed,
-                 made.written.radius.size(), made.written.boundary.size(), made.volume_fraction(),
+                 made.start.particles, made.boundary(), made.volume_fraction(),
                  made.scalar(GRAINLAW_COORDINATION), made.scalar(GRAINLAW_COORDINATION_NO_RATTLERS),
                  made.scalar(GRAINLAW_ANISOTROPY), made.seconds);
     } catch (const ComputationError& error) {
@@ -151,14 +171,9 @@ void run_pack(const PackArguments& arguments) {
     check(grainlaw_state_write_vtk(made.state.get(), path.c_str()), "writing " + path);
     written.add(".vtp");
   }
-  fmt::print("{}\n", made.stem.filename().string());
+  tell_start(made.name(), made.start);
   print_packing(made);
-  written.add_pictures(
-      draw_packing(made.written, made.stem,
-                   fmt::format("{}: {} particles, volume fraction {:.3f}, coordination {:.2f}; bar "
-                               "width: normal force",
-                               made.stem.filename().string(), made.written.radius.size(),
-                               made.volume_fraction(), made.scalar(GRAINLAW_COORDINATION))));
+  written.add_pictures(draw(made));
   fmt::print("{}\n", written.text());
 }
 

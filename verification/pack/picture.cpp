@@ -131,10 +131,10 @@ bool draw_packing(const WrittenPacking& packing, const std::filesystem::path& st
       gnuplot_text(title), 1 - 0.5 * head / height, left, upper, low.x(), high.x(), low.y(),
       high.y());
   body +=
-      "plot $inner using 1:2:3 with circles fs solid border lc rgb '#b5ac9a' fc rgb '#ece8df', "
+      "plot $inner using 1:2:3 with circles fs solid border lc rgb '#8f8670' fc rgb '#f1ede2', "
       "$boundary using 1:2:3 with circles fs solid border lc rgb '#b58a4a' fc rgb '#f3d19c', "
       "$outline using 1:2 with lines lc rgb '#d55e00' lw 1.5, "
-      "$bars with filledcurves closed fc rgb '#0072b2'\n";
+      "$bars with filledcurves closed fs transparent solid 0.75 noborder fc rgb '#0072b2'\n";
   body += fmt::format(
       "unset label 1\nset label 2 'contact normals per angle, over the mean' at screen {0:.4f},"
       "{1:.4f} center noenhanced\nset label 3 'A = {2:.3f}, major at {3:.0f}°' at screen {0:.4f},"

@@ -79,7 +79,7 @@ Figure figure_of(const Spread& spread, bool spheres, const std::string& abscissa
     }
     return result;
   };
-  Panel stress{"Cauchy stress [kPa]", {}, 1.3, "top left"};
+  Panel stress{"Cauchy stress [kPa]", {}, 1.3};
   if (spheres) stress.curves.push_back(curve("-σ33, axial", "sigma33", -1e-3, colour::orange));
   stress.curves.push_back(
       curve("-σ22", "sigma22", -1e-3, spheres ? colour::green : colour::orange));

@@ -114,7 +114,7 @@ void run_path(const PointScene& scene, const std::filesystem::path& stem, PointE
   PackingStart begin = look_at_start(driver.state(), scene.material, stem.string() + "_state");
   for (std::string& text : far_targets(begin, scene.segments))
     begin.unusual.push_back(std::move(text));
-  warn(scene.name, begin);
+  tell_start(scene.name, begin);
   end.particles = begin.particles;
   history.add(driver.record());
   observer.see(driver.state(), driver.record());

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <numeric>
 
@@ -73,11 +74,13 @@ bool carries_tension(const MaterialSource& source) {
   return material["contact"]["law"].value_or(std::string_view()) == "bonded";
 }
 
+std::string PackingStart::brief() const {
+  return fmt::format("mean pressure {:.4g} Pa, kn/p {:.3g} [-], void ratio {:.4g} [-]", pressure,
+                     stiffness, void_ratio);
+}
+
 std::string PackingStart::text() const {
-  std::string text = fmt::format(
-      "mean pressure {:.4g} Pa, kn/p {:.3g}, void ratio {:.3g}, mean overlap "
-      "{:.2g} % of a radius",
-      pressure, stiffness, void_ratio, 100 * overlap);
+  std::string text = brief() + fmt::format(", mean overlap {:.2g} % of a radius", 100 * overlap);
   if (!unusual.empty()) text += fmt::format("; unusual: {}", fmt::join(unusual, "; "));
   return text;
 }
@@ -150,6 +153,12 @@ std::string why_at_start(const PackingStart& start, int steps_done, const std::s
 
 void warn(const std::string& name, const PackingStart& start) {
   for (const std::string& text : start.unusual) tell(fmt::format("{}: unusual: {}\n", name, text));
+}
+
+void tell_start(const std::string& name, const PackingStart& start) {
+  fmt::print("{}: starts at {}\n", name, start.brief());
+  std::fflush(stdout);
+  warn(name, start);
 }
 
 }  // namespace verification

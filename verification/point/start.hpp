@@ -24,7 +24,9 @@ struct PackingStart {
   double overlap = 0;     // mean, of the contacts' mean radius [-]
   std::vector<std::string> unusual;  // one text each
 
-  // "mean pressure 1e+05 Pa, kn/p 300, void ratio 0.2, mean overlap 0.5 % of a radius; unusual: ..."
+  // "mean pressure 1e+05 Pa, kn/p 300 [-], void ratio 0.2 [-]", and the same with
+  // ", mean overlap 0.5 % of a radius; unusual: ..."
+  [[nodiscard]] std::string brief() const;
   [[nodiscard]] std::string text() const;
 };
 
@@ -37,6 +39,8 @@ std::vector<std::string> far_targets(const PackingStart& start, const std::vecto
 
 // Tells what is unusual on stderr.
 void warn(const std::string& name, const PackingStart& start);
+// One line on stdout, "NAME: starts at mean pressure ...", and what is unusual.
+void tell_start(const std::string& name, const PackingStart& start);
 
 // What a failure in one of the first steps may come of, and what to try; "" after them.
 std::string why_at_start(const PackingStart& start, int steps_done, const std::string& to_try);

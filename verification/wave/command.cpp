@@ -8,6 +8,7 @@
 #include "app/interrupt.hpp"
 #include "app/output.hpp"
 #include "app/written.hpp"
+#include "point/start.hpp"
 #include "wave/run.hpp"
 
 #include <fmt/format.h>
@@ -37,7 +38,7 @@ bool draw_case(const WaveCase& one, const std::vector<WaveRun>& runs,
     return curve;
   };
   const auto add = [&](const std::string& ordinate, const auto& value, bool with_end) {
-    Panel panel{ordinate, {}, 1.2, "bottom center"};
+    Panel panel{ordinate, {}, 1.2};
     const bool first = figure.panels.empty();
     std::size_t k = 0;
     for (const WaveRun& run : runs) {
@@ -74,6 +75,8 @@ bool draw_case(const WaveCase& one, const std::vector<WaveRun>& runs,
 void run_case(const WaveCase& one, const std::string& directory) {
   const auto stem = output_stem(directory, one.name);
   const WaveDomain domain = wave_domain(one);
+  tell_start(one.name, look_at_start(State(make_material(one.material)).get(), one.material,
+                                     stem.string() + "_state"));
   std::vector<WaveRun> runs{run_particles(one)};
   std::vector<std::string> columns{"elements[-]",  "particles[-]",    "steps[-]", "cuts[-]",
                                    "time_step[s]", "core_seconds[s]", "wall[s]"};

@@ -108,7 +108,7 @@ bool draw_mesh(const std::vector<MeshPanel>& panels, const std::string& title,
   double scale_room = 96;
   for (const MeshPanel& panel : panels) {
     const auto range = colour_range(panel);
-    scale_room = std::max(scale_room, 48 + 9.5 * static_cast<double>(longest_label(range)));
+    scale_room = std::max(scale_room, 44 + 12 * static_cast<double>(longest_label(range)));
   }
   constexpr double widest = 900, tallest = 640;
   const auto count = static_cast<double>(panels.size());

@@ -1,6 +1,7 @@
 #include "fe/output/run_output.hpp"
 
 #include "app/history.hpp"
+#include "app/load_figure.hpp"
 #include "app/snapshot.hpp"
 #include "fe/conditions/monitors.hpp"
 #include "fe/output/balance.hpp"
@@ -19,6 +20,16 @@ std::vector<std::string> force_columns(const Model& model) {
   std::vector<std::string> names{"step[-]"};
   for (const Monitor& monitor : make_monitors(model))
     for (const std::string& name : columns(monitor)) names.push_back(name);
+  return names;
+}
+
+// Those that lead the body: a prescribed displacement, or a platen under a load.
+std::vector<std::string> leading_conditions(const Model& model) {
+  std::vector<std::string> names;
+  for (const PrescribedDisplacement& condition : model.displacements)
+    names.push_back(condition.name);
+  for (const Monitor& monitor : make_monitors(model))
+    if (monitor.resultant >= 0) names.push_back(monitor.name);
   return names;
 }
 
@@ -151,6 +162,9 @@ void RunOutput::add_unfinished(int step, const Effort& effort) {
 void RunOutput::finish() {
   written_.add_pictures(
       draw_history(read_csv(history_.path()), scene_.abscissa, scene_.name, tables_.stem()));
+  if (draw_load_figure(read_csv(forces_.path()), leading_conditions(scene_.model), "N/m",
+                       scene_.name, tables_.stem().string() + "_force"))
+    written_.add("_force.svg");
 }
 
 std::string RunOutput::summary(const Effort& unfinished) const {

@@ -100,7 +100,7 @@ void draw_error(const HierarchicalStudy& study) {
   if (!reference) return;
   Table table("Biaxial test to 1.5 % axial strain against one RVE in increments of 0.00625 %",
               {"varied", "scene", "core_time[s]", "error[-]"});
-  Panel panel{"error of the axial stress to 1.5 % [-]", {}, 1, "top right", true};
+  Panel panel{"error of the axial stress to 1.5 % [-]", {}, 1, true};
   constexpr std::array<const char*, 3> kinds{"mesh", "packing", "increment"};
   constexpr std::array<const char*, 3> colours{colour::blue, colour::orange, colour::green};
   for (std::size_t kind = 0; kind < kinds.size(); ++kind) {

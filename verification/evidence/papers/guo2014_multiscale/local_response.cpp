@@ -58,10 +58,8 @@ void draw_points(HierarchicalStudy& study, const std::string& name, const Fields
   const std::array<const char*, 3> colours{colour::blue, colour::orange, colour::green};
   Figure local{"points of " + name, "deviatoric strain [%]", {}};
   Figure paths{"stress paths of points of " + name, "mean stress p [kPa]", {}};
-  local.panels = {{"q [kPa]", {}, 1, "top right"},
-                  {"fabric intensity [-]", {}, 1, "top right"},
-                  {"volumetric strain, dilation + [%]", {}, 1, "top left"}};
-  paths.panels = {{"q [kPa]", {}, 1, "top left"}};
+  local.panels = {{"q [kPa]"}, {"fabric intensity [-]"}, {"volumetric strain, dilation + [%]"}};
+  paths.panels.push_back({"q [kPa]"});
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     const auto& [point, what] = chosen[k];
     const std::string title = fmt::format("{} (point {})", what, point);

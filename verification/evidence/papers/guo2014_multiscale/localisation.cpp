@@ -103,7 +103,7 @@ void newton_facts(HierarchicalStudy& study, const MeshRun& run, const Response& 
 
 void draw_meshes(HierarchicalStudy& study) {
   const auto rve = study.results / "rve.csv";
-  Panel panel{"axial stress [kPa]", {}, 1.4, "bottom center"};
+  Panel panel{"axial stress [kPa]", {}, 1.4};
   std::optional<Response> reference;
   if (std::filesystem::is_regular_file(rve)) {
     reference = response(*load_run(study.results, "rve"), "RVE alone");
@@ -161,7 +161,7 @@ void draw_meshes(HierarchicalStudy& study) {
 }
 
 void draw_hexagonal(HierarchicalStudy& study) {
-  Panel panel{"axial stress [kPa]", {}, 1, "top right"};
+  Panel panel{"axial stress [kPa]"};
   if (const auto rve = load_lattice(study.results)) {
     const Response r = response(*rve, "RVE alone");
     panel.curves.push_back({r.title, r.strain, r.stress, colour::black, Stroke::dashed});
@@ -207,7 +207,6 @@ void draw_hexagonal(HierarchicalStudy& study) {
         localised);
   }
   if (panel.curves.empty()) return;
-  panel.legend = "top left";
   draw({"biaxial compression, hexagonal packing", "axial strain [%]", {panel}},
        study.results / "figure_13");
 }

@@ -74,8 +74,8 @@ double difference(const Element& a, const std::vector<double>& strain,
 }
 
 void draw_responses(HierarchicalStudy& study, const std::vector<Element>& elements) {
-  Panel stress{"axial stress [kPa]", {}, 1.5, "bottom right"};
-  Panel volume{"volumetric strain, dilation + [%]", {}, 1, "top left"};
+  Panel stress{"axial stress [kPa]", {}, 1.5};
+  Panel volume{"volumetric strain, dilation + [%]"};
   if (const auto rve = load_run(study.results, "rve")) {
     const auto strain = rve->column("axial_strain", percent);
     const auto axial = rve->column("sigma22", -1e-3);
@@ -104,7 +104,7 @@ void draw_responses(HierarchicalStudy& study, const std::vector<Element>& elemen
 void draw_convergence(HierarchicalStudy& study, const std::vector<Element>& elements) {
   Figure figure{"Newton's method in one element", "iteration [-]", {}};
   for (const double strain : shown) {
-    Panel panel{fmt::format("residual at {} % [-]", strain), {}, 1, "top right", true};
+    Panel panel{fmt::format("residual at {} % [-]", strain), {}, 1, true};
     std::string counts;
     for (const Element& element : elements) {
       const std::vector<double> history = residuals(study, element, strain);

@@ -29,7 +29,7 @@ void figure_7(const PaperStudy& study, const PaperUnits& units) {
   for (const auto& [component, name] : {std::pair{"sigma11", "-σ11 R / kn [-]"},
                                         {"sigma22", "-σ22 R / kn [-]"},
                                         {"sigma12", "σ12 R / kn [-]"}}) {
-    Panel panel{name, {}, 1, "top left"};
+    Panel panel{name};
     const double sign = std::string(component) == "sigma12" ? 1 : -1;
     for (const Condition& c : conditions)
       if (const auto run = study.run(std::string("figure_08_") + c.name))
@@ -42,8 +42,8 @@ void figure_7(const PaperStudy& study, const PaperUnits& units) {
 }
 
 void figure_9(const PaperStudy& study) {
-  Panel overlap{"mean overlap / R [%]", {}, 1, "top left"};
-  Panel rotation{"mean |rotation| [rad]", {}, 1, "top left"};
+  Panel overlap{"mean overlap / R [%]"};
+  Panel rotation{"mean |rotation| [rad]"};
   for (const Condition& c : conditions) {
     const auto run = study.run(std::string("figure_08_") + c.name);
     if (!run || !run->particles) continue;
@@ -140,7 +140,7 @@ void reach_of_t(PaperStudy& study, const CaseEnds& ends) {
 void figure_10(PaperStudy& study, const PaperUnits& units, const CaseEnds& ends) {
   Table table("Stress norm of eq. 42", {"condition", "packing[-]", "particles[-]", "stress_norm[-]",
                                         "until_F12[-]", "stress_norm_start[-]"});
-  Panel panel{"|σ R / kn|, L2 over the path [-]", {}, 1.5, "top right"};
+  Panel panel{"|σ R / kn|, L2 over the path [-]", {}, 1.5};
   std::array<std::vector<double>, 4> norms;
   std::vector<double> starts;
   for (std::size_t c = 0; c < norms.size(); ++c) {

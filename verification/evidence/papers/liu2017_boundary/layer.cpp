@@ -70,9 +70,9 @@ void figure_11(const PaperStudy& study) {
     const char* name;
     const char* colour;
   };
-  Panel stress{"σ12 / σ22 [-]", {}, 1.2, "top right"};
-  Panel dilation{"det F from the start of shear [-]", {}, 1, "top left"};
-  Panel rotation{"mean |rotation| [rad]", {}, 1, "top left"};
+  Panel stress{"σ12 / σ22 [-]", {}, 1.2};
+  Panel dilation{"det F from the start of shear [-]"};
+  Panel rotation{"mean |rotation| [rad]"};
   for (const Kind kind : {Kind{"frictional", colour::blue}, Kind{"cohesive", colour::orange},
                           Kind{"strong", colour::green}})
     for (int k = 1; k <= packings; ++k) {

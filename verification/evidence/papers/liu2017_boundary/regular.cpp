@@ -45,7 +45,7 @@ void figure_2(PaperStudy& study, const PaperUnits& units) {
     const auto plain = study.run(prefix + "_plain");
     const auto direct = study.run(prefix + "_direct");
     if (!predicted || !plain) continue;
-    Panel panel{fmt::format("({})  -σ R / kn [-]", condition), {}, 1.4, "center"};
+    Panel panel{fmt::format("({})  -σ R / kn [-]", condition), {}, 1.4};
     // Of the second panel nothing is new in the legend.
     const auto title = [&](const char* text) {
       return std::string(figure.panels.empty() ? text : "");
@@ -87,8 +87,8 @@ void figure_2(PaperStudy& study, const PaperUnits& units) {
 
 void figure_4(PaperStudy& study, const PaperUnits& units) {
   Figure figure{"Fig. 4: 25 discs under D, P and T", "-F12 [-]", {}};
-  Panel stress{"-σ11 R / kn [-]", {}, 1, "top left"};
-  Panel overlap{"mean overlap / R [%]", {}, 1, "top left"};
+  Panel stress{"-σ11 R / kn [-]"};
+  Panel overlap{"mean overlap / R [%]"};
   for (const Condition& c : conditions) {
     const auto run = study.run(fmt::format("figure_05_{}25", c.name));
     if (!run) continue;
@@ -110,7 +110,7 @@ void figure_5(PaperStudy& study, const PaperUnits& units) {
   Figure figure{"Fig. 5: -σ11 R / kn of 25, 100 and 225 discs", "-F12 [-]", {}};
   constexpr std::array<const char*, 3> shades{colour::blue, colour::orange, colour::green};
   for (const Condition& c : conditions) {
-    Panel panel{fmt::format("({})  -σ11 R / kn [-]", c.name), {}, 1, "top left"};
+    Panel panel{fmt::format("({})  -σ11 R / kn [-]", c.name)};
     for (std::size_t k = 0; k < sizes.size(); ++k) {
       const auto run = study.run(fmt::format("figure_05_{}{}", c.name, sizes[k]));
       if (run)

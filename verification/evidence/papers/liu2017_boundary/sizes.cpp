@@ -99,7 +99,7 @@ Means stress_norms(const PaperStudy& study, const Ends& ends, const PaperUnits& 
                "volume_fraction_mean[-]", "volume_fraction_sd[-]", "stress_norm_mean[-]",
                "stress_norm_sd[-]", "standard_error[-]", "norm_to_0.1_mean[-]",
                "norm_to_0.1_standard_error[-]", "later_pressure_sd_over_mean[-]"});
-  Panel panel{"|σ R / kn|, mean ± s.d. [-]", {}, 1.5, "top right"};
+  Panel panel{"|σ R / kn|, mean ± s.d. [-]", {}, 1.5};
   Means means;
   for (std::size_t c = 0; c < rows.size(); ++c) {
     Curve curve{rows[c].text, {}, {}, rows[c].colour, Stroke::solid, rows[c].marker};

@@ -31,10 +31,7 @@ void compare_surfaces(WaveStudy& study, const std::string& scene, int finest, do
             "explained");
   Figure figure{fmt::format("Fig. {}: surfaces of the specimen", name), "time [ms]", {}};
   for (const char* section : {"displacement_1", "displacement_2"}) {
-    Panel panel{fmt::format("u / A at {} mm [-]", figure.panels.empty() ? "30.5" : "305"),
-                {},
-                1.2,
-                "bottom right"};
+    Panel panel{fmt::format("u / A at {} mm [-]", figure.panels.empty() ? "30.5" : "305"), {}, 1.2};
     panel.curves = {wave_curve(*free, section, 1 / amplitude, colour::orange, Stroke::solid,
                                "particles, free surfaces"),
                     wave_curve(*layer, section, 1 / amplitude, colour::black, Stroke::solid,

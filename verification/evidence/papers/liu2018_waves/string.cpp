@@ -44,7 +44,7 @@ void study_periods(WaveStudy& study) {
   double worst = 0;
   for (const char* section : {"displacement_1", "displacement_2"}) {
     const bool first = figure.panels.empty();
-    Panel panel{fmt::format("u / A at {} [-]", first ? "20 R" : "100 R"), {}, 1.2, "top right"};
+    Panel panel{fmt::format("u / A at {} [-]", first ? "20 R" : "100 R"), {}, 1.2};
     for (std::size_t k = 0; k < names.size(); ++k) {
       const WaveStudy::Run mesh = study.load(fmt::format("figure_4_5_{}_fe400", names[k]));
       const WaveStudy::Run particles = study.load(fmt::format("figure_4_5_{}_dns", names[k]));
@@ -113,8 +113,7 @@ void study_dispersion(WaveStudy& study) {
           std::max({worst, std::abs(k_particles[k] / right - 1), std::abs(k_mesh[k] / right - 1)});
   }
   Figure figure{"Dispersion of the string", "ω / highest ω [-]", {}};
-  figure.panels.push_back(
-      {"phase velocity [m/s]", {closed, of_particles, of_mesh}, 1.4, "bottom left"});
+  figure.panels.push_back({"phase velocity [m/s]", {closed, of_particles, of_mesh}, 1.4});
   draw(figure, study.results / "dispersion");
   study.add("4.5", "phase velocity against 2 (k/M)^1/2 sin(k R), to half of the highest frequency",
             "sine", fmt::format("largest deviation {:.2f} %, meshes and particles", 100 * worst),

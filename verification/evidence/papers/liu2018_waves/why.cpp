@@ -16,10 +16,7 @@ void study_why_waves_differ(WaveStudy& study) {
   if (!mesh || !plain || !damped) return;
   Figure figure{"Why meshes and particles differ without bonds", "time [ms]", {}};
   for (const char* section : {"displacement_1", "displacement_2"}) {
-    Panel panel{fmt::format("u / A at {} mm [-]", figure.panels.empty() ? "30" : "300"),
-                {},
-                1.2,
-                "bottom right"};
+    Panel panel{fmt::format("u / A at {} mm [-]", figure.panels.empty() ? "30" : "300"), {}, 1.2};
     const auto draw_run = [&](const WaveStudy::Run& run, const char* colour, Stroke stroke,
                               const char* title) {
       if (run)
@@ -33,7 +30,7 @@ void study_why_waves_differ(WaveStudy& study) {
     draw_run(mesh, colour::blue, Stroke::solid, "208 elements");
     figure.panels.push_back(panel);
   }
-  Panel energy{"energy / work [-]", {}, 1.2, "center right"};
+  Panel energy{"energy / work [-]", {}, 1.2};
   const auto shares = [&](const PaperRun& run, auto value, const char* colour, Stroke stroke,
                           const char* title) {
     Curve curve{title, {}, {}, colour, stroke};

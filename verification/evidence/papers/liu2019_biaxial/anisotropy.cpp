@@ -47,11 +47,11 @@ void study_initial_anisotropy(PaperStudy& study) {
   Table table("Initial anisotropy", {"packing", "A_made[-]", "ratio_made[-]", "A_at_start[-]",
                                      "ratio_at_start[-]", "A_at_ratio_0.3[-]", "peak_ratio[-]",
                                      "strain_at_peak[-]", "A_at_peak[-]", "largest_compaction[-]"});
-  Panel ratio{"stress ratio [-]", {}, 1.2, "bottom right"};
-  Panel volume{"volume, J / J of the start - 1 [-]", {}, 1, "top left"};
-  Panel coordination{"coordination [-]", {}, 1, "bottom left"};
-  Panel anisotropy{"anisotropy [-]", {}, 1.2, "top left"};
-  Panel fabric{"anisotropy [-]", {}, 1, "top left"};
+  Panel ratio{"stress ratio [-]", {}, 1.2};
+  Panel volume{"volume, J / J of the start - 1 [-]"};
+  Panel coordination{"coordination [-]"};
+  Panel anisotropy{"anisotropy [-]", {}, 1.2};
+  Panel fabric{"anisotropy [-]"};
   std::vector<double> peaks, compactions;
   for (const Packing& packing : packings) {
     const auto run = study.run(std::string("anisotropy_") + packing.name);

@@ -19,12 +19,8 @@ struct Line {
 // One panel per quantity; runs that are not there are left out.
 void draw_runs(const PaperStudy& study, const std::string& title, const std::vector<Line>& lines,
                bool stresses, const char* name) {
-  Panel first{stresses ? "stress ratio [-]" : "coordination [-]",
-              {},
-              1,
-              stresses ? "bottom right at graph 0.66, 0.03 maxrows 4" : "top right"};
-  Panel second{
-      stresses ? "volume, J / J of the start - 1 [-]" : "anisotropy [-]", {}, 1, "top left"};
+  Panel first{stresses ? "stress ratio [-]" : "coordination [-]"};
+  Panel second{stresses ? "volume, J / J of the start - 1 [-]" : "anisotropy [-]"};
   for (const Line& line : lines) {
     const auto run = load_biaxial(study, line.name);
     if (!run) continue;

@@ -110,7 +110,7 @@ void compare_with_direct(PaperStudy& study) {
     }
     means.print();
     means.write(study.results / "direct_means.csv");
-    Panel panel{"stress ratio [-]", {}, 1, "bottom right"};
+    Panel panel{"stress ratio [-]"};
     const auto draw_all = [&](const char* title, const char* colour, auto&& member) {
       for (std::size_t k = 0; k < packings.size(); ++k) {
         const Biaxial& run = member(packings[k]);

@@ -15,7 +15,7 @@ constexpr double marked_strain =
 
 // Point `k` of a mesh, or nothing from its table.
 Panel panel_of(const PaperStudy& study, const char* mesh, Table& table) {
-  Panel panel{fmt::format("stress ratio, {} [-]", mesh), {}, 1, "bottom left"};
+  Panel panel{fmt::format("stress ratio, {} [-]", mesh)};
   const std::string name = std::string("biaxial_") + mesh;
   const auto path = study.results / (name + "_every_stress_ratio.csv");
   const auto run = load_biaxial(study, name);

@@ -111,8 +111,8 @@ void compare_sizes(PaperStudy& study) {
   table.write(study.results / "sizes.csv");
   strains.print();
   strains.write(study.results / "sizes_means.csv");
-  Panel single{"specimen - mesh [-]", {}, 1, "top right"};
-  Panel scaled{"mean, times frames across [-]", {}, 1, "bottom left"};
+  Panel single{"specimen - mesh [-]"};
+  Panel scaled{"mean, times frames across [-]"};
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t p = 0; p < packings.size(); ++p)
       single.curves.push_back({"", at, packings[p][k], specimens[k].colour, Stroke::thin});

@@ -57,7 +57,7 @@ void draw_increments(const StudyOptions& options, const std::vector<IncrementRow
                 {},
                 true};
   for (const char* path : {"drained", "shear"}) {
-    Panel panel{fmt::format("{}: median error of P [-]", path), {}, 1.7, "bottom right", true};
+    Panel panel{fmt::format("{}: median error of P [-]", path), {}, 1.7, true};
     for (const Look& look : {Look{&direct, colour::blue, disc},
                              {&advancing, colour::green, triangle},
                              {&published, colour::orange, diamond},
@@ -98,8 +98,7 @@ void draw_paths(const StudyOptions& options, const std::vector<PathRow>& rows) {
                 {},
                 true};
   for (const char* path : {"drained", "shear"}) {
-    Panel panel{
-        fmt::format("{}: largest error of P [-]", path), {}, 1.5, "bottom left", true, 1e-6};
+    Panel panel{fmt::format("{}: largest error of P [-]", path), {}, 1.5, true, 1e-6};
     for (const Line& line : {Line{&direct, 1e-2, colour::grey, open_square},
                              {&direct, 1e-3, colour::sky, ring},
                              {&direct, 1e-4, colour::amber, open_triangle},
@@ -144,8 +143,7 @@ void draw_numbers(const StudyOptions& options, const std::vector<NumberRow>& row
       "number of particles [-]",
       {},
       true};
-  figure.panels.push_back(
-      {"CPU time of one evaluation [ms]", {slope, plain, exact}, 2, "top left", true});
+  figure.panels.push_back({"CPU time of one evaluation [ms]", {slope, plain, exact}, 2, true});
   save(options, figure, "error_number");
 }
 
