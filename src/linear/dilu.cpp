@@ -25,8 +25,10 @@ std::size_t at(std::int32_t place) { return static_cast<std::size_t>(place); }
 struct Values {
   const BlockMatrix<width>& matrix;
   const BlockColumn<width>* ground;
+  const std::int32_t* node;
   BlockColumn<width>* scale;
-  const std::int32_t* edge_of_lower;
+  const std::size_t *block_of_lower, *block_of_upper;
+  const std::int32_t* upper_of_lower;
   Block* inverse;
   Block* diagonal;
   Triangle& lower;
@@ -78,9 +80,10 @@ Block inverse_of(const Block& given) {
 
 void find_scale(const Values& v) {
   for (std::size_t q = 0; q < v.matrix.nodes; ++q) {
+    const std::size_t node = at(v.node[q]);
     v.scale[q] = {};
     for (std::size_t k = 0; k < b; ++k) {
-      const double value = std::abs(v.matrix.block(q)[k].lane[k]) + v.ground[q].lane[k];
+      const double value = std::abs(v.matrix.block(node)[k].lane[k]) + v.ground[node].lane[k];
       v.scale[q].lane[k] = 1 / std::sqrt(value);
     }
   }
@@ -89,17 +92,17 @@ void find_scale(const Values& v) {
 GRAINLAW_CLONES void factorise_rows(const Values& v) {
   const auto& matrix = v.matrix;
   for (std::size_t q = 0; q < matrix.nodes; ++q) {
+    const std::size_t node = at(v.node[q]);
     const auto& row = v.scale[q];
-    const Block own = scaled(matrix.block(q), row, row);
+    const Block own = scaled(matrix.block(node), row, row);
     Block pivot = own;
     for (std::size_t k = 0; k < b; ++k) {
-      pivot.column[k].lane[k] += v.ground[q].lane[k] * row.lane[k] * row.lane[k];
+      pivot.column[k].lane[k] += v.ground[node].lane[k] * row.lane[k] * row.lane[k];
     }
     for (std::size_t k = v.lower.begin[q]; k < v.lower.begin[q + 1]; ++k) {
-      const std::size_t edge = at(v.edge_of_lower[k]);
       v.lower.block[k] =
-          scaled(matrix.block(matrix.lower(edge)), row, v.scale[at(v.lower.node[k])]);
-      add_product(pivot, 1, v.lower.block[k], v.upper.block[edge]);
+          scaled(matrix.block(v.block_of_lower[k]), row, v.scale[at(v.lower.node[k])]);
+      add_product(pivot, 1, v.lower.block[k], v.upper.block[at(v.upper_of_lower[k])]);
     }
     const Block inverse = v.inverse[q] = inverse_of(pivot);
     for (std::size_t k = v.lower.begin[q]; k < v.lower.begin[q + 1]; ++k) {
@@ -110,7 +113,7 @@ GRAINLAW_CLONES void factorise_rows(const Values& v) {
     for (std::size_t k = v.upper.begin[q]; k < v.upper.begin[q + 1]; ++k) {
       v.upper.block[k] = {};
       add_product(v.upper.block[k], -1, inverse,
-                  scaled(matrix.block(matrix.upper(k)), row, v.scale[at(v.upper.node[k])]));
+                  scaled(matrix.block(v.block_of_upper[k]), row, v.scale[at(v.upper.node[k])]));
     }
     v.diagonal[q] = {};
     add_product(v.diagonal[q], 1, inverse, own);
@@ -120,8 +123,10 @@ GRAINLAW_CLONES void factorise_rows(const Values& v) {
 
 }  // namespace
 
-// The edges are ordered by their first node: they are the upper triangle row by row.
+// Edges as the rows of both triangles, each row by the node it was reached from.
 void Dilu::list_rows() {
+  order_.find(nodes_, edges_);
+  const auto place = order_.place();
   for (Triangle* triangle : {&lower_, &upper_}) {
     resize_with_room(triangle->begin, nodes_ + 1);
     std::fill(triangle->begin.begin(), triangle->begin.end(), 0);
@@ -129,21 +134,29 @@ void Dilu::list_rows() {
     resize_with_room(triangle->block, edges_.size());
   }
   for (const auto& [p, q] : edges_) {
-    ++upper_.begin[at(p) + 1];
-    ++lower_.begin[at(q) + 1];
+    ++upper_.begin[at(std::min(place[at(p)], place[at(q)])) + 1];
+    ++lower_.begin[at(std::max(place[at(p)], place[at(q)])) + 1];
   }
-  for (Triangle* triangle : {&lower_, &upper_}) {
-    std::partial_sum(triangle->begin.begin(), triangle->begin.end(), triangle->begin.begin());
-  }
-  resize_with_room(next_, nodes_);
-  std::copy_n(lower_.begin.begin(), nodes_, next_.begin());
-  resize_with_room(edge_of_lower_, edges_.size());
+  const auto start = [this](Triangle& triangle, std::vector<std::size_t>& next) {
+    std::partial_sum(triangle.begin.begin(), triangle.begin.end(), triangle.begin.begin());
+    resize_with_room(next, nodes_);
+    std::copy_n(triangle.begin.begin(), nodes_, next.begin());
+  };
+  start(upper_, next_);
+  start(lower_, next_lower_);
+  for (auto* blocks : {&block_of_lower_, &block_of_upper_})
+    resize_with_room(*blocks, edges_.size());
+  resize_with_room(upper_of_lower_, edges_.size());
   for (std::size_t e = 0; e < edges_.size(); ++e) {
-    const auto [p, q] = edges_[e];
-    upper_.node[e] = q;
-    const std::size_t place = next_[at(q)]++;
-    lower_.node[place] = p;
-    edge_of_lower_[place] = static_cast<std::int32_t>(e);
+    const std::int32_t p = place[at(edges_[e].first)];
+    const std::int32_t q = place[at(edges_[e].second)];
+    const std::size_t above = next_[at(std::min(p, q))]++;
+    const std::size_t below = next_lower_[at(std::max(p, q))]++;
+    upper_.node[above] = std::max(p, q);
+    lower_.node[below] = std::min(p, q);
+    upper_of_lower_[below] = static_cast<std::int32_t>(above);
+    block_of_upper_[above] = p < q ? nodes_ + e : nodes_ + edges_.size() + e;
+    block_of_lower_[below] = p < q ? nodes_ + edges_.size() + e : nodes_ + e;
   }
 }
 
@@ -161,8 +174,17 @@ void Dilu::factorise(const BlockMatrix<width>& matrix, std::span<const Column> g
     reserve_with_room(half_together_, b * nodes_);
     reserve_with_room(rest_together_, b * nodes_);
   }
-  const Values values{matrix,          ground.data(),    scale_.data(), edge_of_lower_.data(),
-                      inverse_.data(), diagonal_.data(), lower_,        upper_};
+  const Values values{matrix,
+                      ground.data(),
+                      order_.node().data(),
+                      scale_.data(),
+                      block_of_lower_.data(),
+                      block_of_upper_.data(),
+                      upper_of_lower_.data(),
+                      inverse_.data(),
+                      diagonal_.data(),
+                      lower_,
+                      upper_};
   find_scale(values);
   factorise_rows(values);
 }

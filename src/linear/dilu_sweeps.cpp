@@ -82,19 +82,20 @@ GRAINLAW_INLINE void sweep_back(const Factors& f, const double* y, double* x) {
   }
 }
 
+// Where a row's node is in vectors by nodes.
 template <class Unknowns>
-GRAINLAW_INLINE void scale_all(const Factors& f, double* x) {
-  for (std::size_t q = 0; q < f.nodes; ++q) {
-    Unknowns value(x + q * Unknowns::stride);
-    value.scale(f.scale[q]);
-    value.store_to(x + q * Unknowns::stride);
-  }
+GRAINLAW_INLINE std::size_t place_of(const Factors& f, std::size_t row) {
+  return static_cast<std::size_t>(f.node[row]) * Unknowns::stride;
 }
 
 template <class Unknowns>
-GRAINLAW_INLINE void backward_of(const Factors& f, const double* y, double* x) {
-  sweep_back<Unknowns>(f, y, x);
-  scale_all<Unknowns>(f, x);
+GRAINLAW_INLINE void backward_of(const Factors& f, const double* y, double* half, double* x) {
+  sweep_back<Unknowns>(f, y, half);
+  for (std::size_t q = 0; q < f.nodes; ++q) {
+    Unknowns value(half + q * Unknowns::stride);
+    value.scale(f.scale[q]);
+    value.store_to(x + place_of<Unknowns>(f, q));
+  }
 }
 
 template <class Unknowns>
@@ -102,7 +103,7 @@ GRAINLAW_INLINE void forward_of(const Factors& f, const double* right, double* c
   alignas(64) double own[Unknowns::stride];
   constexpr double zero[Unknowns::stride] = {};
   for (std::size_t q = 0; q < f.nodes; ++q) {
-    Unknowns value(right + q * Unknowns::stride);
+    Unknowns value(right + place_of<Unknowns>(f, q));
     value.scale(f.scale[q]);
     value.store_to(own);
     Unknowns sum(zero);
@@ -128,11 +129,11 @@ GRAINLAW_INLINE void apply_of(const Factors& f, const double* y, double* x, doub
   }
 }
 
-GRAINLAW_CLONES void backward_one(const Factors& f, const double* y, double* x) {
-  backward_of<OfOne>(f, y, x);
+GRAINLAW_CLONES void backward_one(const Factors& f, const double* y, double* half, double* x) {
+  backward_of<OfOne>(f, y, half, x);
 }
-GRAINLAW_CLONES void backward_several(const Factors& f, const double* y, double* x) {
-  backward_of<OfSeveral>(f, y, x);
+GRAINLAW_CLONES void backward_several(const Factors& f, const double* y, double* half, double* x) {
+  backward_of<OfSeveral>(f, y, half, x);
 }
 GRAINLAW_CLONES void forward_one(const Factors& f, const double* right, double* c) {
   forward_of<OfOne>(f, right, c);
@@ -161,12 +162,13 @@ void Dilu::forward(std::span<const Several> right, std::span<Several> c) const {
 }
 
 template <>
-void Dilu::backward(std::span<const Column> y, std::span<Column> x) const {
-  backward_one(factors(), y.data()->lane, x.data()->lane);
+void Dilu::backward(std::span<const Column> y, std::span<Column> x) {
+  backward_one(factors(), y.data()->lane, half_.data()->lane, x.data()->lane);
 }
 template <>
-void Dilu::backward(std::span<const Several> y, std::span<Several> x) const {
-  backward_several(factors(), y.data()->lane, x.data()->lane);
+void Dilu::backward(std::span<const Several> y, std::span<Several> x) {
+  resize_with_room(half_together_, y.size());
+  backward_several(factors(), y.data()->lane, half_together_.data()->lane, x.data()->lane);
 }
 
 template <>
