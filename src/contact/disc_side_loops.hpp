@@ -20,7 +20,7 @@ constexpr std::size_t lanes = ContactSides<2>::lanes;
 static_assert(lanes == ContactList<2>::group);
 
 struct Loop {
-  std::span<const ContactSides<2>::Rows> groups;
+  std::span<const SideSlots::Rows> groups;
   ContactSides<2>::Nodes* nodes;
   const ContactSides<2>::Bounds* bounds;
   const ContactSides<2>::Drag* drags = nullptr;
@@ -46,7 +46,7 @@ GRAINLAW_INLINE Looked look_loop(const Loop& loop) {
   GroupSum<width> force, touching;
   const double* own_records = loop.records;
   for (std::size_t g = 0; g < loop.groups.size(); ++g) {
-    const ContactSides<2>::Rows rows = loop.groups[g];
+    const SideSlots::Rows rows = loop.groups[g];
     ContactSides<2>::Nodes& nodes = loop.nodes[g];
     const ContactSides<2>::Bounds& bounds = loop.bounds[g];
     for (std::size_t k = 0; k < lanes; k += width, own_records += 4 * width) {
@@ -119,7 +119,7 @@ GRAINLAW_INLINE ContactSides<2>::Measured step_loop(const Loop& loop) {
   double* last_moves = loop.last_moves;
   const double* own_records = loop.records;
   for (std::size_t g = 0; g < loop.groups.size(); ++g) {
-    const ContactSides<2>::Rows rows = loop.groups[g];
+    const SideSlots::Rows rows = loop.groups[g];
     const ContactSides<2>::Nodes& nodes = loop.nodes[g];
     for (std::size_t k = 0; k < lanes;
          k += width, last_moves += 4 * width, own_records += 4 * width) {

@@ -32,7 +32,10 @@ void ContactSides<2>::arrange(const ContactList<2>& list, const Packing& packing
   const double sum = std::accumulate(radius.begin(), radius.end(), 0.0);
   curvature_ = 0.5 * static_cast<double>(particles_) / sum;
   if (!at_rest) save_velocities();
-  sort_nodes(list, packing.order, least_masses);
+  slots_.sort(std::span(list.i).first(list.size()), std::span(list.j).first(list.size()),
+              particles_, packing.order);
+  resize_with_room(nodes_, slots_.groups().size());
+  bound_masses(least_masses);
   for (auto* records : {&place_, &moves_, &last_moves_}) {
     resize_with_room(*records, lanes * nodes_.size());
     std::fill(records->begin(), records->end(), ParticleRecord<2>{});
@@ -44,8 +47,8 @@ void ContactSides<2>::arrange(const ContactList<2>& list, const Packing& packing
 void ContactSides<2>::save_velocities() {
   resize_with_room(velocity_, particles_);
   for (std::size_t p = 0; p < particles_; ++p) {
-    const ParticleRecord<2>& now = moves_[slot_[p]];
-    const ParticleRecord<2>& last = last_moves_[slot_[p]];
+    const ParticleRecord<2>& now = moves_[slots_.slot(p)];
+    const ParticleRecord<2>& last = last_moves_[slots_.slot(p)];
     velocity_[p] = {now.x - last.x, now.y - last.y, now.roll - last.roll, 0};
   }
 }
@@ -53,49 +56,22 @@ void ContactSides<2>::save_velocities() {
 void ContactSides<2>::restore_velocities() {
   for (std::size_t p = 0; p < particles_; ++p) {
     const ParticleRecord<2>& v = velocity_[p];
-    last_moves_[slot_[p]] = {-v.x, -v.y, -v.roll, 0};
+    last_moves_[slots_.slot(p)] = {-v.x, -v.y, -v.roll, 0};
   }
 }
 
-// By the number of their sides, so that the rows of a group are full; by counting.
-void ContactSides<2>::sort_nodes(const ContactList<2>& list, std::span<const std::int32_t> order,
-                                 std::span<const LeastMass<2>> least_masses) {
-  resize_with_room(count_, particles_);
-  std::fill(count_.begin(), count_.end(), 0U);
-  std::uint32_t most = 15;  // nearly always enough, so that the counts keep their size
-  for (std::size_t c = 0; c < list.size(); ++c) {
-    most = std::max(most, ++count_[at(list.i[c])]);
-    most = std::max(most, ++count_[at(list.j[c])]);
-  }
-  resize_with_room(first_slot_, most + 2);
-  std::fill(first_slot_.begin(), first_slot_.end(), 0U);
-  for (const std::uint32_t count : count_) ++first_slot_[count + 1];
-  std::partial_sum(first_slot_.begin(), first_slot_.end(), first_slot_.begin());
-
+void ContactSides<2>::bound_masses(std::span<const LeastMass<2>> least_masses) {
   Bounds filling{};
   for (auto* column : {&filling.least, &filling.least_roll}) std::fill_n(*column, lanes, 1.0);
-  const std::size_t groups = (particles_ + lanes - 1) / lanes;
-  resize_with_room(nodes_, groups);
-  resize_with_room(bounds_, groups);
+  resize_with_room(bounds_, nodes_.size());
   std::fill(bounds_.begin(), bounds_.end(), filling);
-  resize_with_room(rows_, groups);
-  std::fill(rows_.begin(), rows_.end(), Rows{});
-  resize_with_room(slot_, particles_);
-  for (std::size_t q = 0; q < particles_; ++q) {
-    const std::size_t p = order.empty() ? q : at(order[q]);
-    slot_[p] = first_slot_[count_[p]]++;
-    Bounds& bounds = bounds_[slot_[p] / lanes];
-    const std::size_t k = slot_[p] % lanes;
+  for (std::size_t p = 0; p < particles_; ++p) {
+    const std::size_t slot = slots_.slot(p);
+    const std::size_t k = slot % lanes;
+    Bounds& bounds = bounds_[slot / lanes];
     bounds.least[k] = least_masses[p].x;
     bounds.least_roll[k] = least_masses[p].roll;
     bounds.inverse_radius[k] = least_masses[p].inverse_radius;
-    Rows& rows = rows_[slot_[p] / lanes];
-    rows.count = std::max(rows.count, count_[p]);
-  }
-  std::uint32_t first = 0;
-  for (Rows& rows : rows_) {
-    rows.first = first;
-    first += rows.count;
   }
 }
 
@@ -105,23 +81,21 @@ void ContactSides<2>::list_sides(const ContactList<2>& list, double longest_reac
   std::fill_n(nothing.offset_x, lanes, 2 * longest_reach);
   std::fill_n(nothing.inverse_reach, lanes, 1 / longest_reach);
   std::fill_n(nothing.x, lanes, 1.0);
-  const std::size_t rows = rows_.back().first + rows_.back().count;
+  const std::size_t rows = slots_.row_count();
   resize_with_room(starts_, rows);
   std::fill(starts_.begin(), starts_.end(), nothing);
   resize_with_room(sides_, rows);
   std::fill(sides_.begin(), sides_.end(), Side{});
   std::int32_t first = 0;
-  for (const Rows& group : rows_) {
+  for (const auto& group : slots_.groups()) {
     for (std::size_t row = group.first; row < group.first + group.count; ++row) {
       std::iota(sides_[row].other, sides_[row].other + lanes, first);
     }
     first += lanes;
   }
-  std::fill(count_.begin(), count_.end(), 0U);
   const auto add = [&](std::size_t c, std::int32_t node, std::int32_t other, double sign) {
-    const std::size_t slot = slot_[at(node)];
-    const std::size_t row = rows_[slot / lanes].first + count_[at(node)]++;
-    const std::size_t k = slot % lanes;
+    const std::size_t row = slots_.next_row(at(node));
+    const std::size_t k = slots_.slot(at(node)) % lanes;
     Start& start = starts_[row];
     start.offset_x[k] = sign * list.offset[0][c];
     start.offset_y[k] = sign * list.offset[1][c];
@@ -131,7 +105,7 @@ void ContactSides<2>::list_sides(const ContactList<2>& list, double longest_reac
     start.roll[k] = list.start_roll[c];
     start.force[k] = list.start_force[0][c];
     Side& side = sides_[row];
-    side.other[k] = static_cast<std::int32_t>(slot_[at(other)]);
+    side.other[k] = static_cast<std::int32_t>(slots_.slot(at(other)));
     side.normal_stiffness[k] = list.normal_stiffness[c];
   };
   for (std::size_t c = 0; c < list.size(); ++c) {
@@ -142,14 +116,14 @@ void ContactSides<2>::list_sides(const ContactList<2>& list, double longest_reac
 
 ContactTotals ContactSides<2>::look(std::span<const ParticleRecord<2>> particles,
                                     const ContactLaw& law, double factor, ContactList<2>& list) {
-  for (std::size_t p = 0; p < particles_; ++p) place_[slot_[p]] = particles[p];
+  for (std::size_t p = 0; p < particles_; ++p) place_[slots_.slot(p)] = particles[p];
   for (std::size_t s = 0; s < moves_.size(); ++s) {
     const ParticleRecord<2>& now = moves_[s];
     ParticleRecord<2>& last = last_moves_[s];
     last = {last.x - now.x, last.y - now.y, last.roll - now.roll, 0};
   }
   std::fill(moves_.begin(), moves_.end(), ParticleRecord<2>{});
-  const Loop loop{.groups = rows_,
+  const Loop loop{.groups = slots_.groups(),
                   .nodes = nodes_.data(),
                   .bounds = bounds_.data(),
                   .starts = starts_.data(),
@@ -173,14 +147,14 @@ void ContactSides<2>::hold(std::span<const ParticleRecord<2>> particles, const N
   resize_with_room(drags_, nodes_.size());
   std::fill(drags_.begin(), drags_.end(), Drag{});
   for (std::size_t p = 0; p < particles_; ++p) {
-    const std::size_t k = slot_[p] % lanes;
-    Drag& of = drags_[slot_[p] / lanes];
+    const std::size_t k = slots_.slot(p) % lanes;
+    Drag& of = drags_[slots_.slot(p) / lanes];
     of.stiffness[k] = drag.stiffness[p].x;
     of.stiffness_roll[k] = drag.stiffness[p].roll;
     of.x[k] = drag.expected[p].x - particles[p].x;
     of.y[k] = drag.expected[p].y - particles[p].y;
     of.roll[k] = drag.expected[p].roll - particles[p].roll;
-    Nodes& nodes = nodes_[slot_[p] / lanes];
+    Nodes& nodes = nodes_[slots_.slot(p) / lanes];
     nodes.mass[k] += factor * of.stiffness[k];
     nodes.gain[k] = 1 / nodes.mass[k];
     nodes.mass_roll[k] += factor * of.stiffness_roll[k];
@@ -189,7 +163,7 @@ void ContactSides<2>::hold(std::span<const ParticleRecord<2>> particles, const N
 }
 
 ContactSides<2>::Measured ContactSides<2>::step(const ContactLaw& law, double keep, double gain) {
-  const Loop loop{.groups = rows_,
+  const Loop loop{.groups = slots_.groups(),
                   .nodes = nodes_.data(),
                   .bounds = nullptr,
                   .drags = drags_.data(),
@@ -213,7 +187,7 @@ ContactSides<2>::Measured ContactSides<2>::step(const ContactLaw& law, double ke
 
 void ContactSides<2>::move(std::span<ParticleRecord<2>> particles) const {
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const ParticleRecord<2>& moved = moves_[slot_[p]];
+    const ParticleRecord<2>& moved = moves_[slots_.slot(p)];
     particles[p].x += moved.x;
     particles[p].y += moved.y;
     particles[p].roll += moved.roll;

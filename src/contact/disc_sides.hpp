@@ -7,6 +7,7 @@
 #include "contact/contact_forces.hpp"
 #include "contact/contact_list.hpp"
 #include "contact/law.hpp"
+#include "contact/side_slots.hpp"
 #include "packing/packing.hpp"
 
 #include <cstddef>
@@ -53,13 +54,9 @@ class ContactSides<2> {
   // Particles that are at the place follow the moves.
   void move(std::span<ParticleRecord<2>> particles) const;
 
-  // Nodes of a group, as many as the widest registers have lanes: results do not depend on how many
-  // lanes there are.
-  static constexpr std::size_t lanes = 8;
+  // Nodes of a group: results do not depend on how many lanes registers have.
+  static constexpr std::size_t lanes = SideSlots::lanes;
   using Doubles = double[lanes];
-  struct Rows {
-    std::uint32_t first, count;  // of their sides, one of each node in a row
-  };
   struct alignas(64) Nodes {
     Doubles mass, mass_roll, gain, gain_roll;  // gain = 1 / mass
   };
@@ -82,14 +79,12 @@ class ContactSides<2> {
  private:
   void save_velocities();
   void restore_velocities();
-  void sort_nodes(const ContactList<2>& list, std::span<const std::int32_t> order,
-                  std::span<const LeastMass<2>> least_masses);
+  void bound_masses(std::span<const LeastMass<2>> least_masses);
   void list_sides(const ContactList<2>& list, double longest_reach);
 
   std::size_t particles_ = 0;
   double curvature_ = 0;  // 1 / mean branch [1/m]
-  // Sorted by the number of sides.
-  std::vector<Rows> rows_;
+  SideSlots slots_;
   simd::Column<Nodes> nodes_;
   simd::Column<Bounds> bounds_;
   simd::Column<Drag> drags_;  // empty: none
@@ -99,8 +94,6 @@ class ContactSides<2> {
   // the last step.
   simd::Column<ParticleRecord<2>> place_, moves_, last_moves_;
   std::vector<ParticleRecord<2>> velocity_;  // by particles, while listing
-  std::vector<std::uint32_t> count_, first_slot_;
-  std::vector<std::uint32_t> slot_;  // of a particle: which node it is
 };
 
 }  // namespace grainlaw::core

@@ -1,0 +1,37 @@
+// Nodes in groups of as many as the widest registers have lanes, those with as many sides of contacts together; the
+// sides of a group lie in rows, one of each node in a row.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace grainlaw::core {
+
+class SideSlots {
+ public:
+  static constexpr std::size_t lanes = 8;
+  struct Rows {
+    std::uint32_t first, count;
+  };
+
+  // Of the particles of contacts i[c], j[c], each a node of its own; in this order where it is not empty.
+  void sort(std::span<const std::int32_t> i, std::span<const std::int32_t> j, std::size_t particles,
+            std::span<const std::int32_t> order);
+  // The row of the next side of a particle, of each of its sides once after sort().
+  [[nodiscard]] std::size_t next_row(std::size_t particle) {
+    return rows_[slot_[particle] / lanes].first + count_[particle]++;
+  }
+
+  [[nodiscard]] std::span<const Rows> groups() const { return rows_; }
+  [[nodiscard]] std::size_t row_count() const { return rows_.back().first + rows_.back().count; }
+  // Lane of a group, lanes x group + lane.
+  [[nodiscard]] std::uint32_t slot(std::size_t particle) const { return slot_[particle]; }
+
+ private:
+  std::vector<Rows> rows_;
+  std::vector<std::uint32_t> count_, first_slot_, slot_;
+};
+
+}  // namespace grainlaw::core

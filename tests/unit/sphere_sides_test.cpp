@@ -1,0 +1,174 @@
+// Contacts of spheres seen from their nodes: the forces of the law at a place and around it, and steps that they drive.
+#include "contact/contact_sides.hpp"
+#include "increment/increment.hpp"
+#include "sphere_support.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace grainlaw::core::sphere_test {
+namespace {
+
+constexpr double gain = 1e-3;
+constexpr std::size_t components = ContactSides<3>::size;
+
+MaterialDescription rough() { return describe(); }
+
+// An increment at its affine start, turned a little, seen from there.
+struct Scene {
+  explicit Scene(const MaterialDescription& description, double viscous_time = 0)
+      : material(make_material<3>(description)), problem(material->problem()) {
+    increment.begin(problem, material->initial, {1.0004, 2e-4, 0, 0, 1.0002, 1e-4, 0, 0, 0.999});
+    for (std::size_t p = 0; description.law.rotation && p < problem.particles(); ++p) {
+      for (std::size_t k = 3; k < components; ++k) {
+        increment.motion().coordinate(k, p) = 1e-4 * std::sin(static_cast<double>(7 * k + p));
+      }
+    }
+    increment.refresh_masses();
+    if (viscous_time > 0) {
+      DragStart<3> how;
+      how.rate = 1 / viscous_time;
+      increment.begin_drag(how, {}, true);
+    }
+    contacts = increment.contacts();
+    arrange(true);
+    totals = look();
+  }
+
+  void arrange(bool at_rest) {
+    sides.arrange(contacts, material->packing, increment.masses().least(), at_rest);
+  }
+
+  ContactTotals look() {
+    const auto seen = sides.look(records(), material->law, tuned::mass_factor, contacts);
+    const auto& drag = increment.motion().drag();
+    if (drag.acts()) sides.hold(records(), drag.of_nodes(), tuned::mass_factor);
+    return seen;
+  }
+
+  [[nodiscard]] std::span<ParticleRecord<3>> records() { return increment.motion().records(); }
+  [[nodiscard]] std::vector<ParticleRecord<3>> places() {
+    return {records().begin(), records().end()};
+  }
+
+  // Residual by the law where the records are.
+  [[nodiscard]] std::vector<ForceRecord<3>> residual() {
+    std::vector<ForceRecord<3>> result(problem.nodes());
+    evaluate_contacts<3>(records(), material->law, contacts, result);
+    if (increment.motion().drag().acts()) {
+      increment.motion().drag().subtract_from(result, records());
+    }
+    return result;
+  }
+
+  // The same by a step from rest, which moves particles by gain r / m.
+  [[nodiscard]] std::vector<ForceRecord<3>> step() {
+    increment.sum_masses();
+    auto before = places();
+    sides.move(before);
+    measured = sides.step(material->law, 0, gain);
+    auto after = places();
+    sides.move(after);
+    std::vector<ForceRecord<3>> result(problem.nodes());
+    for (std::size_t p = 0; p < result.size(); ++p) {
+      for (std::size_t c = 0; c < components; ++c) {
+        (&result[p].x)[c] =
+            ((&after[p].x)[c] - (&before[p].x)[c]) * (&increment.masses().records()[p].x)[c] / gain;
+      }
+    }
+    return result;
+  }
+
+  std::shared_ptr<const Material<3>> material;
+  Problem<3> problem;
+  Increment<3> increment;
+  ContactList<3> contacts;
+  ContactSides<3> sides;
+  ContactTotals totals{};
+  ContactSides<3>::Measured measured{};
+};
+
+double largest_difference(const std::vector<ForceRecord<3>>& a,
+                          const std::vector<ForceRecord<3>>& b) {
+  double result = 0;
+  for (std::size_t p = 0; p < a.size(); ++p) {
+    for (std::size_t c = 0; c < components; ++c) {
+      result = std::max(result, std::abs((&a[p].x)[c] - (&b[p].x)[c]));
+    }
+  }
+  return result;
+}
+
+TEST(sphere_sides, carry_the_forces_of_the_law_at_their_place) {
+  for (const auto& description : {rough(), locked(rough())}) {
+    for (const double viscous_time : {0.0, 30.0}) {
+      Scene scene(description, viscous_time);
+      const auto expected = scene.residual();
+      const double force = scene.totals.force / scene.totals.weights;
+      EXPECT_LE(largest_difference(scene.step(), expected), 1e-7 * force);
+      double largest = 0;
+      for (const auto& r : expected) {
+        for (std::size_t c = 0; c < components; ++c)
+          largest = std::max(largest, std::abs((&r.x)[c]));
+      }
+      EXPECT_NEAR(scene.measured.largest, largest, 1e-10 * force);
+      EXPECT_EQ(scene.totals.touching, scene.increment.scale().touching());
+      EXPECT_NEAR(force, scene.increment.scale().mean_force(), 1e-12 * force);
+    }
+  }
+}
+
+// The normals stay: of a change that is about kn u, overlap / branch kn u is of it.
+TEST(sphere_sides, follow_the_law_to_first_order_of_the_moves) {
+  for (const auto& description : {rough(), locked(rough())}) {
+    Scene scene(description);
+    const auto at_place = scene.step();
+    auto there = scene.places();
+    scene.sides.move(there);
+    const auto changed = scene.step();
+    std::copy(there.begin(), there.end(), scene.records().begin());
+    const double change = largest_difference(changed, at_place);
+    EXPECT_GT(change, 0);
+    EXPECT_LE(largest_difference(changed, scene.residual()), 1e-2 * change);
+  }
+}
+
+TEST(sphere_sides, give_every_particle_its_force_in_whatever_order_they_lie) {
+  Scene scene(rough());
+  const auto expected = scene.step();
+  Packing reversed = scene.material->packing;
+  reversed.order.clear();
+  for (std::size_t p = reversed.size(); p > 0; --p) {
+    reversed.order.push_back(static_cast<std::int32_t>(p - 1));
+  }
+  scene.sides.arrange(scene.contacts, reversed, scene.increment.masses().least(), true);
+  scene.look();
+  EXPECT_EQ(largest_difference(scene.step(), expected), 0);
+}
+
+TEST(sphere_sides, keep_their_velocities_in_a_new_list) {
+  const auto moved = [](bool anew) {
+    Scene scene(rough());
+    const auto& law = scene.material->law;
+    for (int k = 0; k < 5; ++k) scene.sides.step(law, 0.9, gain);
+    scene.sides.move(scene.records());
+    if (anew) scene.arrange(false);
+    scene.look();
+    scene.sides.step(law, 0.9, gain);
+    scene.sides.move(scene.records());
+    std::vector<std::array<double, components>> places;
+    for (const auto& at : scene.records()) {
+      auto& place = places.emplace_back();
+      std::copy_n(&at.x, components, place.begin());
+    }
+    return places;
+  };
+  EXPECT_EQ(moved(true), moved(false));
+}
+
+}  // namespace
+}  // namespace grainlaw::core::sphere_test
