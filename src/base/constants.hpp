@@ -161,6 +161,10 @@ GRAINLAW_TUNED(double, share_of_tolerance, 0.1);
 GRAINLAW_TUNED(double, usable_step, 0.1);
 // What is left of the derivatives of an equilibrium, soft modes of which are off by more [-]; error.
 GRAINLAW_TUNED(double, derivative_residual, 1e-9);
+// Where the equilibrium itself is found to a coarse tolerance, this share of that, up to the second: often no method
+// gets further there, and factors cost more than what is left is worth [-]; error.
+GRAINLAW_TUNED(double, derivative_share, 1e-3);
+GRAINLAW_TUNED(double, loose_derivative_residual, 1e-6);
 // Of a method before another goes on, several times what it usually takes [products]; timed.
 GRAINLAW_TUNED(int, most_products, 400);
 

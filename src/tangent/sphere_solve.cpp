@@ -33,7 +33,8 @@ bool Stiffness<3>::solve_step(Increment<3>& increment, std::span<const double> b
 template <>
 bool Stiffness<3>::iterate_together(Increment<3>& increment, std::span<const Together<width>> b,
                                     std::span<Together<width>> x) {
-  constexpr double enough = tuned::derivative_residual;
+  const double enough = std::clamp(tuned::derivative_share * increment.problem().tolerance,
+                                   tuned::derivative_residual, tuned::loose_derivative_residual);
   prepare_iteration(increment);
   const double floor = increment.scale().rounding() / enough;
   return iterative_.solve<Together<width>>(matrix_, b, x, {enough, floor, most_products_}) <=
