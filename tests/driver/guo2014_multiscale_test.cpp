@@ -38,8 +38,8 @@ TEST(guo2014_multiscale, every_scene_reads) {
 }
 
 TEST(guo2014_multiscale, meshes_of_one_test_are_loaded_alike) {
-  for (const char* name :
-       {"biaxial_6x10", "biaxial_6x10_fbar", "biaxial_10x15", "biaxial_12x20", "biaxial_6x10_q8"}) {
+  for (const char* name : {"biaxial_6x10", "biaxial_6x10_fbar", "biaxial_10x15", "biaxial_12x20",
+                           "biaxial_12x20_fbar", "biaxial_6x10_q8"}) {
     const FiniteElementScene mesh = scene(name);
     const FiniteElementScene small = scene("biaxial_2x4");
     EXPECT_EQ(mesh.steps, small.steps) << name;

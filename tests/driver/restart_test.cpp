@@ -81,6 +81,13 @@ TEST_F(restart, ends_in_the_bytes_of_an_uninterrupted_run) {
   expect_same_files_in_pieces();
 }
 
+TEST_F(restart, that_guesses_the_last_move_ends_in_the_same_bytes) {
+  std::string guessing = specimen + compression;
+  guessing.insert(guessing.find("[newton]\n") + 9, "first_guess = \"last_move\"\n");
+  write_scene(guessing);
+  expect_same_files_in_pieces();
+}
+
 TEST_F(restart, of_a_dynamic_run_ends_in_the_same_bytes) {
   write_scene("solver = \"dynamics\"\n" + specimen +
               "[dynamics]\ndensity = 2000\nduration = 1e-3\n" + narrow_mesh + held_bottom + R"(

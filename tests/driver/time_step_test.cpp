@@ -1,5 +1,6 @@
 // What solvers tell their points of time: a part of a load step is the shorter for it, so that its drag
-// does not depend on how the step is cut.
+// does not depend on how the step is cut; and that what has drag goes on as it went.
+#include "fe/solver/last_move.hpp"
 #include "fe/solver/newton.hpp"
 #include "fe/solver/relaxation.hpp"
 #include "point/driver.hpp"
@@ -76,6 +77,39 @@ TEST(time_step, a_path_that_is_cut_has_the_drag_of_its_time) {
   };
   const double whole = axial(1, 2, 20, 0);
   EXPECT_NEAR(axial(1, 2, 2, 1), whole, 2e-3 * std::abs(whole));
+}
+
+// Past the peak, in quarters of a path that goes on and then turns back.
+TEST(last_move, saves_iterations_and_leads_to_the_same_forces) {
+  Model model = specimen(0.03);
+  model.displacements.back().program = {{{0, 0}, {0.9, -3e-3}, {1, -2.9e-3}}, {}};
+  const Material material = with_drag(1);
+  const auto follow = [&](bool last_move_first) {
+    const auto solver = make_newton_solver(
+        model, material, {.tolerance = 1e-8, .last_move_first = last_move_first}, 1);
+    solver->set_load_step(1.0 / 30);
+    std::pair<int, double> found{0, 0};
+    for (int step = 1; step <= 30; ++step) {
+      const LoadStep at = solver->advance(step / 30.0, step);
+      found.first += at.record.effort.iterations;
+      found.second = at.reactions.back();
+    }
+    return found;
+  };
+  const auto [tangent, force] = follow(false);
+  const auto [last_move, same_force] = follow(true);
+  EXPECT_LT(last_move, tangent);
+  EXPECT_NEAR(same_force, force, 1e-4 * std::abs(force));
+}
+
+TEST(last_move, is_no_guess_where_what_is_prescribed_goes_another_way) {
+  LastMove move;
+  const Eigen::Vector2d moved(3, 4), down(1, 0), aside(0, 1);
+  EXPECT_EQ(move.once_more(down).size(), 0);
+  move.keep(moved, down);
+  EXPECT_EQ(move.once_more(0.5 * down), 0.5 * moved);
+  for (const Eigen::Vector2d& other : {aside, Eigen::Vector2d(-down), Eigen::Vector2d(4 * down)})
+    EXPECT_EQ(move.once_more(other).size(), 0);
 }
 
 }  // namespace

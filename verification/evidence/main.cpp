@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   add_servo_study(app, options);
   add_ensemble_study(app, options);
   add_drag_study(app, options);
+  add_energy_study(app, options);
   add_timing_study(app, options);
   add_spheres_study(app, options);
   add_reach_study(app, options);

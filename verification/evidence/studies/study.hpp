@@ -62,6 +62,7 @@ void add_objectivity_study(CLI::App& study, const std::shared_ptr<StudyOptions>&
 void add_servo_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_ensemble_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_drag_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
+void add_energy_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_timing_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_spheres_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_reach_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);

@@ -3,6 +3,7 @@
 #include "fe/conditions/dofs.hpp"
 #include "fe/solver/elastic_share.hpp"
 #include "fe/solver/forces.hpp"
+#include "fe/solver/last_move.hpp"
 #include "fe/solver/linear_system.hpp"
 
 #include <fmt/format.h>
@@ -80,12 +81,14 @@ class NewtonSolver final : public Solver {
     out.write(time_);
     out.write(displacement_);
     points_.save(out);
+    if (options_.last_move_first) last_move_.save(out);
   }
 
   void restore(CheckpointReader& in) override {
     in.read(time_);
     in.read(displacement_);
     points_.restore(in);
+    if (options_.last_move_first) last_move_.restore(in);
     system_ = assemble(model_, points_, displacement_, time_);
   }
 
@@ -93,9 +96,10 @@ class NewtonSolver final : public Solver {
   [[nodiscard]] const Eigen::VectorXd& displacement() const override { return displacement_; }
 
  private:
-  // Increments of prescribed displacement enter through the right-hand side of the first solve,
-  // which extrapolates the committed equilibrium by its tangent; boundary values never jump ahead
-  // alone. What a bounded correction leaves of them is made in the next.
+  // Without a last move to go on with, increments of prescribed displacement enter through the
+  // right-hand side of the first solve, which extrapolates the committed equilibrium by its tangent;
+  // boundary values never jump ahead alone. What a bounded correction leaves of them is made in the
+  // next.
   Attempt equilibrate(double time, double tolerance, std::vector<double>& residuals) {
     Eigen::VectorXd displacement = displacement_;
     System system = system_;
@@ -104,21 +108,25 @@ class NewtonSolver final : public Solver {
     Eigen::VectorXd prescribed = target - dofs_.prescribed_at(time_);
     add_load_increment(system, time);
     residuals.push_back(error(system, prescribed));
+    const Eigen::VectorXd again =
+        options_.last_move_first ? last_move_.once_more(prescribed) : Eigen::VectorXd();
     double best = std::numeric_limits<double>::infinity();
     int best_iteration = 0;
     bool stalled = false;
     ElasticShare share(options_.elastic_share);
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
+      const bool follows = iteration == 0 && again.size() > 0;
       Eigen::VectorXd correction;
       {
         const auto measure = points_.cost().measure(Stage::linear_solve);
-        correction = share.value() == 0
+        correction = follows ? again
+                     : share.value() == 0
                          ? solve(system.stiffness, system.residual, dofs_, prescribed)
                          : solve(system.stiffness + share.value() * elastic_, system.residual,
                                  dofs_, prescribed);
       }
       if (!correction.allFinite()) return {.reason = "the stiffness is singular"};
-      const double factor = bound(correction);
+      const double factor = follows ? 1 : bound(correction);
       correction *= factor;
       prescribed *= 1 - factor;
       const int halvings = iteration == 0 ? 0 : options_.line_search;
@@ -146,6 +154,7 @@ class NewtonSolver final : public Solver {
                 options_.tangent == GRAINLAW_WANT_TANGENT_EXACT;
       const bool converged = loaded && residual <= tolerance;
       if (converged || (near && (slow || stalled || made == options_.max_iterations))) {
+        last_move_.keep(displacement - displacement_, target - dofs_.prescribed_at(time_));
         displacement_ = displacement;
         system_ = system;
         time_ = time;
@@ -251,8 +260,9 @@ class NewtonSolver final : public Solver {
   Eigen::SparseMatrix<double> elastic_;  // stiffness at F = I
   System system_;                        // at the committed displacement and load
   double time_ = 0;                      // committed
-  Eigen::VectorXd far_displacement_;     // what the last attempt saw furthest from there
-  double far_ = -1;                      // how far [N/m]; -1: nothing
+  LastMove last_move_;
+  Eigen::VectorXd far_displacement_;  // what the last attempt saw furthest from there
+  double far_ = -1;                   // how far [N/m]; -1: nothing
 };
 
 }  // namespace

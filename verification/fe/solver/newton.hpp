@@ -38,6 +38,9 @@ struct NewtonOptions {
   // there. What it gets to is the edge of a jump as often as an equilibrium: for runs that have a
   // jump_tolerance. 0: none [-].
   double elastic_share = 0;
+  // The first guess is the last move once more (last_move.hpp), where what is prescribed goes on the
+  // same way; else what the committed tangent predicts. It is not shortened.
+  bool last_move_first = false;
 };
 
 // Throws InputError for contradictory conditions, ComputationError when F = I cannot be evaluated.

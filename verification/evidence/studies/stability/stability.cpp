@@ -104,7 +104,7 @@ Row row_of(const Case& one, const Walk& walk) {
           1e3 * walk.cpu / done,
           walk.worst_residual,
           per_work(walk, walk.released),
-          per_work(walk, walk.work - walk.stored - walk.dissipated - walk.released),
+          per_work(walk, walk.work - walk.stored - walk.dissipated - walk.dragged - walk.released),
           per_work(walk, walk.least_dissipation),
           check ? Table::Cell(check->error) : Table::Cell(""),
           check ? check->against : "",
@@ -175,7 +175,8 @@ void write_tables(const std::vector<Row>& rows, const std::filesystem::path& out
       "stability: every case converges or ends in a defined way. Checked in every evaluation: P, "
       "tangent and measures are finite; after a failure the state has its bytes. Steps and "
       "factorisations per evaluation, CPU per increment; energy over the absolute work: set free "
-      "in jumps between equilibria, and what then remains of work - stored - dissipated - released",
+      "in jumps between equilibria, and what then remains of work - stored - dissipated - by drag "
+      "- released",
       printed);
   for (const Row& row : rows) {
     Row written, narrow;
@@ -208,14 +209,16 @@ void summarise(const std::vector<Row>& rows) {
         fmt::format("stability: {} of {} cases are undefined", wrong, rows.size()));
 }
 
-void run_study(const StudyOptions& options, const std::string& only) {
+void run_study(const StudyOptions& options, const std::string& only, double viscous_time) {
   const std::filesystem::path directory =
       std::filesystem::path(options.output) / "stability_packings";
   std::filesystem::remove_all(directory);
-  const PackingStore store(directory);
+  const PackingStore store(directory, viscous_time);
+  MaterialSource yade = options.material(1e-6);
+  if (viscous_time > 0) change(yade, "solver", "viscous_time", viscous_time);
   Cases cases;
   add_contact_cases(store, cases);
-  add_path_cases(store, options.material(1e-6), cases);
+  add_path_cases(store, yade, cases);
   add_exact_cases(store, cases);
   std::vector<Row> rows;
   Progress progress("stability");
@@ -233,9 +236,11 @@ void run_study(const StudyOptions& options, const std::string& only) {
 
 void add_stability_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options) {
   auto only = std::make_shared<std::string>();
+  auto viscous_time = std::make_shared<double>(0);
   CLI::App* command = study.add_subcommand("stability", "extreme cases and how they end");
   command->add_option("--only", *only, "cases whose \"case: setting\" begins like this");
-  command->callback([only, options] { run_study(*options, *only); });
+  command->add_option("--viscous-time", *viscous_time, "solver.viscous_time; 0: equilibria [-]");
+  command->callback([only, viscous_time, options] { run_study(*options, *only, *viscous_time); });
 }
 
 }  // namespace verification

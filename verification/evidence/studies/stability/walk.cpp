@@ -190,7 +190,8 @@ class Host {
     const double stored = measure_scalar(state_.get(), GRAINLAW_ELASTIC_ENERGY);
     const double dissipated = measure_scalar(state_.get(), GRAINLAW_DISSIPATED_ENERGY);
     const double increment = dissipated - dissipated_;
-    left_over_.push_back(work - (stored - stored_) - increment);
+    walk_.dragged += found.report.viscous_work;
+    left_over_.push_back(work - (stored - stored_) - increment - found.report.viscous_work);
     stored_ = stored;
     walk_.least_dissipation = std::min(walk_.least_dissipation, increment);
     if (increment < -dissipation_rounding * (walk_.total_work + stored_))
