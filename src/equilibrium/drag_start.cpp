@@ -5,13 +5,6 @@
 #include <algorithm>
 
 namespace grainlaw::core {
-namespace {
-
-// An increment of less strain has no direction to go on in: fluctuations of one that only takes time, as
-// where a host holds a body, would else be expected to follow any next one, however it deforms.
-constexpr double least_strain = 1e-9;
-
-}  // namespace
 
 template <int D>
 DragStart<D> drag_start(const Request<D>& request, int k, int parts) {
@@ -38,7 +31,7 @@ DragStart<D> drag_start(const Request<D>& request, int k, int parts) {
     along += how.stretch[i] * last[i];
     square += last[i] * last[i];
   }
-  if (!(square > least_strain * least_strain)) return how;
+  if (!(square > tuned::least_followed_strain * tuned::least_followed_strain)) return how;
   const double ratio = along / square;
   how.follow = inertia * std::clamp(ratio, 0.0, tuned::largest_follow);
   if (ratio < 0 || ratio >= tuned::largest_follow) return how;

@@ -182,6 +182,10 @@ bool solve_parts(const Request<D>& request, int parts, Workspace<D>& w, Outcome&
   for (int k = 1; k <= parts; ++k) {
     const double share = static_cast<double>(k) / parts;
     if (k == 1) {
+      if (has_drag(request)) {
+        increment.begin(*request.problem, *request.from, request.from->deformation);
+        increment.find_first_drag();
+      }
       start_iteration(request, share, increment);
     } else {
       increment.deform(between<D>(request.from->deformation, request.deformation, share));

@@ -126,6 +126,21 @@ double Drag<D>::largest(std::span<const Place> particles) const {
 }
 
 template <int D>
+void Drag<D>::go_on_from(std::span<const ForceRecord<D>> forces) {
+  resize_with_room(before_, forces.size());
+  std::copy(forces.begin(), forces.end(), before_.begin());
+}
+
+template <int D>
+void Drag<D>::go_on_from(std::span<const Place> particles) {
+  for (std::size_t q = 0; q < expected_.size(); ++q) {
+    const auto distance =
+        load<D>(particles[static_cast<std::size_t>(particle_[q])]) - load<D>(expected_[q]);
+    simd::store(&before_[q].x, load<D>(stiffness_[q]) * distance);
+  }
+}
+
+template <int D>
 double Drag<D>::work(std::span<const Place> particles, std::span<const double> affine) const {
   const std::size_t n = particles.size();
   const std::size_t components = affine.size() / n;
@@ -136,7 +151,8 @@ double Drag<D>::work(std::span<const Place> particles, std::span<const double> a
     for (std::size_t k = 0; k < components; ++k) {
       const double length = k < D ? 1 : particles[p].radius;
       const double moved = (&particles[p].x)[k] - length * affine[k * n + p];
-      sum += (&stiffness_[q].x)[k] * (&distance.x)[k] * moved;
+      const double drag = (&stiffness_[q].x)[k] * (&distance.x)[k];
+      sum += 0.5 * ((&before_[q].x)[k] + drag) * moved;
     }
   }
   return sum;

@@ -56,9 +56,16 @@ class Drag {
     return acts() ? NodeDrag<D>{expected_, stiffness_} : NodeDrag<D>{};
   }
 
+  // Forces of the contacts on the nodes where the next part begins: the drag of the part before it.
+  void go_on_from(std::span<const ForceRecord<D>> forces);
+  // The same where this part ended.
+  void go_on_from(std::span<const Place> particles);
+
   // The largest drag on a node [N].
   [[nodiscard]] double largest(std::span<const Place> particles) const;
-  // What it takes from where the node would be without a fluctuation, `affine`, on [J].
+  // What it takes from where the node would be without a fluctuation, `affine`, on: by the mean of the
+  // drag it begins and ends with, as stored energy is that of springs, while only the end would be an
+  // implicit step's own [J].
   [[nodiscard]] double work(std::span<const Place> particles, std::span<const double> affine) const;
 
   // Of a node: stiffness [N/m], distance from what was expected and the move that is expected again,
@@ -78,6 +85,7 @@ class Drag {
   std::vector<std::int32_t> particle_;  // one of each node
   std::vector<Place> expected_, move_;
   std::vector<MassRecord<D>> stiffness_;
+  std::vector<ForceRecord<D>> before_;  // the drag it begins with
 };
 
 }  // namespace grainlaw::core

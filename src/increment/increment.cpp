@@ -132,6 +132,13 @@ void Increment<D>::find_forces(History history) {
 }
 
 template <int D>
+void Increment<D>::find_first_drag() {
+  motion_.load_records();
+  sum_forces(forces_);
+  motion_.find_first_drag(std::span(forces_).first(problem_->nodes()));
+}
+
+template <int D>
 void Increment<D>::find_contact_forces() {
   core::find_contact_forces<D>(motion_.records(), *problem_->law, contacts_);
 }

@@ -83,7 +83,8 @@ class Increment {
   // Whether a contact that carries, or the boundary, holds a node: fixed_bit() of each direction.
   void find_held(std::vector<unsigned char>& held) const;
 
-  // As the motion's, with its losses.
+  // As the motion's, with its losses; before the first part of an increment, where that begins.
+  void find_first_drag();
   void begin_drag(const DragStart<D>& how, std::span<const double> last_move, bool as_expected) {
     motion_.begin_drag(how, masses_.least(), last_move, as_expected);
   }

@@ -249,7 +249,9 @@ double Motion<D>::end_drag(std::vector<double>& move) {
   load_records();
   resize_with_room(move, coordinates_.size());
   for (std::size_t k = 0; k < move.size(); ++k) move[k] = coordinates_[k] - affine_[k];
-  return drag_.work(records_, affine_);
+  const double work = drag_.work(records_, affine_);
+  drag_.go_on_from(records_);
+  return work;
 }
 
 template <int D>

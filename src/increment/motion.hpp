@@ -46,6 +46,8 @@ class Motion {
   // Spheres count their rotations from here.
   void restart_turns();
 
+  // Forces of the contacts on the nodes where the increment begins, which drag held there.
+  void find_first_drag(std::span<const ForceRecord<D>> forces) { drag_.go_on_from(forces); }
   // From the start of the history to the present F fluctuations meet a drag, after a part in which they
   // moved by `last_move` (coordinates; empty: not at all); `contact_stiffness` is one contact's, by nodes.
   // Where `as_expected`, particles go where the drag expects them.
