@@ -79,27 +79,23 @@ TEST(time_step, a_path_that_is_cut_has_the_drag_of_its_time) {
   EXPECT_NEAR(axial(1, 2, 2, 1), whole, 2e-3 * std::abs(whole));
 }
 
-// Past the peak, in quarters of a path that goes on and then turns back.
-TEST(last_move, saves_iterations_and_leads_to_the_same_forces) {
+// Past the peak and back: fewer iterations are of meshes, the forces are those of any guess.
+TEST(last_move, leads_to_the_forces_of_another_guess) {
   Model model = specimen(0.03);
-  model.displacements.back().program = {{{0, 0}, {0.9, -3e-3}, {1, -2.9e-3}}, {}};
+  model.displacements.back().value = {{{0, 0}, {0.9, -3e-3}, {1, -2.9e-3}}, {}};
   const Material material = with_drag(1);
-  const auto follow = [&](bool last_move_first) {
+  const auto forces = [&](bool last_move_first) {
     const auto solver = make_newton_solver(
         model, material, {.tolerance = 1e-8, .last_move_first = last_move_first}, 1);
     solver->set_load_step(1.0 / 30);
-    std::pair<int, double> found{0, 0};
-    for (int step = 1; step <= 30; ++step) {
-      const LoadStep at = solver->advance(step / 30.0, step);
-      found.first += at.record.effort.iterations;
-      found.second = at.reactions.back();
-    }
+    std::vector<double> found;
+    for (int step = 1; step <= 30; ++step)
+      found.push_back(solver->advance(step / 30.0, step).reactions.back());
     return found;
   };
-  const auto [tangent, force] = follow(false);
-  const auto [last_move, same_force] = follow(true);
-  EXPECT_LT(last_move, tangent);
-  EXPECT_NEAR(same_force, force, 1e-4 * std::abs(force));
+  const std::vector<double> tangent = forces(false), last_move = forces(true);
+  for (std::size_t k = 0; k < tangent.size(); ++k)
+    EXPECT_NEAR(last_move[k], tangent[k], 1e-4 * std::abs(tangent.front())) << k;
 }
 
 TEST(last_move, is_no_guess_where_what_is_prescribed_goes_another_way) {
