@@ -1,13 +1,7 @@
 // A table of a TOML file in which every key is checked, and none is overlooked.
 #pragma once
 
-// toml++ assumes things of a text before it has looked, and then either aborts or, without assertions,
-// lets the compiler rely on them: "[.a" is enough. Wrong texts are its errors, nothing else.
-#pragma push_macro("NDEBUG")
-#undef NDEBUG
-#define TOML_ASSERT(condition) static_cast<void>(0)
-#include <toml++/toml.h>
-#pragma pop_macro("NDEBUG")
+#include "io/toml.hpp"
 
 #include <array>
 #include <functional>
