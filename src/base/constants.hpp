@@ -174,7 +174,7 @@ GRAINLAW_TUNED(int, most_products, 400);
 GRAINLAW_TUNED(double, largest_follow, 3);
 // An increment of less strain has no direction to go on in: fluctuations of one that only takes time, as
 // where a host holds a body, would else be expected to follow any next one, however it deforms [-];
-// post-peak design, and verification/README.md (Without jumps) for the values from 1e-7 to 1e-11.
+// post-peak design; chosen, and verification/README.md (Without jumps) says between what.
 GRAINLAW_TUNED(double, least_followed_strain, 1e-9);
 // Relaxation with drag hands over to Newton at this residual, of spheres not at all [-]; post-peak design.
 GRAINLAW_TUNED(double, drag_hand_over, 1e-3);
