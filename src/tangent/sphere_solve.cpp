@@ -33,8 +33,11 @@ bool Stiffness<3>::solve_step(Increment<3>& increment, std::span<const double> b
 template <>
 bool Stiffness<3>::iterate_together(Increment<3>& increment, std::span<const Together<width>> b,
                                     std::span<Together<width>> x) {
-  const double enough = std::clamp(tuned::derivative_share * increment.problem().tolerance,
-                                   tuned::derivative_residual, tuned::loose_derivative_residual);
+  const double tolerance = increment.problem().tolerance;
+  // Soft modes magnify what is left: who asks for a closer equilibrium gets closer derivatives.
+  const double fine = std::min(tuned::derivative_residual, tuned::share_of_tolerance * tolerance);
+  const double enough =
+      std::clamp(tuned::derivative_share * tolerance, fine, tuned::loose_derivative_residual);
   prepare_iteration(increment);
   const double floor = increment.scale().rounding() / enough;
   return iterative_.solve<Together<width>>(matrix_, b, x, {enough, floor, most_products_}) <=
