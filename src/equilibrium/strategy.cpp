@@ -41,7 +41,7 @@ double hardness(const Request<D>& request) {
 template <int D>
 int least_parts(const Request<D>& request) {
   const double asked = std::ceil(hardness(request) / request.options->increment_limit);
-  return std::max(1, static_cast<int>(std::min<double>(asked, tuned::most_subincrements)));
+  return asked >= 1 ? static_cast<int>(std::min<double>(asked, tuned::most_subincrements)) : 1;
 }
 
 struct Stage {
