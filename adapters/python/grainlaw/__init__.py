@@ -23,7 +23,7 @@ the dynamic loader finds.
     grainlaw.files      files that are the old one or the whole new one
 """
 from . import files, steps, tests
-from .library import Error, status_text, version
+from .abi import Error, status_text, version
 from .material import Material
 from .names import Measure, Status, Tangent
 from .points import Evaluation, State, States

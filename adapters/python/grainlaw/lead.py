@@ -10,7 +10,7 @@ import numpy as np
 
 from .control import Condition, Segment, cauchy, controlled, follow_volume, with_volume
 from .interrupt import Interrupts
-from .library import status_text
+from .abi import status_text
 from .names import Measure, Status, Tangent
 from .points import Array, Evaluation, State
 

@@ -8,7 +8,7 @@ import tomllib
 from collections.abc import Callable
 from typing import Any
 
-from .library import Handle, c_text, check, library
+from .abi import Handle, c_text, check, library
 
 AnyPath = str | os.PathLike[str]
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .library import check
+from .abi import check
 from .names import Contact, Particle
 
 Records = npt.NDArray[np.void]   # a structured array

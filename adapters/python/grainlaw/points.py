@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import plots
-from .library import Error, Handle, c_text, check, library, status_text
+from .abi import Error, Handle, c_text, check, library, status_text
 from .material import AnyPath, Material
 from .names import Contact, Particle, Report, Status, Summary
 from .particles import Records, records

@@ -7,7 +7,7 @@ import unittest
 
 import grainlaw
 from grainlaw import names
-from grainlaw.library import library, status_text
+from grainlaw.abi import library, status_text
 from support import material
 
 

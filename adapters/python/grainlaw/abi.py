@@ -1,4 +1,4 @@
-"""The shared library: where it is, its functions, its handles and errors."""
+"""The C ABI: where the shared library is, its functions, its handles and errors."""
 from __future__ import annotations
 
 import ctypes
