@@ -27,8 +27,6 @@ class ContactSides;
 template <>
 class ContactSides<2> {
  public:
-  static constexpr bool available = true;
-
   // Lists the sides of the contacts, which have no weights. least_masses: kn in x [N/m], kt in roll,
   // and 1 / R. Particles are at rest, or keep the velocities they had in the last list.
   void arrange(const ContactList<2>& list, const Packing& packing,

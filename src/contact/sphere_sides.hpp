@@ -13,8 +13,6 @@ namespace grainlaw::core {
 template <>
 class ContactSides<3> {
  public:
-  static constexpr bool available = true;
-
   // As of discs. least_masses: kn [N/m], of spins, and 1 / R.
   void arrange(const ContactList<3>& list, const Packing& packing,
                std::span<const LeastMass<3>> least_masses, bool at_rest);

@@ -34,7 +34,7 @@ Relaxation<D>::Relaxation(Increment<D>& increment, History history, RelaxationMe
       memory_(memory) {
   const auto& law = *problem_.law;
   const bool by_places = history == History::committed && problem_.space->identity;
-  by_sides_ = ContactSides<D>::available && by_places && law.plain() && law.tangential();
+  by_sides_ = by_places && law.plain() && law.tangential();
   at_once_ = by_places && law.plain() && !by_sides_;
   // Without friction nothing flutters, and the damping is that of the softest mode.
   rough_ = by_places && law.tangential();
@@ -54,17 +54,15 @@ template <int D>
 void Relaxation<D>::refresh() {
   if (history_ == History::advancing) increment_.advance_history();
   const bool relisted = increment_.keep_neighbours();
-  if constexpr (ContactSides<D>::available) {
-    if (by_sides_) {
-      if (relisted || !arranged_) {
-        memory_.sides.arrange(increment_.contacts(), *problem_.packing, increment_.masses().least(),
-                              at_rest_);
-        arranged_ = true;
-        at_rest_ = false;
-      }
-      calm_start_ = calm_max_ = residual_;
-      return increment_.look(memory_.sides);
+  if (by_sides_) {
+    if (relisted || !arranged_) {
+      memory_.sides.arrange(increment_.contacts(), *problem_.packing, increment_.masses().least(),
+                            at_rest_);
+      arranged_ = true;
+      at_rest_ = false;
     }
+    calm_start_ = calm_max_ = residual_;
+    return increment_.look(memory_.sides);
   }
   increment_.sum_masses();
   find_gains(&increment_.masses().records()[0].x, memory_.gain.data(), memory_.gain.size());
@@ -177,9 +175,7 @@ void Relaxation<D>::step() {
 
 template <int D>
 auto Relaxation<D>::one_step(double keep, double gain) -> Measured {
-  if constexpr (ContactSides<D>::available) {
-    if (by_sides_) return memory_.sides.step(*problem_.law, keep, gain);
-  }
+  if (by_sides_) return memory_.sides.step(*problem_.law, keep, gain);
   return step_nodes(keep, gain);
 }
 
@@ -226,9 +222,7 @@ bool Relaxation<D>::run(double tolerance, long steps, double least_force) {
                        (increment_.scale().mean_force() < least_force || flutters()));
     const bool over = residual_ < tolerance || stop;
     if (over || (steps_ % tuned::mass_interval == 0 && !calm())) {
-      if constexpr (ContactSides<D>::available) {
-        if (by_sides_) memory_.sides.move(motion_.records());
-      }
+      if (by_sides_) memory_.sides.move(motion_.records());
       motion_.store_records();
       refresh();
       if (extrapolates_ && !over && extrapolate()) refresh();

@@ -74,11 +74,9 @@ void Increment<D>::sum_masses() {
 
 template <int D>
 void Increment<D>::look(ContactSides<D>& sides) {
-  if constexpr (ContactSides<D>::available) {
-    scale_.take(sides.look(motion_.records(), *problem_->law, tuned::mass_factor, contacts_));
-    if (motion_.drag().acts()) {
-      sides.hold(motion_.records(), motion_.drag().of_nodes(), tuned::mass_factor);
-    }
+  scale_.take(sides.look(motion_.records(), *problem_->law, tuned::mass_factor, contacts_));
+  if (motion_.drag().acts()) {
+    sides.hold(motion_.records(), motion_.drag().of_nodes(), tuned::mass_factor);
   }
 }
 
