@@ -1,5 +1,5 @@
-// Nodes in groups of as many as the widest registers have lanes, those with as many sides of contacts together; the
-// sides of a group lie in rows, one of each node in a row.
+// Nodes in groups, one node for each lane of the widest registers; nodes with equally many contacts are
+// put together. The sides of a group's contacts lie in rows: a row has one side of every node.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// As of discs, of spheres: their contacts from both sides, and forces as functions of how far the nodes moved.
+// What disc_sides.hpp is for discs, for spheres: contacts from both sides, and their forces as functions
+// of how far the nodes moved.
 #pragma once
 
 #include "contact/disc_sides.hpp"

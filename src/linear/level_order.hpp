@@ -10,7 +10,8 @@
 
 namespace grainlaw::core {
 
-// Level by level from the first node of every connected part, in each by the place of what they were reached from.
+// Each connected part starts with its first node and goes on level by level. Within a level, nodes follow
+// the order of those they were reached from.
 class LevelOrder {
  public:
   // Edges are unique, each with first < second.

@@ -22,7 +22,7 @@ class LastMove {
   // As much of it as now is prescribed; empty where that does not go on the same way.
   [[nodiscard]] Eigen::VectorXd once_more(const Eigen::VectorXd& prescribed) const {
     constexpr double longest = 3;         // as far as drag follows [-]
-    constexpr double another_way = 1e-9;  // what rounding does not make [-]
+    constexpr double another_way = 1e-9;  // more than rounding turns a direction by [-]
     const double square = prescribed_.squaredNorm();
     if (!(square > 0)) return {};
     const double ratio = prescribed.dot(prescribed_) / square;
