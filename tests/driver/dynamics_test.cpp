@@ -22,7 +22,7 @@ const double wave_speed = std::sqrt(modulus / density);
 
 Material string_material() {
   MaterialSource source;
-  source.file = std::string(GRAINLAW_TEST_DATA) + "/string.toml";
+  source.file = GRAINLAW_TEST_DATA "/string.toml";
   source.base = GRAINLAW_TEST_DATA;
   return make_material(source);
 }

@@ -13,7 +13,7 @@ namespace verification {
 namespace {
 
 const std::filesystem::path directory =
-    std::string(GRAINLAW_TEST_DATA) + "/../../verification/scenes/guo2014_multiscale";
+    GRAINLAW_TEST_DATA "/../../verification/scenes/guo2014_multiscale";
 
 FiniteElementScene scene(const std::string& name) {
   return read_fe_scene(SceneFile(directory / (name + ".toml")));

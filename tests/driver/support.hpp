@@ -31,7 +31,7 @@ inline Material lattice_material() {
 // The 400 discs of tests/data.
 inline Material packing_material() {
   MaterialSource source;
-  source.file = std::string(GRAINLAW_TEST_DATA) + "/rve400.toml";
+  source.file = GRAINLAW_TEST_DATA "/rve400.toml";
   source.base = GRAINLAW_TEST_DATA;
   return make_material(source);
 }

@@ -14,7 +14,7 @@ namespace {
 // The 400 discs, of which an increment that lasts `increment` has a viscous time of 100.
 Material with_drag(double increment) {
   MaterialSource source;
-  source.file = std::string(GRAINLAW_TEST_DATA) + "/rve400.toml";
+  source.file = GRAINLAW_TEST_DATA "/rve400.toml";
   source.base = GRAINLAW_TEST_DATA;
   toml::table solver{{"viscous_time", 100}, {"viscous_increment", increment}};
   source.changes.insert("solver", std::move(solver));

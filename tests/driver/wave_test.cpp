@@ -14,8 +14,7 @@
 namespace verification {
 namespace {
 
-const std::string scenes =
-    std::string(GRAINLAW_TEST_DATA) + "/../../verification/scenes/liu2018_waves/";
+const std::string scenes = GRAINLAW_TEST_DATA "/../../verification/scenes/liu2018_waves/";
 constexpr const char* string_bonds =
     "contact = { law = 'bonded', ratio = 0.4, friction = 0, bond.normal_strength = 3e6, "
     "bond.tangential_strength = 6e6 }";
