@@ -26,6 +26,10 @@ struct Workspace {
   std::vector<double> move;  // of the last part with drag
 };
 
+// What is tried: all that may help; no parts, where they would ask for the same as the whole; of that only
+// committed or only advancing history, where the caller takes smaller steps between the two.
+enum class Trying { all, whole, committed, advancing };
+
 template <int D>
 struct Request {
   const Problem<D>* problem = nullptr;
@@ -35,6 +39,7 @@ struct Request {
   double tolerance = 1e-6;
   double loose_tolerance = 0;  // as in SolverOptions, of this request
   double duration = 1;         // of the increment, that of an ordinary one being 1 [-]
+  Trying trying = Trying::all;
   bool sensitivities = false;
   // Coordinates (rotations counted from `from`) to start the iteration from, at guess_deformation;
   // null: the affine image.

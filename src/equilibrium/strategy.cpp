@@ -64,6 +64,13 @@ class Stages {
       add({Stage::as_asked});
       return;
     }
+    if (request.trying != Trying::all) {
+      if (request.trying != Trying::advancing) add({Stage::parts});
+      if (request.trying == Trying::committed) return;
+      add({Stage::fading});
+      add({Stage::advancing});
+      return;
+    }
     const Viscosity& viscosity = request.options->viscosity;
     if (viscosity.time > 0) {
       // How many parts there are changes P a little: as long as they serve, their number must not follow F.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace grainlaw::core {
 
@@ -14,7 +15,9 @@ namespace {
 
 // Of the way from the stress at F = I to the prescribed one.
 constexpr double first_step = 0.1;
-constexpr double least_step = 1e-2;  // an increment cuts itself further
+constexpr double least_step = 1e-2;
+constexpr int most_advanced = 8;  // of the shortest steps
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <int D>
 Tensor<D> between(const Tensor<D>& from, const BoundarySpace<D>& space, double share) {
@@ -36,7 +39,11 @@ void load_to_stress(const BoundarySpace<D>& space, const Request<D>& request,
   problem.space = &loading;
   const auto from = at.stress;
   double share = 0;
+  double missed = infinity;  // the least share that was not found from here
   double step = first_step;
+  bool advancing = false;
+  int advanced = 0;
+  long relaxation_steps = 0;
   while (share < 1) {
     const double next = std::min(1.0, share + step);
     loading.stress = between<D>(from, space, next);
@@ -44,7 +51,9 @@ void load_to_stress(const BoundarySpace<D>& space, const Request<D>& request,
     part.problem = &problem;
     part.from = &at;
     part.deformation = at.deformation;
+    part.trying = advancing ? Trying::advancing : Trying::committed;
     const auto outcome = solve(part, workspace);
+    relaxation_steps += workspace.increment.cost.relaxation_steps;
     if (outcome.status == GRAINLAW_OK && workspace.increment.bears()) {
       const auto stress = piola_stress(workspace.increment);
       workspace.increment.advance_history();
@@ -54,11 +63,21 @@ void load_to_stress(const BoundarySpace<D>& space, const Request<D>& request,
       reached.dissipated = reached.broken_bonds = 0;
       at = std::move(reached);
       share = next;
-      step = std::min(2 * step, first_step);
+      advancing = false;
+      if (share >= missed) missed = infinity;
+      if (share + 2 * step < missed) step = std::min(2 * step, first_step);
       continue;
     }
-    step *= 0.5;
-    if (step >= least_step) continue;
+    missed = std::min(missed, next);
+    if (0.5 * step >= least_step) {
+      step *= 0.5;
+      continue;
+    }
+    if (!advancing && advanced < most_advanced) {
+      advancing = true;
+      ++advanced;
+      continue;
+    }
     std::string prescribed;
     for (std::size_t k = 0; k < squared<D>; ++k) {
       if (!space.found[k]) continue;
@@ -66,10 +85,12 @@ void load_to_stress(const BoundarySpace<D>& space, const Request<D>& request,
           fmt::format("{}P{}{} = {:.6g} Pa (reached {:.6g} Pa)", prescribed.empty() ? "" : ", ",
                       k / D + 1, k % D + 1, space.stress[k], at.stress[k]);
     }
-    const auto status = outcome.status == GRAINLAW_OK ? GRAINLAW_CONTACTS_LOST : outcome.status;
-    throw Error(GRAINLAW_NOT_CONVERGED,
-                fmt::format("boundary.stress: no state of the packing carries {}: {}", prescribed,
-                            grainlaw_status_text(status)));
+    const bool found = outcome.status == GRAINLAW_OK || outcome.status == GRAINLAW_CONTACTS_LOST;
+    throw Error(
+        GRAINLAW_NOT_CONVERGED,
+        fmt::format(
+            "boundary.stress: no state of the packing carries {}: {} after {} relaxation steps",
+            prescribed, found ? "contacts are lost" : "no equilibrium is found", relaxation_steps));
   }
 }
 

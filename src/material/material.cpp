@@ -226,6 +226,7 @@ std::shared_ptr<const Material<D>> make_material(MaterialDescription description
   const Configuration<D> given = given_configuration(*material);
   Request<D> request{&problem, &options, &given, identity<D>()};
   request.tolerance = tolerance;
+  request.trying = Trying::whole;
   Workspace<D> workspace;
   if (direct.averages()) {
     problem.force_floor =

@@ -1,6 +1,8 @@
 // What every boundary condition promises: the work that forces do on admissible motions, the
 // conditions themselves, pure rotations, and the order of their stiffness.
+#include "base/error.hpp"
 #include "boundary_support.hpp"
+#include "material/material_file.hpp"
 
 #include <random>
 
@@ -229,6 +231,42 @@ TEST(boundary_space, saved_states_of_other_spaces_are_refused) {
     for (const auto& [other, b] : materials) {
       EXPECT_EQ(a->fingerprint == b->fingerprint, kind(one) == kind(other)) << one << ", " << other;
     }
+  }
+}
+
+// Shear beyond friction: the effort, told in the message, is that of a few attempts.
+TEST(boundary_space, stress_that_no_state_carries_is_refused_soon) {
+  constexpr long bearable = 200000;  // relaxation steps
+  const auto description = parse_material(R"(dimension = 2
+thickness = 1.1
+[packing]
+generator = "hexagonal"
+columns = 2
+rows = 2
+radius = 5e-3
+pressure = 1e5
+[contact]
+law = "frictional"
+young = 3e8
+ratio = 0.8
+friction = 0.5
+[boundary]
+type = "mixed"
+left = { x = "P", y = "P", rotation = "periodic" }
+right = { x = "P", y = "P", rotation = "periodic" }
+bottom = { x = "D", y = "D", rotation = "fixed", row = "rigid" }
+top = { x = "D", y = "D", rotation = "free" }
+stress = { P12 = -2.5e5 }
+)",
+                                          ".", "material.toml");
+  try {
+    make_material(description);
+    FAIL() << "a stress that no friction carries was taken";
+  } catch (const Error& error) {
+    const std::string told = error.what();
+    const auto at = told.find("after ");
+    ASSERT_NE(at, std::string::npos) << told;
+    EXPECT_LT(std::stol(told.substr(at + 6)), bearable) << told;
   }
 }
 
