@@ -68,8 +68,9 @@ GRAINLAW_TUNED(double, flutter_patience, 500);
 GRAINLAW_TUNED(double, flutter_growth, 0.25);
 // Of the damping in a step: beyond, a velocity would turn round [-]; method.
 GRAINLAW_TUNED(double, largest_damping, 1.9);
-// Of a found component of F in a step [-]; method.
+// Of a found component of F in a step, and in an increment: beyond, nothing carries the stress [-]; method.
 GRAINLAW_TUNED(double, largest_deformation_step, 1e-3);
+GRAINLAW_TUNED(double, largest_found_change, 1);
 
 // ---- Subspace extrapolation ------------------------------------------------------------------
 

@@ -217,9 +217,10 @@ bool Relaxation<D>::run(double tolerance, long steps, double least_force) {
   if (increment_.residual_norm() < tolerance) return true;
   for (const long last = steps_ + steps;;) {
     step();
-    const bool stop = steps_ == last || !std::isfinite(residual_) ||
-                      (steps_ % tuned::floor_window == 0 &&
-                       (increment_.scale().mean_force() < least_force || flutters()));
+    const bool stop =
+        steps_ == last || !std::isfinite(residual_) ||
+        (steps_ % tuned::floor_window == 0 &&
+         (increment_.scale().mean_force() < least_force || flutters() || increment_.runs_away()));
     const bool over = residual_ < tolerance || stop;
     if (over || (steps_ % tuned::mass_interval == 0 && !calm())) {
       if (by_sides_) memory_.sides.move(motion_.records());

@@ -108,6 +108,17 @@ bool Increment<D>::collapsed() {
   return scale_.mean_force() < problem_->force_floor || released_particle() >= 0;
 }
 
+template <int D>
+bool Increment<D>::runs_away() const {
+  const auto& space = *problem_->space;
+  if (!space.finds_deformation) return false;
+  for (std::size_t k = 0; k < squared<D>; ++k) {
+    const double change = motion_.deformation()[k] - motion_.committed_deformation()[k];
+    if (space.found[k] && std::abs(change) > tuned::largest_found_change) return true;
+  }
+  return false;
+}
+
 // Eq. 8 of Liu, Bosco & Suiker (2017), 1 at failure; without a bond 0.
 template <int D>
 double Increment<D>::bond_load(std::size_t c) const {

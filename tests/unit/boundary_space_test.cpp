@@ -236,7 +236,7 @@ TEST(boundary_space, saved_states_of_other_spaces_are_refused) {
 
 // Shear beyond friction: the effort, told in the message, is that of a few attempts.
 TEST(boundary_space, stress_that_no_state_carries_is_refused_soon) {
-  constexpr long bearable = 200000;  // relaxation steps
+  constexpr long bearable = 30000;  // relaxation steps
   const auto description = parse_material(R"(dimension = 2
 thickness = 1.1
 [packing]
