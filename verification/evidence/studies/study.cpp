@@ -28,6 +28,11 @@ MaterialSource StudyOptions::material(double tolerance, int repeat) const {
   return source;
 }
 
+bool same_contacts(const grainlaw_report& a, const grainlaw_report& b) {
+  return a.contacts == b.contacts && a.sliding == b.sliding &&
+         a.status_changes == b.status_changes && a.subincrements == b.subincrements;
+}
+
 PointOptions study_options() {
   PointOptions options;
   options.max_cuts = 4;

@@ -48,6 +48,9 @@ struct Probe {
 std::vector<Probe> probe_path(const std::string& name, const Material& material,
                               const Segment& segment, int every);
 
+// Whether no contact changed its status between two evaluations, by their numbers.
+bool same_contacts(const grainlaw_report& a, const grainlaw_report& b);
+
 // Stress control that gets over collapses after the peak at any price: studies look at increments,
 // not at the path.
 PointOptions study_options();

@@ -20,11 +20,6 @@ struct Differences {
   bool changed;     // a stencil point has other numbers of contacts than the centre
 };
 
-bool same_contacts(const grainlaw_report& a, const grainlaw_report& b) {
-  return a.contacts == b.contacts && a.sliding == b.sliding &&
-         a.status_changes == b.status_changes && a.subincrements == b.subincrements;
-}
-
 std::optional<Differences> central_differences(State& state, const Tensor& deformation, double step,
                                                const grainlaw_report& centre) {
   Differences result{Tangent::Zero(), false};

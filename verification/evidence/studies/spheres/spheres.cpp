@@ -8,6 +8,8 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace verification {
@@ -54,6 +56,7 @@ void add_spheres_study(CLI::App& study, const std::shared_ptr<StudyOptions>& opt
     std::vector<int> counts{200, 500, 1000, 2000, 4000};
     int increments = 10;
     int states = 20;
+    std::string only;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
@@ -63,10 +66,17 @@ void add_spheres_study(CLI::App& study, const std::shared_ptr<StudyOptions>& opt
       ->capture_default_str();
   command->add_option("--states", arguments->states, "tangents of each path")
       ->capture_default_str();
+  command->add_option("--only", arguments->only, "one part of it")
+      ->check(CLI::IsMember({"tangents", "error", "cost"}));
   command->callback([arguments, options] {
-    spheres::check_tangents(*options, arguments->states);
-    spheres::measure_error(*options);
-    spheres::measure_cost(*options, arguments->counts, arguments->increments);
+    const auto wanted = [&](std::string_view part) {
+      return arguments->only.empty() || arguments->only == part;
+    };
+    if (wanted("tangents")) spheres::check_tangents(*options, arguments->states);
+    if (wanted("error")) spheres::measure_error(*options);
+    if (wanted("cost")) {
+      spheres::measure_cost(*options, arguments->counts, arguments->increments);
+    }
   });
 }
 
