@@ -110,6 +110,8 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
   const int most_factorisations =
       limit_to(effort.most_factorisations, tuned::unsettled_factorisations);
   increment.refresh_masses();
+  if (request.trying == Trying::whole && increment.scale().drowned())
+    return is_free(request, increment);
   double target = reachable(request, increment);
   double hand_over = hand_over_of(increment.problem().nodes());
   if (has_drag(request)) hand_over = D == 2 ? tuned::drag_hand_over : target;
@@ -137,8 +139,7 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
     // What is fading away settles nowhere.
     auto* const settling = may_fade(request, increment) ? nullptr : &w.relaxation;
     if (pseudo_transient_newton(increment, target, factorisations, w.newton, settling)) return true;
-    const bool too_soon = round == 0 && !request.guess_loose;
-    if (!too_soon && is_loose()) return outcome.loose = true;
+    if ((round > 0 || request.guess_loose) && is_loose()) return outcome.loose = true;
     hand_over *= round < 2 ? tuned::tighter : tuned::much_tighter;
     target = reachable(request, increment);
   }

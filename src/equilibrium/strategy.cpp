@@ -148,6 +148,7 @@ class Walk {
       }
       const bool lost = increment.scale().touching() == 0 || increment.collapsed();
       if (stage.kind == Stage::parts && lost) return false;
+      if (request_.trying == Trying::whole && increment.scale().drowned()) return false;
     }
     return false;
   }

@@ -45,6 +45,8 @@ class ForceScale {
   [[nodiscard]] double relative_rounding() const {
     return touching_ > 0 ? rounding_ / relative() : 0;
   }
+  // Whether contacts carry no more than what rounding makes of them.
+  [[nodiscard]] bool drowned() const { return relative_rounding() > tuned::largest_rounding; }
   // Forces differ by this much by chance: tolerance and rounding [N].
   [[nodiscard]] double chance() const {
     return std::max(std::min(tolerance_, tuned::largest_chance) * relative(), rounding_);

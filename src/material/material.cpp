@@ -250,6 +250,12 @@ std::shared_ptr<const Material<D>> make_material(MaterialDescription description
                                                "no contact",
                                                released)));
   }
+  if (outcome.status != GRAINLAW_OK && workspace.increment.scale().drowned()) {
+    throw Error(outcome.status,
+                fmt::format("contacts carry no more at F = I than rounding makes of "
+                            "them; {}",
+                            unsettled(workspace.increment)));
+  }
   if (outcome.status != GRAINLAW_OK) {
     throw Error(outcome.status, fmt::format("the packing found no equilibrium at F = I: residual "
                                             "{:.3g} after {} relaxation steps, expected {:.3g}; {}",

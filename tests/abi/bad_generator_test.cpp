@@ -83,6 +83,12 @@ TEST(bad_generator, keys_of_lattices_are_checked) {
        "an even number of rows");
 }
 
+TEST(bad_generator, overlaps_that_drown_in_rounding_are_told) {
+  expect_told(square(lattice + "overlap = 1e-16\n"), GRAINLAW_NOT_CONVERGED,
+              "contacts carry no more at F = I than rounding makes of them",
+              "stiff: expected softer");
+}
+
 TEST(bad_generator, a_pressure_beyond_all_packings_is_told_with_the_largest) {
   expect_told(square(lattice + "pressure = 1e9\n"), GRAINLAW_BAD_PACKING, "pressure = 1000000000",
               "at most 2e+06 Pa");
