@@ -23,6 +23,7 @@ struct Case {
   std::function<Material()> material;
   Path path;
   std::function<Check(const Walk&)> check;  // of a walk that went through; may be empty
+  bool judged = true;  // by that; with drag it tells how far P is from an equilibrium's
 };
 
 using Cases = std::vector<Case>;
