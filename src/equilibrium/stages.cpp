@@ -126,8 +126,7 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
     const bool may_extrapolate = request.guess == nullptr && !has_drag(request);
     const bool relaxed =
         relax(increment, tolerance, limit, History::committed, w.relaxation, 0, may_extrapolate);
-    const bool lost = increment.scale().touching() == 0 || increment.collapsed();
-    if (lost || increment.runs_away()) return is_free(request, increment);
+    if (increment.lost() || increment.runs_away()) return is_free(request, increment);
     const bool there = relaxed && tolerance == target;
     if (there && (coarse || increment.find_free_spins() < target)) return true;
     const auto is_loose = [&] { return increment.residual_norm() < request.loose_tolerance; };

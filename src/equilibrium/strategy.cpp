@@ -146,8 +146,7 @@ class Walk {
         if (stage.then_whole) straighten();
         return true;
       }
-      const bool lost = increment.scale().touching() == 0 || increment.collapsed();
-      if (stage.kind == Stage::parts && lost) return false;
+      if (stage.kind == Stage::parts && increment.lost()) return false;
       if (request_.trying == Trying::whole && increment.scale().drowned()) return false;
     }
     return false;

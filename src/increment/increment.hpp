@@ -122,6 +122,8 @@ class Increment {
   // Whether the boundary lost what it is to carry a uniform stress with: next to no force is left,
   // or a boundary particle has no contact.
   [[nodiscard]] bool collapsed();
+  // Whether it did, or no contact is left.
+  [[nodiscard]] bool lost() { return scale_.touching() == 0 || collapsed(); }
   // Whether found components of F went further than an increment goes: nothing carries the stress.
   [[nodiscard]] bool runs_away() const;
   // Of those under uniform stress, the first without a contact; -1: none.
