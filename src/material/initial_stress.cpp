@@ -16,7 +16,7 @@ namespace {
 // Of the way from the stress at F = I to the prescribed one.
 constexpr double first_step = 0.1;
 constexpr double least_step = 1e-2;
-constexpr int most_advanced = 8;  // of the shortest steps
+constexpr int most_advancing_steps = 8;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <int D>
@@ -42,7 +42,7 @@ void load_to_stress(const BoundarySpace<D>& space, const Request<D>& request,
   double missed = infinity;  // the least share that was not found from here
   double step = first_step;
   bool advancing = false;
-  int advanced = 0;
+  int advancing_steps = 0;
   long relaxation_steps = 0;
   while (share < 1) {
     const double next = std::min(1.0, share + step);
@@ -73,9 +73,9 @@ void load_to_stress(const BoundarySpace<D>& space, const Request<D>& request,
       step *= 0.5;
       continue;
     }
-    if (!advancing && advanced < most_advanced) {
+    if (!advancing && advancing_steps < most_advancing_steps) {
       advancing = true;
-      ++advanced;
+      ++advancing_steps;
       continue;
     }
     std::string prescribed;
@@ -85,12 +85,12 @@ void load_to_stress(const BoundarySpace<D>& space, const Request<D>& request,
           fmt::format("{}P{}{} = {:.6g} Pa (reached {:.6g} Pa)", prescribed.empty() ? "" : ", ",
                       k / D + 1, k % D + 1, space.stress[k], at.stress[k]);
     }
-    const bool found = outcome.status == GRAINLAW_OK || outcome.status == GRAINLAW_CONTACTS_LOST;
+    const bool lost = outcome.status == GRAINLAW_OK || outcome.status == GRAINLAW_CONTACTS_LOST;
     throw Error(
         GRAINLAW_NOT_CONVERGED,
         fmt::format(
             "boundary.stress: no state of the packing carries {}: {} after {} relaxation steps",
-            prescribed, found ? "contacts are lost" : "no equilibrium is found", relaxation_steps));
+            prescribed, lost ? "contacts are lost" : "no equilibrium is found", relaxation_steps));
   }
 }
 
