@@ -19,8 +19,8 @@ namespace {
 
 struct TangentError {
   double relative = 0;  // Frobenius norm, of the best stencil [-]
-  bool changed =
-      false;  // every stencil has a point with other contacts than the centre, or one that fails
+  // Every stencil has a point with other contacts than the centre, or one that fails.
+  bool changed = false;
 };
 
 struct TangentErrors {

@@ -23,7 +23,7 @@ struct Case {
   std::function<Material()> material;
   Path path;
   std::function<Check(const Walk&)> check;  // of a walk that went through; may be empty
-  bool judged = true;  // by that; with drag it tells how far P is from an equilibrium's
+  bool judged = true;  // by that; not where drag keeps P from the equilibrium it is of
 };
 
 using Cases = std::vector<Case>;
