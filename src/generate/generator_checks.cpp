@@ -24,11 +24,16 @@ void check_target(const GeneratorOptions& options, const ContactLaw& law, double
     // p t / kn of equal discs, over their relative overlap: p V = 1/2 sum fn d. Of spheres a diameter is
     // the thickness.
     const double thickness = D == 2 ? options.thickness : 2 * radius;
-    const double most = most_overlap * law.stiffness(radius, radius) / thickness;
+    const char* length = D == 2 ? "thickness" : "diameter";
+    const double stiffness = law.stiffness(radius, radius) / thickness;
+    const double most = most_overlap * stiffness, least = least_overlap * stiffness;
     if (options.pressure > most)
       wrong("pressure", options.pressure,
-            fmt::format("at most {:.6g} Pa, a fifth of kn / {}", most,
-                        D == 2 ? "thickness" : "diameter"));
+            fmt::format("at most {:.6g} Pa, a fifth of kn / {}", most, length));
+    if (!law.hertzian() && options.pressure < least)
+      wrong("pressure", options.pressure,
+            fmt::format("at least {:.6g} Pa, {:g} of kn / {}: smaller overlaps drown in rounding",
+                        least, least_overlap, length));
   }
   if (!(options.friction >= 0) || !std::isfinite(options.friction))
     wrong("friction", options.friction, "a number >= 0");

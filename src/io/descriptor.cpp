@@ -20,8 +20,16 @@ void fail_file(const std::string& path, const char* what, int error) {
               fmt::format("{}: cannot be {}: {}", path, what, std::strerror(error)));
 }
 
+// Opening does not wait: a pipe that nobody writes to, or reads, would hold up the host for ever.
 Descriptor::Descriptor(const std::string& path, int flags)
-    : number_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+    : number_(::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK, 0666)) {
+  if (valid()) ::fcntl(number_, F_SETFL, flags & O_APPEND);
+}
+
+bool Descriptor::streams() const {
+  struct stat found {};
+  return ::fstat(number_, &found) == 0 && !S_ISREG(found.st_mode) && !S_ISDIR(found.st_mode);
+}
 
 ssize_t Descriptor::read(char* to, std::size_t size) const {
   for (;;) {

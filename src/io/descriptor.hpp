@@ -22,6 +22,7 @@ class Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
 
   [[nodiscard]] bool valid() const { return number_ >= 0; }
+  [[nodiscard]] bool streams() const;  // a pipe or device: without an end, perhaps
   [[nodiscard]] ssize_t read(char* to, std::size_t size) const;
   // Each returns 0, or the error.
   int write(std::string_view text);

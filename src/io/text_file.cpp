@@ -1,5 +1,6 @@
 #include "io/text_file.hpp"
 
+#include "base/error.hpp"
 #include "io/descriptor.hpp"
 
 #include <fmt/format.h>
@@ -120,12 +121,17 @@ class Beside {
 std::string read_text(const std::string& path) {
   const Descriptor file(path, O_RDONLY);
   if (!file.valid()) fail_file(path, "read", errno);
+  if (file.streams())
+    throw Error(GRAINLAW_FILE_ERROR,
+                fmt::format("{}: cannot be read: found a pipe or device, expected a file", path));
   std::string text;
   char block[1 << 14];
   ssize_t count = 0;
   while ((count = file.read(block, sizeof block)) > 0)
     text.append(block, static_cast<std::size_t>(count));
   if (count < 0) fail_file(path, "read", errno);
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
   return text;
 }
 

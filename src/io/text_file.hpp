@@ -11,7 +11,8 @@
 
 namespace grainlaw::core {
 
-// Throws Error (FILE_ERROR) when the file cannot be read to its end.
+// Without the mark that spreadsheets begin UTF-8 with. Throws Error (FILE_ERROR) when the file cannot be
+// read to its end, and for a pipe or device, which may have none.
 std::string read_text(const std::string& path);
 
 struct Writing {

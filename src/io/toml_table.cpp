@@ -254,6 +254,7 @@ std::string TomlTable::describe(const toml::node& node) {
     found = out.str();
   }
   std::ranges::replace(found, '\n', ' ');
+  std::ranges::replace(found, '\0', ' ');  // would end the message
   if (found.size() > longest) found = found.substr(0, longest) + "...";
   return found;
 }

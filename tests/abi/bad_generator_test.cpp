@@ -96,6 +96,13 @@ TEST(bad_generator, a_pressure_beyond_all_packings_is_told_with_the_largest) {
               "at most 2e+06 Pa");
 }
 
+TEST(bad_generator, a_pressure_below_rounding_is_told_with_the_least) {
+  expect_told(square(lattice + "pressure = 9e-4\n"), GRAINLAW_BAD_PACKING, "pressure = 0.0009",
+              "at least 0.001 Pa");
+  expect_told(grown(ten + "pressure = 1e-300\n"), GRAINLAW_BAD_PACKING, "pressure = 1e-300",
+              "at least 0.001 Pa");
+}
+
 TEST(bad_generator, growth_beyond_jamming_is_told_with_where_it_jams) {
   expect_told(grown(ten + "pressure = 1e4\nvolume_fraction = 0.94\n"), GRAINLAW_BAD_PACKING,
               "the discs jam at a volume fraction of 0.", "volume_fraction = 0.94");

@@ -11,6 +11,18 @@ from command import DNS, LATTICE, PERIODIC, POINT, SOLVE, WAVE, Place, written
 # Too far for a lattice that may not be cut, after a step that it can do.
 FAILING = "max_cuts = 0\n[[case.segment]]\nsteps = 1\nF22 = 0.9999\n[[case.segment]]\nsteps = 1\nF12 = 1.0\n"
 
+# Packings of two seeds.
+SEEDS = """
+[material]
+dimension = 2
+thickness = 0.1
+packing = { generator = "compaction", count = 30, radii = [4e-3, 9e-3], seed = 3, pressure = 1e5, friction = 0.3 }
+contact = { law = "frictional", young = 6e8, ratio = 0.8, friction = 0.5 }
+boundary = { type = "periodic-cell" }
+""" + POINT.format(steps=1, stretch=0.9999) + '[[case]]\nname = "a"\nseeds = 2\n'
+
+TABLE = "axial_strain,axial_stress,lateral_stress,volumetric_strain,coordination\n0,1,1,0,4\n0.02,3,1,0.01,4\n"
+
 
 class EndedRuns(unittest.TestCase):
     def setUp(self):
@@ -94,6 +106,67 @@ class EndedRuns(unittest.TestCase):
             self.assertIn("gnuplot was not found", err)
             self.assertNotIn(".svg", out)
             self.check_files(out)
+
+    def test_an_ensemble_is_of_this_run_alone(self):
+        run = ("point", "y.toml", "--output", "out")
+        self.place.write("y.toml", SEEDS)
+        status, out, err = self.place.run(*run)
+        self.assertEqual(status, 0, err)
+        self.assertIn("y_a: 2 packings", out)
+        path = self.place.path / "out" / "y_a_ensemble.csv"
+        path.write_text("old")
+        self.place.write("y.toml", SEEDS.replace("count = 30", "count = -1"))
+        status, out, err = self.place.run(*run)
+        self.assertEqual(status, 2, err)
+        self.assertIn("y_a: found 0 packings, expected 2 or more for an ensemble", out)
+        self.assertIn("y_a_ensemble.csv is of an earlier run", out)
+        self.place.write("y.toml", SEEDS)
+        status, out, err = self.place.run(*run, "--case", "a_s2", "--case", "a_s2")
+        self.assertEqual(status, 0, err)
+        self.assertIn("y_a: found 1 packings", out)
+        self.assertEqual(out.count("starts at"), 1, out)
+        self.assertEqual(path.read_text(), "old")
+
+    def test_two_outputs_of_one_name_are_refused(self):
+        for more, words in (('name = "a_ensemble"', "y_a_ensemble.csv, of y_a_ensemble and of the ensemble of y_a"),
+                            ('name = "a_s1"', '"a_s1" with results y_a_s1 as of "a"'),
+                            ('name = "cases"', "y_cases.csv, of y_cases and of the ends of the cases"),
+                            ('name = "a_s1_particles"\n[[case]]\nname = "b"', "y_a_s1_particles.csv, of y_a_s1"),
+                            ('name = "a_s2_packing"', "y_a_s2_packing.svg, of y_a_s2")):
+            scene = self.place.write("y.toml", "particle_measures = true\npictures = [0.0]\n" + SEEDS
+                                     + f"[[case]]\n{more}\n")
+            status, out, err = self.place.run("point", scene, "--output", "out")
+            self.assertEqual((status, out), (2, ""), more + err)
+            self.assertIn(words, err)
+        scene = self.place.write("z.toml", DNS.format(steps=1) + '[[case]]\nname = "a"\n[[case]]\nname = "a_cost"\n')
+        status, _, err = self.place.run("dns", scene, "--output", "out")
+        self.assertEqual(status, 2, err)
+        self.assertIn("z_a_cost.csv, of", err)
+        self.assertFalse((self.place.path / "out").exists())
+        scene = self.place.write("y.toml", SEEDS + '[[case]]\nname = "a_s1_particles"\n')
+        status, _, err = self.place.run("point", scene, "--output", "out")
+        self.assertEqual(status, 0, err)
+
+    def test_compare_says_what_a_table_lacks(self):
+        good = self.place.write("good.csv", TABLE)
+        for text, words in ((TABLE.split("\n", 1)[0] + "\n", "found no row below the header"),
+                            (TABLE.replace("0.02,3,", "0.02,nan,"), "axial_stress: found nan in row 2"),
+                            (TABLE.replace(",3,1,", ",3,inf,"), "lateral_stress: found inf in row 2"),
+                            ("x\n1\n", "found columns x, expected axial_strain too")):
+            bad = self.place.write("bad.csv", text)
+            status, out, err = self.place.run("compare", f"a={bad}", f"b={good}", "--output", "out")
+            self.assertEqual((status, out), (2, ""), text + err)
+            self.assertIn(f"{bad}: {words}", err)
+        status, out, err = self.place.run("compare", f"a={good}", f"a={good}", "--output", "out")
+        self.assertEqual((status, out), (2, ""), err)
+        self.assertIn("found the NAME a twice", err)
+        for option in ("--stress-within", "--peak-within", "--volume-within"):
+            for bound in ("nan", "-1"):
+                status, out, err = self.place.run("compare", f"a={good}", f"b={good}", "--output", "out",
+                                                  f"{option}={bound}")
+                self.assertEqual((status, out), (2, ""), err)
+                self.assertIn(f"found {bound}, expected a number >= 0", err)
+        self.assertFalse((self.place.path / "out").exists())
 
     def test_stopped_point(self):
         scene = self.place.write("p.toml", "pictures = [0.0]\n" + PERIODIC

@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ElementTree
 
 from command import DNS, LATTICE, PERIODIC, POINT, SOLVE, WAVE, Place, toml
 
-CODE = "a'b\"c `touch hacked` $(touch hacked) & <x> ,; {_e^2} @x %d \\ | é"
+CODE = "a'b\"c `touch hacked` $(touch hacked) & <x]]> ,; {_e^2} @x %d \\ | é"
 REFUSED = ["", ".", "..", "../x", "a/b", "/x", "a\nb", "a\x1b[31mb", "a\x7fb", "a\u0085b"]
 HOSTILE_HOME = 'set title "changed"\nset label 9 "changed" at screen 0.5,0.5\nsystem("touch hacked")\n'
 
@@ -41,7 +41,7 @@ class TextOfUsers(unittest.TestCase):
             self.assertTrue(picture.with_suffix(".png").read_bytes().endswith(b"IEND\xaeB`\x82"))
 
     def test_solve(self):
-        probe = "p,\"q\" [m]\n'r'"
+        probe = "p,\"q\" [m] 'r'"
         scene = self.place.write("s.toml", f"name = {toml(CODE)}\nsteps = 2\nvtk_every = 1\n"
                                  f'packings = [0]\n{PERIODIC}{SOLVE.format(value=-1e-5)}'
                                  '[picture]\nfields = ["void_ratio"]\npackings = [0]\n'
@@ -90,6 +90,30 @@ class TextOfUsers(unittest.TestCase):
     def test_pack(self):
         recipe = self.place.write("r.toml", LATTICE)
         self.pictures(self.run_well("pack", recipe, "--name", CODE), 1)
+
+    def test_compare(self):
+        table = self.place.write("t.csv", "axial_strain,axial_stress,lateral_stress,volumetric_strain,"
+                                 "coordination\n0,1,1,0,4\n0.02,3,1,0.01,4\n")
+        self.pictures(self.run_well("compare", f"{CODE}={table}", f"b={table}", "--name", CODE), 1)
+        # What XML cannot hold is shown as something else.
+        status, _, err = self.place.run("compare", f"a={table}", f"b={table}", "--output", "bytes",
+                                        "--title", b"x \x01 \xff y")
+        self.assertEqual((status, err), (0, ""))
+        self.assertIn("x \ufffd \\xff y", text_of(self.place.path / "bytes" / "comparison.svg"))
+        for name in REFUSED:
+            self.refuses("--name: found", "compare", f"a={table}", f"b={table}", "--name", name)
+        self.assertEqual(self.place.files("."), {"home", "t.csv", "bytes", "out " + CODE})
+
+    def test_refused_probes(self):
+        for name in REFUSED:
+            scene = self.place.write("s.toml", "steps = 1\n" + PERIODIC + SOLVE.format(value=-1e-5)
+                                     + f'[[probe]]\nname = {toml(name)}\non = "top"\n')
+            self.refuses("probe[1].name: found", "solve", scene)
+        scene = self.place.write("s.toml", "steps = 1\n" + PERIODIC + SOLVE.format(value=-1e-5)
+                                 + 2 * '[[probe]]\nname = "a"\non = "top"\n')
+        status, _, err = self.place.run("solve", scene, "--output", "out")
+        self.assertEqual(status, 2, err)
+        self.assertIn('probe[2].name: found "a", expected a name that no other probe has', err)
 
     def test_refused_names(self):
         self.output = "out"

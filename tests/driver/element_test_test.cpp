@@ -193,10 +193,14 @@ TEST_F(element_test, refuses_what_it_does_not_know) {
   expect_refused("test = 'drained'\npressure = 1e5\n", "pressure");
   expect_refused("test = 'drained'\nstrain = 5\n", "a strain between -0.5 and 0.5");
   expect_refused("test = 'drained'\nsteps = 3\nstep = 1e-3\n", "one of the two");
+  expect_refused("test = 'drained'\nstep = 1e-12\n", "found 1e+11 steps over a strain of 0.1");
   expect_refused("test = 'drained'\ncycles = 3\n", "amplitude");
   expect_refused("test = 'drained'\namplitude = { q = 1e3 }\n", "one beside cycles");
   expect_refused("test = 'drained'\nstop = { f = 1.0 }\n", "stop.f");
   expect_refused("steps = 1\nsigma11 = 'sigma33'\n", "the name of another stress");
+  expect_refused("steps = 1\nsigma11 = 'sigma22'\nsigma22 = 'sigma11'\n",
+                 "which equals sigma11 itself");
+  expect_refused("steps = 1\nsigma12 = 'sigma21'\n", "which equals sigma12 itself");
   expect_refused("steps = 1\nF11 = 'free'\n", "beside mean_pressure");
   expect_refused("steps = 1\nmean_pressure = 1e5\n", "0 components of F");
   expect_refused("steps = 1\nF22 = 0.99\nF11 = 1.01\nisochoric = true\n", "all of the diagonal");

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <array>
 #include <csignal>
@@ -90,6 +91,19 @@ TEST_F(text_file, that_is_a_device_is_written_to) {
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
   write_text("/dev/null", "text");
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST_F(text_file, that_may_have_no_end_is_not_read) {
+  expect_error("/dev/zero: cannot be read: found a pipe or device", [] { read_text("/dev/zero"); });
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  expect_error("expected a file", [&] { read_text(path("pipe")); });
+  expect_error("pipe: cannot be written", [&] { write_text(path("pipe"), "x"); });
+  expect_error("pipe: cannot be written", [&] { GrowingFile file(path("pipe")); });
+}
+
+TEST_F(text_file, of_a_spreadsheet_is_read_without_its_mark) {
+  write_text(path("a"), "\xef\xbb\xbfx,y\n");
+  EXPECT_EQ(read_text(path("a")), "x,y\n");
 }
 
 }  // namespace

@@ -8,8 +8,10 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace verification {
 namespace {
@@ -27,6 +29,7 @@ std::vector<toml::table> scene_cases(const SceneFile& file) {
   const std::string name = root.file_name_or("name", file.path.stem().string());
   if (root.has("seeds")) root.fail("seeds", "a key of the scene", "one of a [[case]]");
   std::set<std::string> names;
+  std::map<std::string, std::string> owners;  // of results: the case
   std::vector<toml::table> scenes;
   for (SceneTable& one : root.tables("case")) {
     const std::string case_name = one.file_name("name");
@@ -37,19 +40,39 @@ std::vector<toml::table> scene_cases(const SceneFile& file) {
     as_table(content);
     merge(content, one.content());
     as_table(content);
-    content.insert_or_assign("name", name + "_" + case_name);
     const int seeds = one.integer_or("seeds", 0, 0);
     content.erase("seeds");
-    if (seeds == 0) scenes.push_back(std::move(content));
+    const auto add = [&](toml::table scene, const std::string& result) {
+      const auto [owner, own] = owners.emplace(result, case_name);
+      if (!own)
+        one.fail(
+            "name",
+            fmt::format("\"{}\" with results {} as of \"{}\"", case_name, result, owner->second),
+            "results that no other case has");
+      scene.insert_or_assign("name", result);
+      scenes.push_back(std::move(scene));
+    };
+    if (seeds == 0) add(std::move(content), name + "_" + case_name);
     for (int seed = 1; seed <= seeds; ++seed) {
       toml::table seeded = content;
       const toml::table packing{{"packing", toml::table{{"seed", seed}}}};
-      merge(seeded, toml::table{{"name", fmt::format("{}_{}_s{}", name, case_name, seed)},
-                                {"material", packing}});
-      scenes.push_back(std::move(seeded));
+      merge(seeded, toml::table{{"material", packing}});
+      add(std::move(seeded), fmt::format("{}_{}_s{}", name, case_name, seed));
     }
   }
   return scenes;
+}
+
+void check_outputs(const std::string& file, const std::vector<Output>& outputs) {
+  std::map<std::string, std::string> owners;
+  for (const Output& output : outputs) {
+    const auto [first, own] = owners.emplace(output.file, output.owner);
+    if (!own && first->second != output.owner)
+      throw InputError(
+          fmt::format("{}: found two outputs called {}, of {} and of {}, expected names of cases "
+                      "that keep them apart",
+                      file, output.file, first->second, output.owner));
+  }
 }
 
 std::string CaseFailures::guard(std::size_t number, const std::string& name,

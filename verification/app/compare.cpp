@@ -1,6 +1,7 @@
 // `grainlaw compare NAME=TABLE...`: finished drained tests beside each other, of this program and of
 // others.
 
+#include "app/bounds.hpp"
 #include "app/commands.hpp"
 #include "app/csv.hpp"
 #include "app/figure.hpp"
@@ -60,16 +61,32 @@ Curves read_curves(const std::string& name, const std::filesystem::path& path) {
   const auto has = [&](const char* column) {
     return std::find(table.names.begin(), table.names.end(), column) != table.names.end();
   };
+  if (table.rows() == 0)
+    throw InputError(
+        fmt::format("{}: found no row below the header, expected some", path.string()));
+  const auto column = [&](const char* wanted) {
+    if (!has(wanted))
+      throw InputError(fmt::format("{}: found columns {}, expected {} too", path.string(),
+                                   fmt::join(table.names, ","), wanted));
+    const std::vector<double>& values = table[wanted];
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (!std::isfinite(values[k]))
+        throw InputError(
+            fmt::format("{}: {}: found {} in row {} below the header, expected a number",
+                        path.string(), wanted, values[k], k + 1));
+    return values;
+  };
   const bool own = has("sigma22") && !has("axial_stress");
   Curves curves{name,
                 has("sigma33"),
-                scaled(table["axial_strain"], percent),
-                own ? scaled(table["sigma22"], -1e-3) : scaled(table["axial_stress"], 1e-3),
-                own ? table["stress_ratio"] : std::vector<double>(),
-                scaled(table["volumetric_strain"], percent),
-                table["coordination"]};
-  for (std::size_t k = 0; !own && k < table.rows(); ++k)
-    curves.ratio.push_back(table["axial_stress"][k] / table["lateral_stress"][k]);
+                scaled(column("axial_strain"), percent),
+                own ? scaled(column("sigma22"), -1e-3) : scaled(column("axial_stress"), 1e-3),
+                own ? column("stress_ratio") : column("axial_stress"),
+                scaled(column("volumetric_strain"), percent),
+                column("coordination")};
+  if (own) return curves;
+  const std::vector<double> lateral = column("lateral_stress");
+  for (std::size_t k = 0; k < table.rows(); ++k) curves.ratio[k] /= lateral[k];
   return curves;
 }
 
@@ -176,7 +193,10 @@ void compare(const Arguments& arguments) {
     const std::size_t end = table.rfind('=');
     if (end == std::string::npos || end == 0)
       throw InputError(fmt::format("found {}, expected NAME=TABLE", table));
-    runs.push_back(read_curves(table.substr(0, end), table.substr(end + 1)));
+    const std::string name = table.substr(0, end);
+    if (std::any_of(runs.begin(), runs.end(), [&](const Curves& run) { return run.name == name; }))
+      throw InputError(fmt::format("{}: found the NAME {} twice, expected another", table, name));
+    runs.push_back(read_curves(name, table.substr(end + 1)));
   }
   std::vector<const Curves*> references;
   for (const std::string& name : arguments.against) {
@@ -212,12 +232,17 @@ void add_compare_command(CLI::App& app) {
   command->add_option("tables", arguments->tables, "NAME=TABLE.csv of each")->required();
   command->add_option("--against", arguments->against,
                       "NAME of what others are measured by (the last); the first one for verdicts");
-  command->add_option("--stress-within", arguments->bounds.stress,
-                      "verdict: largest difference of the axial stress up to 1 % strain [%]");
-  command->add_option("--peak-within", arguments->bounds.peak,
-                      "verdict: difference of the peak [%]");
-  command->add_option("--volume-within", arguments->bounds.volumetric,
-                      "verdict: difference of the volumetric strain at 2 % strain [%]");
+  command
+      ->add_option("--stress-within", arguments->bounds.stress,
+                   "verdict: largest difference of the axial stress up to 1 % strain [%]")
+      ->check(at_least(0));
+  command
+      ->add_option("--peak-within", arguments->bounds.peak, "verdict: difference of the peak [%]")
+      ->check(at_least(0));
+  command
+      ->add_option("--volume-within", arguments->bounds.volumetric,
+                   "verdict: difference of the volumetric strain at 2 % strain [%]")
+      ->check(at_least(0));
   command->add_option("--title", arguments->title, "of the picture")->capture_default_str();
   command->add_option("--name", arguments->name, "of the files")->capture_default_str();
   command->add_option("--output", arguments->output, "directory for the results")

@@ -35,9 +35,11 @@ std::uintmax_t checked(const std::filesystem::path& path, const std::vector<std:
                        std::uintmax_t length) {
   const std::string expected = header(columns);
   std::string found(expected.size(), '\0');
-  std::ifstream old(path);
-  old.read(found.data(), static_cast<std::streamsize>(found.size()));
   std::error_code error;
+  if (std::filesystem::is_regular_file(path, error)) {
+    std::ifstream old(path);
+    old.read(found.data(), static_cast<std::streamsize>(found.size()));
+  }
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error || size < length || found != expected)
     throw InputError(fmt::format(

@@ -111,15 +111,31 @@ Answer answer_of_gnuplot(const std::string& script) {
   return answer;
 }
 
+// Of the text in it gnuplot escapes & and < alone, and XML holds neither "]]>" nor most control characters.
+std::string well_formed(const std::string& svg) {
+  std::string result;
+  for (const char c : svg) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '>' && result.ends_with("]]"))
+      result += "&gt;";
+    else if (code < 0x20 && c != '\t' && c != '\n' && c != '\r')
+      result += "\xEF\xBF\xBD";
+    else
+      result += c;
+  }
+  return result;
+}
+
 }  // namespace
 
 bool run_gnuplot(const std::string& body, const std::filesystem::path& stem, int width,
                  int height) {
+  const std::string text = terminal_text(body);  // bytes that are no UTF-8 as \xff
   for (const std::string kind : {"svg", "png"}) {
     const Answer answer = answer_of_gnuplot(
         fmt::format("set encoding utf8\nset terminal {} size {},{} font 'DejaVu Sans,14' "
                     "background '#ffffff'\n{}",
-                    kind == "svg" ? "svg" : "pngcairo", width, height, body));
+                    kind == "svg" ? "svg" : "pngcairo", width, height, text));
     if (!answer.done || answer.output.empty()) {
       tell(terminal_text(
           fmt::format("no picture {}: {}\n", stem.string(),
@@ -129,7 +145,8 @@ bool run_gnuplot(const std::string& body, const std::filesystem::path& stem, int
                           : "gnuplot failed")));
       return false;
     }
-    write_file(stem.string() + "." + kind, answer.output);
+    write_file(stem.string() + "." + kind,
+               kind == "svg" ? well_formed(answer.output) : answer.output);
   }
   return true;
 }

@@ -42,6 +42,8 @@ inline std::string describe_cut(int step, double part, const std::string& reason
 inline constexpr double crossing_part = 1.0 / 16;
 inline constexpr int most_crossings = 8;  // of one part; then it ends where it is, as a loose one
 
+inline constexpr int most_cuts = 30;  // a part of 1e-9 of a step is rounding
+
 struct Parts {
   int cuts = 0;
   int loose = 0;

@@ -7,13 +7,28 @@
 
 #include <CLI/CLI.hpp>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <csignal>
+#include <cstdio>
 #include <exception>
 #include <string>
 
 namespace verification {
 
+namespace {
+
+// A file would be opened with the number of what is closed, and get the messages.
+void keep_streams_open() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) == -1) static_cast<void>(open("/dev/null", O_RDWR));
+}
+
+}  // namespace
+
 int run_program(CLI::App& app, int argc, char** argv) {
+  keep_streams_open();
   // What cannot be written is an error that says so.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
@@ -33,6 +48,10 @@ int run_program(CLI::App& app, int argc, char** argv) {
     return 2;
   } catch (const std::exception& error) {
     complain(error);
+    return 1;
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    tell(app.get_name() + ": results on the standard output could not be written\n");
     return 1;
   }
   return 0;

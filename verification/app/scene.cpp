@@ -29,10 +29,13 @@ Expectation<double> number_in(const Range& range) {
           }};
 }
 
-Expectation<int> integer_from(int low) {
-  return {fmt::format("an integer >= {}", low), [low](const toml::node& node) {
+Expectation<int> integer_between(int low, int high) {
+  const bool bounded = high < std::numeric_limits<int>::max();
+  return {bounded ? fmt::format("an integer from {} to {}", low, high)
+                  : fmt::format("an integer >= {}", low),
+          [low, high](const toml::node& node) {
             const auto value = node.is_integer() ? node.value<int>() : std::nullopt;
-            return value && *value >= low ? value : std::nullopt;
+            return value && *value >= low && *value <= high ? value : std::nullopt;
           }};
 }
 
@@ -92,10 +95,12 @@ double SceneTable::number_or(std::string_view key, double fallback, const Range&
   return optional(key, number_in(range), fallback);
 }
 
-int SceneTable::integer(std::string_view key, int low) { return required(key, integer_from(low)); }
+int SceneTable::integer(std::string_view key, int low) {
+  return required(key, integer_between(low, std::numeric_limits<int>::max()));
+}
 
-int SceneTable::integer_or(std::string_view key, int fallback, int low) {
-  return optional(key, integer_from(low), fallback);
+int SceneTable::integer_or(std::string_view key, int fallback, int low, int high) {
+  return optional(key, integer_between(low, high), fallback);
 }
 
 bool SceneTable::flag_or(std::string_view key, bool fallback) {

@@ -37,7 +37,8 @@ class SceneTable {
   double number(std::string_view key, const Range& range = any_number);
   double number_or(std::string_view key, double fallback, const Range& range = any_number);
   int integer(std::string_view key, int low);
-  int integer_or(std::string_view key, int fallback, int low);
+  int integer_or(std::string_view key, int fallback, int low,
+                 int high = std::numeric_limits<int>::max());
   bool flag_or(std::string_view key, bool fallback);
   std::string text(std::string_view key);
   std::string text_or(std::string_view key, std::string_view fallback);

@@ -1,6 +1,7 @@
 #include "brick/scene.hpp"
 
 #include "app/history.hpp"
+#include "app/parts.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -30,7 +31,7 @@ BrickNewtonOptions read_newton(SceneTable table, const MaterialSource& material)
   table.choice_or("tangent", "exact", {"exact"});
   options.tolerance = read_tolerance(table, material, options.tolerance);
   options.max_iterations = table.integer_or("max_iterations", options.max_iterations, 1);
-  options.max_cuts = table.integer_or("max_cuts", options.max_cuts, 0);
+  options.max_cuts = table.integer_or("max_cuts", options.max_cuts, 0, most_cuts);
   options.loose_tolerance = table.number_or("loose_tolerance", 0, not_negative);
   table.close();
   return options;

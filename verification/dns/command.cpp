@@ -17,6 +17,15 @@ namespace {
 
 void run_dns(const std::string& path, const std::string& directory, int jobs) {
   const std::vector<SpecimenScene> scenes = read_specimen_scenes(SceneFile(path));
+  std::vector<Output> outputs;
+  for (const SpecimenScene& scene : scenes) {
+    for (const char* end : {".csv", ".svg", ".png", "_cost.csv"})
+      outputs.push_back({scene.name + end, scene.name});
+    if (scene.pictures.empty()) continue;
+    for (const char* end : {"_packing.svg", "_packing.png"})
+      outputs.push_back({scene.name + end, scene.name});
+  }
+  check_outputs(path, outputs);
   CaseFailures failures(scenes.size());
   const Interrupt interrupt;
   run_jobs(scenes.size(), jobs, [&](std::size_t k) {

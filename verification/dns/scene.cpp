@@ -1,6 +1,7 @@
 #include "dns/scene.hpp"
 
 #include "app/cases.hpp"
+#include "app/parts.hpp"
 
 #include <fmt/format.h>
 
@@ -90,7 +91,7 @@ SpecimenScene read_scene(SceneTable table, const std::string& name) {
     scene.segments.push_back(segment);
   }
   if (scene.segments.empty()) table.fail("segment", "nothing", "at least one [[segment]]");
-  scene.max_cuts = table.integer_or("max_cuts", scene.max_cuts, 0);
+  scene.max_cuts = table.integer_or("max_cuts", scene.max_cuts, 0, most_cuts);
   scene.may_end = table.flag_or("may_end", false);
   scene.vtk_every = table.integer_or("vtk_every", 0, 0);
   scene.picture_force = table.number_or("picture_force", 0, not_negative);

@@ -7,6 +7,9 @@
 #include "fe/mesh/mesh_scene.hpp"
 #include "fe/output/probe_scene.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace verification {
 
 FiniteElementScene read_fe_scene(const SceneFile& file) {
@@ -34,8 +37,13 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
   }
   mesh.close();
   scene.output = read_output(table, model.mesh, scene.steps);
-  for (SceneTable& entry : table.tables("probe"))
-    scene.probes.push_back(read_probe(entry, model.mesh));
+  for (SceneTable& entry : table.tables("probe")) {
+    DisplacementProbe probe = read_probe(entry, model.mesh);
+    if (std::any_of(scene.probes.begin(), scene.probes.end(),
+                    [&](const DisplacementProbe& other) { return other.name == probe.name; }))
+      entry.fail("name", '"' + probe.name + '"', "a name that no other probe has");
+    scene.probes.push_back(std::move(probe));
+  }
   if (scene.solver.kind != SolverKind::dynamics && table.has("cycle"))
     scene.cycle = read_cycle(table.table("cycle"), model);
   read_conditions(table, duration, model);

@@ -9,6 +9,7 @@
 #include "app/output.hpp"
 #include "app/text.hpp"
 #include "point/ensemble.hpp"
+#include "point/figures.hpp"
 #include "point/run.hpp"
 #include "point/scene.hpp"
 
@@ -17,6 +18,8 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace verification {
 namespace {
@@ -29,21 +32,55 @@ struct PointArguments {
   int steps = 0;
 };
 
+bool has_member(const Ensemble& ensemble, const std::string& name) {
+  return std::find(ensemble.members.begin(), ensemble.members.end(), name) !=
+         ensemble.members.end();
+}
+
+// All that the scene can write, intermediate files of the runs too; series of steps end in numbers.
+std::vector<Output> outputs_of(const SceneFile& file, const std::string& prefix,
+                               const std::vector<PointScene>& scenes,
+                               const std::vector<Ensemble>& ensembles) {
+  std::vector<Output> outputs;
+  const auto add = [&](const std::string& owner, const std::string& stem,
+                       const std::vector<const char*>& ends) {
+    for (const char* end : ends) outputs.push_back({stem + end, owner});
+  };
+  for (const PointScene& scene : scenes) {
+    add(scene.name, scene.name, {".csv"});
+    add(scene.name, scene.name + "_state",
+        {"_particles.csv", "_contacts.csv", "_cell.csv", ".vtp"});
+    if (scene.particle_measures) add(scene.name, scene.name, {"_particles.csv"});
+    if (!scene.pictures.empty()) add(scene.name, scene.name + "_packing", {".svg", ".png"});
+    if (!scene.figure) continue;
+    add(scene.name, scene.name, {".svg", ".png"});
+    for (const std::string& figure : scene.figures)
+      add(scene.name, scene.name + figure_end(figure), {".svg", ".png"});
+  }
+  for (const Ensemble& ensemble : ensembles)
+    add("the ensemble of " + ensemble.name, ensemble.name + "_ensemble", {".csv", ".svg", ".png"});
+  if (file.content.contains("case")) add("the ends of the cases", prefix + "_cases", {".csv"});
+  return outputs;
+}
+
 // The scene's cases that were asked for, all without a wish. A case with seeds is named without them, too.
 std::vector<PointScene> chosen(std::vector<PointScene> scenes, const std::string& prefix,
                                const std::vector<Ensemble>& ensembles,
                                const std::vector<std::string>& wanted) {
   if (wanted.empty()) return scenes;
   std::vector<PointScene> result;
+  const auto add = [&](const PointScene& scene) {  // once, however often it was asked for
+    if (std::none_of(result.begin(), result.end(),
+                     [&](const PointScene& one) { return one.name == scene.name; }))
+      result.push_back(scene);
+  };
   for (const std::string& name : wanted) {
     const auto ensemble =
         std::find_if(ensembles.begin(), ensembles.end(),
                      [&](const Ensemble& one) { return one.name == prefix + "_" + name; });
     if (ensemble != ensembles.end()) {
       for (const PointScene& scene : scenes)
-        if (std::find(ensemble->members.begin(), ensemble->members.end(), scene.name) !=
-            ensemble->members.end())
-          result.push_back(scene);
+        if (has_member(*ensemble, scene.name)) add(scene);
       continue;
     }
     const auto found = std::find_if(scenes.begin(), scenes.end(), [&](const PointScene& scene) {
@@ -51,7 +88,7 @@ std::vector<PointScene> chosen(std::vector<PointScene> scenes, const std::string
     });
     if (found == scenes.end())
       throw InputError(fmt::format("--case {}: the scene has no such case", name));
-    result.push_back(*found);
+    add(*found);
   }
   return result;
 }
@@ -84,8 +121,10 @@ void write_ends(const std::vector<PointScene>& scenes, const std::vector<PointEn
 void run_command(const PointArguments& arguments) {
   const SceneFile file(arguments.scene);
   const std::string prefix = file.content["name"].value_or(file.path.stem().string());
-  std::vector<PointScene> scenes =
-      chosen(read_point_scenes(file), prefix, ensembles_of(file, prefix), arguments.cases);
+  std::vector<PointScene> scenes = read_point_scenes(file);
+  const std::vector<Ensemble> ensembles = ensembles_of(file, prefix);
+  check_outputs(arguments.scene, outputs_of(file, prefix, scenes, ensembles));
+  scenes = chosen(std::move(scenes), prefix, ensembles, arguments.cases);
   for (PointScene& scene : scenes) scene.options.max_steps = arguments.steps;
   std::vector<PointEnd> ends(scenes.size());
   CaseFailures failures(scenes.size());
@@ -98,13 +137,18 @@ void run_command(const PointArguments& arguments) {
   });
   if (file.content.contains("case"))
     write_ends(scenes, ends, output_stem(arguments.output, prefix + "_cases.csv"));
-  for (const Ensemble& ensemble : ensembles_of(file, prefix)) {
-    const auto of_it = std::find_if(scenes.begin(), scenes.end(), [&](const PointScene& scene) {
-      return scene.name == ensemble.members.front();
-    });
-    if (of_it != scenes.end())
-      write_ensemble(ensemble, output_stem(arguments.output, ensemble.name).parent_path(),
-                     of_it->abscissa, of_it->figure);
+  for (Ensemble ensemble : ensembles) {
+    const PointScene* of_it = nullptr;
+    std::vector<std::string> begun;  // have a table of this run; others may have an old one
+    for (std::size_t k = 0; k < scenes.size(); ++k) {
+      if (!has_member(ensemble, scenes[k].name)) continue;
+      of_it = &scenes[k];
+      if (ends[k].particles > 0) begun.push_back(scenes[k].name);
+    }
+    if (of_it == nullptr) continue;
+    ensemble.members = begun;
+    write_ensemble(ensemble, output_stem(arguments.output, ensemble.name).parent_path(),
+                   of_it->abscissa, of_it->figure);
   }
   failures.check(arguments.scene);
 }

@@ -9,6 +9,8 @@
 namespace verification {
 namespace {
 
+constexpr double most_steps = 1e7;
+
 struct Name {
   std::string_view name;
   TestKind kind;
@@ -114,6 +116,10 @@ ElementTest read_element_test(SceneTable& table) {
     const double way =
         test.cycles > 0 && !test.amplitude_of_q ? test.amplitude : std::abs(test.end);
     if (table.has("steps")) test.step = way / table.integer("steps", 1);
+    if (test.step < way / most_steps)
+      table.fail(table.has("steps") ? "steps" : "step",
+                 fmt::format("{:.2g} steps over a strain of {:g}", way / test.step, way),
+                 fmt::format("at most {:g}", most_steps));
   }
   read_stop(table, test);
   return test;

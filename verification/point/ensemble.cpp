@@ -126,10 +126,17 @@ void write_ensemble(const Ensemble& ensemble, const std::filesystem::path& direc
     if (table.rows() > 0 && (tables.empty() || table.names == tables.front().names))
       tables.push_back(std::move(table));
   }
-  if (tables.size() < 2) return;
+  const auto stem = directory / (ensemble.name + "_ensemble");
+  if (tables.size() < 2) {
+    if (std::filesystem::exists(stem.string() + ".csv"))
+      fmt::print(
+          "{}: found {} packings, expected 2 or more for an ensemble; {}.csv is of an earlier "
+          "run\n",
+          ensemble.name, tables.size(), terminal_text(stem.string()));
+    return;
+  }
   const Spread spread = spread_of(tables);
   const bool spheres = spread.column("sigma33") < spread.names.size();
-  const auto stem = directory / (ensemble.name + "_ensemble");
   Written written(stem);
   write_table(spread, spheres, stem.string() + ".csv");
   written.add(".csv");

@@ -18,10 +18,10 @@ struct Ensemble {
 // Of a scene whose results begin with `prefix`: those with two seeds or more.
 std::vector<Ensemble> ensembles_of(const SceneFile& file, const std::string& prefix);
 
-// From the tables of the members in that directory: NAME_ensemble.csv, per step the number of runs that
-// reached it, and of every column the mean and the standard deviation over these; and the same as curves in
-// bands of one standard deviation in NAME_ensemble.svg, .png. Tells what it wrote. Members without a table
-// are left out; fewer than two make no ensemble.
+// From the tables of the members in that directory, which have to be of this run: NAME_ensemble.csv, per step
+// the number of runs that reached it, and of every column the mean and the standard deviation over these; and
+// the same as curves in bands of one standard deviation in NAME_ensemble.svg, .png. Tells what it wrote.
+// Members without a table are left out; fewer than two make no ensemble, and of an old one it says that it is.
 void write_ensemble(const Ensemble& ensemble, const std::filesystem::path& directory,
                     const std::string& abscissa, bool figure);
 

@@ -37,6 +37,20 @@ std::optional<int> stress_named(std::string_view text, int dimension) {
   return std::nullopt;
 }
 
+// Whether stresses that equal each other lead from this one back to it, so that none is prescribed;
+// sigma12 is sigma21.
+bool goes_round(SceneTable& segment, const std::string& name) {
+  const auto same = [&](const std::string& other) {
+    return std::is_permutation(other.begin(), other.end(), name.begin(), name.end());
+  };
+  std::string at = name;
+  for (int k = 0; k < 9 && segment.node(at) != nullptr && segment.node(at)->is_string(); ++k) {
+    at = segment.text(at);
+    if (same(at)) return true;
+  }
+  return false;
+}
+
 // A stress that equals another one, or F that is found for the mean pressure.
 Target read_words(SceneTable& segment, const std::string& name, int dimension) {
   const std::string text = segment.text(name);
@@ -45,6 +59,9 @@ Target read_words(SceneTable& segment, const std::string& name, int dimension) {
     if (!other || text == name)
       segment.fail(name, '"' + text + '"',
                    "a number in Pa, or the name of another stress: \"sigma22\"");
+    if (goes_round(segment, name))
+      segment.fail(name, fmt::format("\"{}\", which equals {} itself", text, name),
+                   "one of the stresses that equal each other to be free, or a number");
     return {Control::difference, false, 0, *other};
   }
   if (name[0] != 'F' || text != "free" || !segment.has("mean_pressure"))

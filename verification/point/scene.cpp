@@ -2,6 +2,7 @@
 
 #include "app/cases.hpp"
 #include "app/history.hpp"
+#include "app/parts.hpp"
 #include "point/element_test.hpp"
 #include "point/figures.hpp"
 #include "point/start.hpp"
@@ -75,7 +76,7 @@ PointScene read_scene(SceneTable table, const std::string& name) {
   scene.options.tolerance = read_tolerance(table, scene.material, scene.options.tolerance);
   scene.options.max_iterations =
       table.integer_or("max_iterations", scene.options.max_iterations, 1);
-  scene.options.max_cuts = table.integer_or("max_cuts", scene.options.max_cuts, 0);
+  scene.options.max_cuts = table.integer_or("max_cuts", scene.options.max_cuts, 0, most_cuts);
   scene.options.loose_tolerance = table.number_or("loose_tolerance", 0, not_negative);
   scene.dimension = dimension_of(scene.material);
   scene.segments = read_segments(table, carries_tension(scene.material), scene.dimension);

@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable
 from typing import Any
 
+from .arguments import LARGEST_INT, whole
 from .names import ABI, VERSION, Report, Status, Summary
 
 
@@ -37,7 +38,7 @@ def _open() -> ctypes.CDLL:
     near = [os.path.join(here, file), os.path.join(here, "..", "..", "..", file)]
     path = chosen or next((one for one in near if os.path.exists(one)), file)
     try:
-        library = ctypes.CDLL(path)
+        library = ctypes.CDLL(path, use_errno=True)
         _declare(library)
     except (OSError, AttributeError) as error:
         hint = "GRAINLAW_LIBRARY says so" if chosen else "set GRAINLAW_LIBRARY to its path"
@@ -101,7 +102,8 @@ library = _open()
 
 def status_text(status: int) -> str:
     """English text of a status."""
-    text: bytes = library.grainlaw_status_text(status)
+    number = whole("status", status, -LARGEST_INT - 1, LARGEST_INT, bad_argument)
+    text: bytes = library.grainlaw_status_text(number)
     return text.decode()
 
 
@@ -109,6 +111,11 @@ def version() -> str:
     """Version of the library in use, "major.minor.patch"."""
     text: bytes = library.grainlaw_version()
     return text.decode()
+
+
+def bad_argument(message: str) -> Error:
+    """What a call is refused with before the library is asked."""
+    return Error(Status.BAD_ARGUMENT, message)
 
 
 def check(status: int, message: str = "") -> None:
@@ -121,7 +128,7 @@ def c_text(value: str | os.PathLike[str]) -> bytes:
     """As the library takes paths and texts."""
     encoded = os.fsencode(value)
     if b"\0" in encoded:
-        raise Error(Status.BAD_ARGUMENT, f"a text for the library holds a zero byte: {value!r}")
+        raise bad_argument(f"a text for the library holds a zero byte: {value!r}")
     return encoded
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
+from .arguments import number
 from .control import Condition
 
 KINDS = {"F": ("F", False), "dF": ("F", True), "P": ("P", False), "sigma": ("sigma", False)}
@@ -42,13 +43,32 @@ def read_conditions(d: int, components: Mapping[str, float | str], isochoric: bo
     if isochoric and not follows:
         raise ValueError("isochoric, and all of the diagonal of F has a condition; expected one "
                          "without, which follows det F")
+    _check_differences(conditions, d)
     return conditions, follows
+
+
+def _check_differences(conditions: Sequence[Condition], d: int) -> None:
+    """Each difference has to bind two stresses that those before it leave apart: what is bound twice
+    leaves F of a component without a condition. sigma is symmetric, so sigma21 is sigma12."""
+    def name(k: int) -> str:
+        return f"sigma{k // d + 1}{k % d + 1}"
+
+    group = [min(k, d * (k % d) + k // d) for k in range(d * d)]
+    for k, condition in enumerate(conditions):
+        if condition.kind != "difference":
+            continue
+        one, other = group[k], group[condition.other]
+        if one == other:
+            raise ValueError(f"{name(k)} is \"{name(condition.other)}\", which it is already by another "
+                             "condition or as sigma is symmetric; expected one condition for each F "
+                             "that is found")
+        group = [one if of == other else of for of in group]
 
 
 def _condition(name: str, value: float | str, kind: str, added: bool, d: int,
                mean_pressure: float | None) -> Condition:
     if not isinstance(value, str):
-        return Condition(kind, float(value), added)
+        return Condition(kind, number(name, value), added)
     if kind == "F" and not added and value == "free" and mean_pressure is not None:
         return Condition("mean", -mean_pressure, False)
     other = re.fullmatch(rf"sigma([1-{d}])([1-{d}])", value)

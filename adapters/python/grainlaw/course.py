@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .arguments import MOST_STEPS, number, whole
 from .control import Condition, Segment, cauchy
 from .lead import Lead, StepError
 from .result import Result
@@ -29,11 +30,10 @@ class Loops:
     q: float | None = None        #: [Pa]
 
     def __post_init__(self) -> None:
-        if not isinstance(self.count, int) or self.count < 1:
-            raise ValueError(f"expected a number of loops >= 1, got {self.count!r}")
+        whole("number of loops", self.count, 1, MOST_STEPS)
         if (self.strain is None) == (self.q is None):
             raise ValueError("expected one of strain (0.005 for 0.5 %) and q (Pa) of the loops")
-        if not 0 < self.amplitude < (0.5 if self.q is None else math.inf):
+        if not 0 < number("amplitude", self.amplitude) < (0.5 if self.q is None else math.inf):
             raise ValueError(f"expected an amplitude above 0, of strain below 0.5, got "
                              f"{self.amplitude!r}")
 
@@ -60,7 +60,10 @@ class Stop:
 
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
-            if value is not None and not (0 <= value <= 1 if name == "liquefied" else value > 0):
+            if value is None:
+                continue
+            number(f"stop.{name}", value)
+            if not (0 <= value <= 1 if name == "liquefied" else value > 0):
                 raise ValueError(f"expected a stop.{name} above 0"
                                  f"{' and at most 1' if name == 'liquefied' else ''}, got {value!r}")
 

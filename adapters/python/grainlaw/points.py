@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Self
@@ -11,7 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import plots
-from .abi import Error, Handle, c_text, check, library, status_text
+from .abi import Error, Handle, bad_argument, c_text, check, library, status_text
+from .arguments import LARGEST_INT, masked, number, whole
 from .material import AnyPath, Material
 from .names import Contact, Particle, Report, Status, Summary
 from .particles import Records, records
@@ -84,8 +86,7 @@ class States:
     def __init__(self, material: Material, count: int) -> None:
         if not isinstance(material, Material):
             raise Error(Status.BAD_HANDLE, f"expected a Material, got {type(material).__name__}")
-        if not isinstance(count, (int, np.integer)) or count < 1:
-            raise Error(Status.BAD_ARGUMENT, f"expected a number of points >= 1, got {count!r}")
+        count = whole("number of points", count, 1, sys.maxsize, bad_argument)
         self.material = material
         self.dimension = material.dimension
         self._time_step: float | None = None
@@ -122,7 +123,9 @@ class States:
         for arrays of another shape or type and where a point's status is < 0."""
         n, d = len(self), self.dimension
         deformation = _numbers(F, (n, d, d))
-        want = 0 if tangent is None else int(tangent)
+        want = 0 if tangent is None else whole("tangent", tangent, 0, LARGEST_INT, bad_argument,
+                                               ", as grainlaw.Tangent.EXACT, or None")
+        threads = whole("threads", threads, -LARGEST_INT, LARGEST_INT, bad_argument, ", 0 for all")
         P = np.full((n, d, d), np.nan)
         A = np.full((n, d, d, d, d), np.nan) if want else None
         status = np.zeros(n, np.intc)
@@ -139,6 +142,9 @@ class States:
     def set_time_step(self, step: float) -> None:
         """How long increments take from now on, in the host's unit, e.g. `LoadSteps.part`: a
         material with solver.viscous_increment asks for it."""
+        step = number("time step", step, bad_argument)
+        if step <= 0:
+            raise bad_argument(f"time step {step!r}: expected a number above 0")
         check(library.grainlaw_points_set_time_step(self._handle, step))
         self._time_step = step
 
@@ -160,7 +166,10 @@ class States:
 
     def load(self, saved: bytes | bytearray | memoryview) -> None:
         """Replace the committed states by saved ones: all of them or, on an Error, none."""
-        saved = bytes(saved)
+        try:
+            saved = bytes(memoryview(saved))
+        except TypeError:
+            raise bad_argument(f"expected saved states as bytes, got {type(saved).__name__}") from None
         message = ctypes.create_string_buffer(256)
         status = library.grainlaw_points_load(self._handle, saved, len(saved), message,
                                               len(message))
@@ -169,6 +178,7 @@ class States:
     def measure(self, what: int) -> Array:
         """A Measure of the trial, or of the committed state where there is no trial: (n,),
         (n, d, d) or (n, components), in the unit that help(grainlaw.Measure) gives."""
+        what = whole("measure", what, 0, LARGEST_INT, bad_argument, ", as grainlaw.Measure.VOID_RATIO")
         count = ctypes.c_size_t()
         check(library.grainlaw_points_measure(self._handle, what, None, ctypes.byref(count)))
         values = np.empty(count.value)
@@ -229,13 +239,17 @@ class States:
         self._write(library.grainlaw_state_write_packing, prefix, point)
 
     def _state(self, point: int) -> Any:
-        if not 0 <= point < len(self):
-            raise Error(Status.BAD_ARGUMENT, f"point {point} is none of 0 to {len(self) - 1}")
+        point = whole("point", point, 0, len(self) - 1, bad_argument)
         return library.grainlaw_points_state(self._handle, point)
 
     def _write(self, function: Callable[..., int], path: AnyPath, point: int) -> None:
-        status = function(self._state(point), c_text(path))
-        check(status, f"{os.fspath(path)}: {status_text(status)}")
+        name = os.fsdecode(path)
+        if not name:
+            raise bad_argument("the name of a file '': expected one that is not empty")
+        ctypes.set_errno(0)
+        status = function(self._state(point), c_text(name))
+        cause = ctypes.get_errno() if status == Status.FILE_ERROR else 0
+        check(status, f"{name}: {status_text(status)}{f': {os.strerror(cause)}' if cause else ''}")
 
 
 class State(States):
@@ -243,7 +257,7 @@ class State(States):
 
     def __init__(self, material: Material, count: int = 1) -> None:
         if count != 1:
-            raise Error(Status.BAD_ARGUMENT, f"a State is one point, got {count!r}: States")
+            raise bad_argument(f"a State is one point, got {count!r}: States")
         super().__init__(material, 1)
 
     def evaluate(self, F: npt.ArrayLike, tangent: int | None = None, threads: int = 1) -> Evaluation:
@@ -270,12 +284,14 @@ def _restore(kind: type[States], material: Material, count: int, saved: bytes,
 
 
 def _numbers(F: npt.ArrayLike, shape: tuple[int, ...]) -> Array:
+    if masked(F):
+        raise bad_argument("F has masked entries, expected a number in each")
     try:
         array = np.asarray(F)
     except ValueError as error:
-        raise Error(Status.BAD_ARGUMENT, f"F is no array: {error}") from None
+        raise bad_argument(f"F is no array: {error}") from None
     if array.dtype.kind not in "iuf":
-        raise Error(Status.BAD_ARGUMENT, f"F holds {array.dtype}, expected real numbers")
+        raise bad_argument(f"F holds {array.dtype}, expected real numbers")
     if array.shape != shape:
-        raise Error(Status.BAD_ARGUMENT, f"F has the shape {array.shape}, expected {shape}")
+        raise bad_argument(f"F has the shape {array.shape}, expected {shape}")
     return np.ascontiguousarray(array, dtype=float)

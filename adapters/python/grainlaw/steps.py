@@ -13,8 +13,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+from .arguments import MOST_STEPS, number, whole
+
 SMALLEST_CUT, USUAL_CUT = 0.1, 0.5   # of a part that failed, in one go
 GROWTH = 2.0                         # of the part after one that went well
+MOST_CUTS = 1000                     # 2^-1000 of a step is a number yet
 
 
 class StepTooSmall(Exception):
@@ -27,16 +30,16 @@ class LoadSteps:
     loads that act from the start. No part gets smaller than its step / 2**max_cuts."""
 
     def __init__(self, loads: int | Iterable[float], max_cuts: int = 10) -> None:
-        if isinstance(loads, int):
-            loads = [(k + 1) / loads for k in range(loads)]
-        self._goals = [float(load) for load in loads]
-        # A NaN is not compared: a host may trap that.
-        if (not self._goals or not all(math.isfinite(goal) for goal in self._goals)
-                or not all(a < b for a, b in zip(self._goals, self._goals[1:]))
+        if isinstance(loads, Iterable) and not isinstance(loads, (str, bytes)):
+            self._goals = [number("load", load) for load in loads]
+        else:
+            count = whole("number of load steps", loads, 1, MOST_STEPS)
+            self._goals = [(k + 1) / count for k in range(count)]
+        if (not self._goals or not all(a < b for a, b in zip(self._goals, self._goals[1:]))
                 or not 0 <= self._goals[0] <= self._goals[-1] <= 1):
             raise ValueError("expected a number of load steps >= 1, or ascending fractions of the "
                              f"load from 0 to 1, got {loads!r}")
-        self._max_cuts = max_cuts
+        self._max_cuts = whole("max_cuts", max_cuts, 0, MOST_CUTS)
         self._start = self.done = 0.0
         self.number = 0          #: of the load step, from 0
         self.cuts = 0            #: so far
@@ -74,6 +77,7 @@ class LoadSteps:
     def cut(self, ratio: float) -> None:
         """`load` was not reached: it comes nearer, by the ratio of the way that seems feasible.
         Raises StepTooSmall."""
+        ratio = number("ratio", ratio, finite=False)
         step = self._goals[self.number] - self._start
         ratio = max(SMALLEST_CUT, min(USUAL_CUT, ratio)) if math.isfinite(ratio) else USUAL_CUT
         part = (self.load - self.done) * ratio

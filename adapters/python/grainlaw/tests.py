@@ -14,6 +14,8 @@ All of them take:
     consolidation  isotropic pressure [Pa] that is brought on before, in 20 steps; result.before
     tolerance      largest error of a prescribed stress / norm of the stress at the start of a step [-]
 
+More than 10^7 steps one way, or loops, are refused: such a test does not end.
+
 Ctrl-C ends a test between two evaluations: Interrupted, a KeyboardInterrupt, has the rows so far as
 its `result`, whose state is where the last one left it. A step that fails in its smallest part raises
 StepFailed, which has them too.
@@ -26,6 +28,7 @@ from typing import Any
 
 import numpy as np
 
+from .arguments import MOST_STEPS, number, whole
 from .components import read_conditions
 from .control import Condition, Segment, cauchy
 from .course import Course, Loops, Plan, Stop, keep
@@ -70,9 +73,11 @@ def isotropic(start: Start, pressure: float | None = None, steps: int = STEPS, *
               loops: int = 0, stop: Stop | None = None, tolerance: float = 1e-8) -> Result:
     """All normal stresses to `pressure` [Pa], twice what it is by default; shears of F stay. `loops`:
     so many times there and back."""
+    wanted, count = _pressure("pressure", pressure), _count(steps)
+
     def plan(lead: Lead) -> Plan:
         F, sigma = lead.F, cauchy(lead.P, lead.F)
-        end = _pressure("pressure", pressure, -2 * float(sigma.trace()) / len(F))
+        end = -2 * float(sigma.trace()) / len(F) if wanted is None else wanted
 
         def to(way: float) -> Segment:
             conditions = keep(F.size)
@@ -80,9 +85,9 @@ def isotropic(start: Start, pressure: float | None = None, steps: int = STEPS, *
                 conditions[_kk(F, i)] = _stress(sigma[i, i] + way * (-end - sigma[i, i]))
             return Segment(conditions)
 
-        return Plan(to, 1.0, 1 / _count(steps), by_share=True)
+        return Plan(to, 1.0, 1 / count, by_share=True)
 
-    return _run(start, plan, loops, stop, None, tolerance)
+    return _run(start, plan, _turns(loops), stop, None, tolerance)
 
 
 def k0(start: Start, axial_stress: float | None = None, steps: int = STEPS, *, loops: int = 0,
@@ -90,18 +95,20 @@ def k0(start: Start, axial_stress: float | None = None, steps: int = STEPS, *, l
        tolerance: float = 1e-8) -> Result:
     """The axial stress to `axial_stress` [Pa], twice what it is by default; lateral strains stay 0.
     `loops`: so many times there and back."""
+    wanted, count = _pressure("axial_stress", axial_stress), _count(steps)
+
     def plan(lead: Lead) -> Plan:
         F, sigma = lead.F, cauchy(lead.P, lead.F)
-        end = _pressure("axial_stress", axial_stress, -2 * float(sigma[-1, -1]))
+        end = -2 * float(sigma[-1, -1]) if wanted is None else wanted
 
         def to(way: float) -> Segment:
             conditions = keep(F.size)
             conditions[-1] = _stress(sigma[-1, -1] + way * (-end - sigma[-1, -1]))
             return Segment(conditions)
 
-        return Plan(to, 1.0, 1 / _count(steps), by_share=True)
+        return Plan(to, 1.0, 1 / count, by_share=True)
 
-    return _run(start, plan, loops, stop, consolidation, tolerance)
+    return _run(start, plan, _turns(loops), stop, consolidation, tolerance)
 
 
 def oedometric(start: Start, strain: float = 0.02, step: float = 5e-4, *,
@@ -118,10 +125,11 @@ def drained(start: Start, strain: float = 0.1, step: float = 1e-3, *,
             tolerance: float = 1e-8) -> Result:
     """Axial strain [-], in steps of `step` [-]; the lateral stresses stay, as they are or
     `lateral_stress` [Pa]."""
+    held = _pressure("lateral_stress", lateral_stress)
+
     def hold(F: Array, sigma: Array, conditions: list[Condition]) -> Sequence[int]:
         for i in range(len(F) - 1):
-            conditions[_kk(F, i)] = _stress(-_pressure("lateral_stress", lateral_stress,
-                                                       -sigma[i, i]))
+            conditions[_kk(F, i)] = _stress(sigma[i, i] if held is None else -held)
         return ()
 
     return _strained(start, strain, step, hold, loops, stop, consolidation, tolerance)
@@ -165,8 +173,10 @@ def shear_constant_stress(start: Start, strain: float = 0.1, step: float = 1e-3,
                           tolerance: float = 1e-8) -> Result:
     """Shear strain [-], in steps of `step` [-]; the normal stress on its planes stays, as it is or
     `normal_stress` [Pa]."""
+    held = _pressure("normal_stress", normal_stress)
+
     def hold(F: Array, sigma: Array, conditions: list[Condition]) -> Sequence[int]:
-        conditions[-1] = _stress(-_pressure("normal_stress", normal_stress, -sigma[-1, -1]))
+        conditions[-1] = _stress(sigma[-1, -1] if held is None else -held)
         return ()
 
     return _strained(start, strain, step, hold, loops, stop, consolidation, tolerance, shear=True)
@@ -187,11 +197,11 @@ def path(start: Start, steps: int, *, isochoric: bool = False, mean_pressure: fl
     isochoric=True      components of the diagonal of F without a condition follow by one factor, so
                         that det F stays
     """
-    count = _count(steps)
+    count, wanted = _count(steps), _pressure("mean_pressure", mean_pressure)
 
     def plan(lead: Lead) -> Plan:
         contact = lead.state.material.description.get("contact", {})
-        conditions, follows = read_conditions(len(lead.F), components, isochoric, mean_pressure,
+        conditions, follows = read_conditions(len(lead.F), components, isochoric, wanted,
                                               tension=contact.get("law") == "bonded")
         first = lead.values(conditions)
         last = [value + one.value if one.added else one.value
@@ -213,11 +223,18 @@ def _strained(start: Start, strain: float, step: float,
               tolerance: float, shear: bool = False, keeps_volume: bool = False) -> Result:
     """A test led by a strain. hold(F, sigma, conditions) sets what is held, and returns the axes
     whose stretches keep det F."""
+    strain, step = number("strain", strain), number("step", step)
     if not 0 < abs(strain) < 0.5:
         raise ValueError(f"expected a strain between -0.5 and 0.5, 0.05 for 5 % of compression, "
                          f"got {strain!r}")
     if not 0 < step < 0.1:
         raise ValueError(f"expected a strain of one step, above 0 and below 0.1, got {step!r}")
+    if loops is not None and not isinstance(loops, Loops):
+        raise TypeError(f"expected loops as Loops(2, strain=0.005) or None, got {loops!r}")
+    way = abs(strain) if loops is None or loops.strain is None else float(loops.strain)
+    if step < way / MOST_STEPS:
+        raise ValueError(f"step {step!r} of strain {way!r}: expected a step of at least strain / "
+                         f"{MOST_STEPS}, {way / MOST_STEPS:.3g}")
 
     def plan(lead: Lead) -> Plan:
         F, sigma = lead.F, cauchy(lead.P, lead.F)
@@ -243,6 +260,11 @@ def _run(start: Start, planner: Callable[[Lead], Plan], loops: Loops | int, stop
     state = State(start) if isinstance(start, Material) else start
     if not isinstance(state, State):
         raise TypeError(f"expected a Material or a State, got {type(start).__name__}")
+    if stop is not None and not isinstance(stop, Stop):
+        raise TypeError(f"expected stop as Stop(q=100e3) or None, got {stop!r}")
+    if not number("tolerance", tolerance) > 0:
+        raise ValueError(f"tolerance {tolerance!r}: expected a number above 0, as 1e-8")
+    consolidation = _pressure("consolidation", consolidation)
     # Answers that start from the last trial are as exact as the library's own equilibrium.
     solver = state.material.description.get("solver", {})
     if solver.get("start") == "trial":
@@ -275,14 +297,14 @@ def _stress(value: float) -> Condition:
 
 
 def _count(steps: int) -> int:
-    if not isinstance(steps, int) or steps < 1:
-        raise ValueError(f"expected a number of steps >= 1, got {steps!r}")
-    return steps
+    return whole("number of steps", steps, 1, MOST_STEPS)
 
 
-def _pressure(name: str, value: float | None, otherwise: float) -> float:
-    if value is None:
-        return otherwise
-    if not value > 0:
+def _turns(loops: int) -> int:
+    return whole("number of loops", loops, 0, MOST_STEPS)
+
+
+def _pressure(name: str, value: float | None) -> float | None:
+    if value is not None and not number(name, value) > 0:
         raise ValueError(f"expected a {name} above 0 Pa, compression positive, got {value!r}")
     return value

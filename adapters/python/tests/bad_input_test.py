@@ -1,7 +1,10 @@
 """Bad input: an Error with status and message, and what is committed as it was."""
+import contextlib
+import errno
 import os
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import numpy as np
@@ -61,6 +64,46 @@ class BadInput(Case):
         for measure in (-1, 1000):
             self.assert_refused(Status.BAD_ARGUMENT, [], self.states.measure, measure)
 
+    def test_integers_that_c_would_cut(self):
+        for beyond in (2**31, 2**32, 2**40, 2**64 + 3, 2**70):
+            for call, word in ((lambda: self.states.evaluate(self.good, beyond), "tangent"),
+                               (lambda: self.states.evaluate(self.good, None, beyond), "threads"),
+                               (lambda: self.states.measure(beyond), "measure"),
+                               (lambda: self.states.contacts(beyond), "point"),
+                               (lambda: grainlaw.status_text(beyond), "status")):
+                self.assert_refused(Status.BAD_ARGUMENT, [f"{word} {beyond}:", "from"], call)
+        for count in (2**64, 2**64 + 3, 2**70, -2**64 + 1):
+            self.assert_refused(Status.BAD_ARGUMENT, [f"number of points {count}", "from 1"],
+                                grainlaw.States, material(), count)
+        self.assertEqual(len(grainlaw.States(material(), np.int64(2))), 2)
+        self.assertTrue(self.states.evaluate(self.good, np.uint8(1), np.int32(2)).ok)
+        self.states.revert()
+
+    def test_what_is_no_number(self):
+        for bad in (1.5, "2", [1], np.ones(2), 1j):
+            for call, word in ((lambda: self.states.evaluate(self.good, bad), "grainlaw.Tangent"),
+                               (lambda: self.states.evaluate(self.good, None, bad), "threads"),
+                               (lambda: self.states.measure(bad), "grainlaw.Measure"),
+                               (lambda: self.states.particles(bad), "point")):
+                self.assert_refused(Status.BAD_ARGUMENT, [repr(bad), word, "whole number"], call)
+        self.assert_refused(Status.BAD_ARGUMENT, ["threads None"], self.states.evaluate, self.good,
+                            None, None)
+        for bad in ("x", "1", None, 1j, [1], np.ones(1), np.ma.masked, np.nan, np.inf, 10**400):
+            self.assert_refused(Status.BAD_ARGUMENT, ["time step", "finite number"],
+                                self.states.set_time_step, bad)
+        for bad in (0, -1.0):
+            self.assert_refused(Status.BAD_ARGUMENT, ["time step", "above 0"],
+                                self.states.set_time_step, bad)
+
+    def test_masked_entries(self):
+        holes = np.ma.array(self.good, mask=self.good == 0)
+        for F in (holes, list(holes), [list(point) for point in holes]):
+            self.assert_refused(Status.BAD_ARGUMENT, ["masked"], self.states.evaluate, F)
+        self.assert_refused(Status.BAD_ARGUMENT, ["masked"], grainlaw.State(material()).evaluate,
+                            holes[0])
+        self.assertTrue(self.states.evaluate(np.ma.array(self.good)).ok)
+        self.states.revert()
+
     def test_commit_before_evaluate(self):
         self.assert_refused(Status.NO_TRIAL, ["no evaluated trial"], self.states.commit)
 
@@ -86,6 +129,8 @@ class BadInput(Case):
         kept = fresh.save()
         self.assert_refused(Status.BAD_BYTES, ["damaged"], fresh.load, damaged)
         self.assert_refused(Status.BAD_BYTES, ["truncated"], fresh.load, b"")
+        for bad in (3, 2**70, "saved", None):
+            self.assert_refused(Status.BAD_ARGUMENT, ["bytes", type(bad).__name__], fresh.load, bad)
         self.assertEqual(fresh.save(), kept)  # not even the good ones
         with open(MATERIAL, encoding="utf-8") as file:
             other = grainlaw.Material.parse(file.read().replace("0.546", "0.446"), DATA)
@@ -93,9 +138,21 @@ class BadInput(Case):
                             grainlaw.States(other, 3).load, self.before)
 
     def test_files_that_cannot_be_written(self):
-        self.assert_refused(Status.FILE_ERROR, ["/nowhere/a.vtp"],
-                            self.states.write_vtk, "/nowhere/a.vtp")
+        for path, cause in (("/nowhere/a.vtp", errno.ENOENT), (DATA, errno.EISDIR),
+                            (os.path.join(MATERIAL, "a.vtp"), errno.ENOTDIR),
+                            ("/dev/full", errno.ENOSPC)):
+            self.assert_refused(Status.FILE_ERROR, [path, os.strerror(cause)],
+                                self.states.write_vtk, path)
+        self.assert_refused(Status.FILE_ERROR, ["/nowhere/a", os.strerror(errno.ENOENT)],
+                            self.states.write_packing, "/nowhere/a")
         self.assert_refused(Status.BAD_ARGUMENT, ["point 3"], self.states.write_vtk, "a.vtp", 3)
+
+    def test_files_without_a_name(self):
+        with tempfile.TemporaryDirectory() as directory, contextlib.chdir(directory):
+            for name in ("", b""):
+                for write in (self.states.write_packing, self.states.write_vtk):
+                    self.assert_refused(Status.BAD_ARGUMENT, ["not empty"], write, name)
+            self.assertEqual(os.listdir(), [])
 
     def test_library_that_is_none(self):
         for path, words in (("/nowhere/libgrainlaw.so", "cannot be loaded"),

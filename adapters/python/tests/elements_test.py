@@ -3,6 +3,7 @@ import csv
 import functools
 import os
 import pickle
+import re
 import signal
 import subprocess
 import tempfile
@@ -179,6 +180,64 @@ class Elements(Case):
         for call in (lambda: tests.path(m, 2, F33=0.9), lambda: tests.path(m, 2, strain=0.1),
                      lambda: tests.drained("sand.toml")):
             self.assertRaises(TypeError, call)
+        for call, words in ((lambda: tests.drained(m, stop=3), "Stop(q=100e3) or None, got 3"),
+                            (lambda: tests.k0(m, stop="q"), "got 'q'"),
+                            (lambda: tests.drained(m, loops=3), "Loops(2, strain=0.005) or None")):
+            with self.assertRaisesRegex(TypeError, re.escape(words)):
+                call()
+
+    def test_what_is_no_number_is_told_and_leaves_the_state(self):
+        state = grainlaw.State(material())
+        before = state.save()
+        for call, name in (
+                (lambda bad: tests.drained(state, bad), "strain"),
+                (lambda bad: tests.oedometric(state, 0.01, bad), "step"),
+                (lambda bad: tests.drained(state, tolerance=bad), "tolerance"),
+                (lambda bad: tests.drained(state, consolidation=[bad]), "consolidation"),
+                (lambda bad: tests.drained(state, consolidation=1e5, lateral_stress=bad),
+                 "lateral_stress"),
+                (lambda bad: tests.shear_constant_stress(state, normal_stress=bad), "normal_stress"),
+                (lambda bad: tests.isotropic(state, bad), "pressure"),
+                (lambda bad: tests.isotropic(state, steps=bad), "number of steps"),
+                (lambda bad: tests.k0(state, bad), "axial_stress"),
+                (lambda bad: tests.k0(state, loops=bad), "number of loops"),
+                (lambda bad: tests.path(state, bad), "number of steps"),
+                (lambda bad: tests.path(state, 2, F11="free", mean_pressure=bad), "mean_pressure"),
+                (lambda bad: tests.path(state, 2, F11=[bad]), "F11"),
+                (lambda bad: Loops(bad, q=1), "number of loops"),
+                (lambda bad: Loops(1, q=bad), "amplitude"),
+                (lambda bad: Stop(p=bad), "stop.p")):
+            for bad in ("x", [1], 1j, np.nan):
+                with self.assertRaisesRegex(ValueError, rf"{name} .*: expected a \w+ number"):
+                    call(bad)
+        self.assertRaisesRegex(ValueError, "above 0", tests.drained, state, tolerance=0)
+        self.assertEqual(state.save(), before)
+
+    def test_more_steps_than_end_are_refused(self):
+        m = material()
+        for test in (tests.oedometric, tests.drained, tests.undrained, tests.constant_p,
+                     tests.shear_constant_volume, tests.shear_constant_stress):
+            for strain, step in ((0.01, 1e-12), (-0.01, 9e-10), (0.01, 5e-324)):
+                with self.assertRaisesRegex(ValueError, rf"step {step} of strain 0.01: .*, 1e-09"):
+                    test(m, strain, step)
+        with self.assertRaisesRegex(ValueError, "step 2e-08 of strain 0.4: .*, 4e-08"):
+            tests.drained(m, 0.01, 2e-8, loops=Loops(1, strain=0.4))
+        for call in (lambda: tests.isotropic(m, steps=10**8), lambda: tests.k0(m, steps=2**70),
+                     lambda: tests.path(m, 10**8), lambda: tests.k0(m, loops=10**8),
+                     lambda: Loops(10**8, q=1)):
+            self.assertRaisesRegex(ValueError, "from [01] to 10000000", call)
+        self.assertEqual(len(tests.drained(m, 0.01, 1e-9, stop=Stop(strain=2e-9))), 3)
+
+    def test_one_condition_for_two_components_is_refused(self):
+        for path, conditions in (
+                (None, {"sigma11": "sigma22", "sigma22": "sigma11"}),
+                (None, {"sigma12": "sigma21"}), (None, {"sigma12": -1e3, "sigma21": "sigma12"}),
+                (SPHERES, {"sigma11": "sigma22", "sigma22": "sigma33", "sigma33": "sigma11"}),
+                (SPHERES, {"sigma13": "sigma12", "sigma31": "sigma21"})):
+            with self.assertRaisesRegex(ValueError, "one condition for each F"):
+                tests.path(material(path) if path else material(), 1, **conditions)
+        result = tests.path(material(SPHERES), 1, sigma11="sigma22", sigma22="sigma33", F33=0.9995)
+        self.assertLess(np.ptp(np.diagonal(result.sigma[-1])), 1e-6 * result.mean_pressure[-1])
 
     def test_a_step_that_fails_keeps_what_was_reached(self):
         once = functools.partial(Options, max_cuts=1)

@@ -89,6 +89,19 @@ class Steps(Case):
             with self.assertRaises(ValueError):
                 LoadSteps(loads)
 
+    def test_what_is_no_number_is_told(self):
+        for loads in ("12", "x", 1.5, None, 10**8, 2**70):
+            with self.assertRaisesRegex(ValueError, "number of load steps .* from 1 to"):
+                LoadSteps(loads)
+        for loads in ([0, "1"], [None], [0.5, 1j]):
+            self.assertRaisesRegex(ValueError, "load .*: expected a finite number", LoadSteps, loads)
+        for cuts in (-1, 1.5, "x", None, 2000):
+            self.assertRaisesRegex(ValueError, "max_cuts .* from 0", LoadSteps, 1, cuts)
+        for ratio in ("x", None, [0.5]):
+            self.assertRaisesRegex(ValueError, "ratio .*: expected a number", LoadSteps(1).cut, ratio)
+        self.assertEqual(LoadSteps(np.int64(2)).load, 0.5)
+        self.assertEqual(LoadSteps(np.linspace(0.25, 1, 4)).load, 0.25)
+
 
 if __name__ == "__main__":
     unittest.main()

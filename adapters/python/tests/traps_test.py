@@ -6,7 +6,7 @@ import unittest
 import numpy as np
 
 import grainlaw
-from grainlaw import Status, Tangent
+from grainlaw import Status, Tangent, tests
 from grainlaw.steps import LoadSteps
 from support import Case, material
 
@@ -38,6 +38,13 @@ class Traps(Case):
         self.assertFalse(answer.ok)
         self.assertLess(answer.step_ratio, 1)
         self.assertIn("point 0", answer.message)
+
+    def test_numbers_of_tests(self):
+        for bad in (np.nan, np.inf):
+            self.assert_refused(Status.BAD_ARGUMENT, ["time step"], self.states.set_time_step, bad)
+            for call in (lambda: tests.drained(material(), bad), lambda: tests.Stop(q=bad),
+                         lambda: tests.drained(material(), consolidation=bad)):
+                self.assertRaisesRegex(ValueError, "finite", call)
 
     def test_load_steps(self):
         for bad in (float("nan"), float("inf")):

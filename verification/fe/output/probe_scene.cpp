@@ -30,7 +30,7 @@ std::vector<int> nodes_on_line(SceneTable& table, std::string_view key, const Me
 
 DisplacementProbe read_probe(SceneTable& table, const Mesh& mesh) {
   DisplacementProbe probe;
-  probe.name = table.text("name");
+  probe.name = table.file_name("name");
   std::string_view where;
   for (const std::string_view key : {"on", "x", "y"}) {
     if (!table.has(key)) continue;

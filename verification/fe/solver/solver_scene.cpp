@@ -1,5 +1,7 @@
 #include "fe/solver/solver_scene.hpp"
 
+#include "app/parts.hpp"
+
 #include <fmt/format.h>
 
 namespace verification {
@@ -10,7 +12,7 @@ NewtonOptions read_newton(SceneTable table, const MaterialSource& material) {
   options.tangent =
       tangent_bit(table.choice_or("tangent", "exact", {"exact", "elastic", "perturbed"}));
   options.tolerance = read_tolerance(table, material, options.tolerance);
-  options.max_cuts = table.integer_or("max_cuts", options.max_cuts, 0);
+  options.max_cuts = table.integer_or("max_cuts", options.max_cuts, 0, most_cuts);
   options.loose_tolerance = table.number_or("loose_tolerance", 0, not_negative);
   options.jump_tolerance = table.number_or("jump_tolerance", 0, not_negative);
   options.jump_iterations = table.integer_or("jump_iterations", 0, 0);
@@ -29,7 +31,7 @@ RelaxationOptions read_relaxation(SceneTable table) {
   RelaxationOptions options;
   options.tolerance = table.number_or("tolerance", options.tolerance, positive);
   options.max_iterations = table.integer_or("max_iterations", options.max_iterations, 1);
-  options.max_cuts = table.integer_or("max_cuts", options.max_cuts, 0);
+  options.max_cuts = table.integer_or("max_cuts", options.max_cuts, 0, most_cuts);
   options.damping_ratio = table.number_or("damping_ratio", options.damping_ratio, not_negative);
   options.safety = table.number_or("safety", options.safety, {0, 1, true, "a number in (0, 1]"});
   table.close();
