@@ -147,6 +147,13 @@ class EndedRuns(unittest.TestCase):
         status, _, err = self.place.run("point", scene, "--output", "out")
         self.assertEqual(status, 0, err)
 
+    def test_loads_that_fail_at_the_start_are_not_put_down_to_the_load_steps(self):
+        pulled = SOLVE.format(value=-1e-5).replace("value = 100e3", "value = -100e6")
+        scene = self.place.write("s.toml", "steps = 1\n" + PERIODIC + pulled)
+        status, _, err = self.place.run("solve", scene, "--output", "out")
+        self.assertEqual(status, 1, err)
+        self.assertIn("loads that act from time 0 on", err)
+
     def test_compare_says_what_a_table_lacks(self):
         good = self.place.write("good.csv", TABLE)
         for text, words in ((TABLE.split("\n", 1)[0] + "\n", "found no row below the header"),

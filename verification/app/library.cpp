@@ -2,11 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <string>
+#include <system_error>
+
 namespace verification {
 
 void check(grainlaw_status status, const std::string& what) {
-  if (status != GRAINLAW_OK)
-    throw ComputationError(fmt::format("{}: {}", what, grainlaw_status_text(status)));
+  if (status == GRAINLAW_OK) return;
+  const int error = status == GRAINLAW_FILE_ERROR ? errno : 0;
+  const std::string cause = error != 0 ? ": " + std::generic_category().message(error) : "";
+  throw ComputationError(fmt::format("{}: {}{}", what, grainlaw_status_text(status), cause));
 }
 
 template <int D>

@@ -123,9 +123,11 @@ class Run {
         finish(true);
       } catch (const std::exception&) {  // says no more than the error that is reported
       }
-      throw ComputationError(fmt::format(
-          "{}: {}{}", file_.string(), error.what(),
-          why_at_start(start_, std::max(done_, 0), "try more load steps or smaller loads")));
+      const char* to_try = done_ < 0 ? "look at the loads that act from time 0 on, which load "
+                                       "steps do not divide; pressure presses where it is above 0"
+                                     : "try more load steps or smaller loads";
+      throw ComputationError(fmt::format("{}: {}{}", file_.string(), error.what(),
+                                         why_at_start(start_, std::max(done_, 0), to_try)));
     } catch (const Interrupted&) {
       finish();
       throw;

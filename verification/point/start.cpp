@@ -138,7 +138,7 @@ std::string smaller_steps(const PackingStart& start, const Segment& segment) {
   const double hard = strain * start.stiffness;
   if (hard > 1)
     return fmt::format(
-        "try {:.0f} steps or more instead of {}: each strains by {:.2g}, {:.2g} times "
+        "try {:.6g} steps or more instead of {}: each strains by {:.2g}, {:.2g} times "
         "p/kn",
         std::ceil(hard * segment.steps), segment.steps, strain, hard);
   return "try smaller steps, solver.tolerance = 1e-8, or loose_tolerance";
