@@ -106,6 +106,13 @@ std::string unsettled(const Increment<D>& increment) {
   return text + "; expected a packing made with these contacts and friction, and its contacts file";
 }
 
+std::string made_with_more_friction(const MaterialDescription& description) {
+  const auto& generator = description.generator;
+  if (!generator || !(generator->friction > description.law.friction)) return {};
+  return fmt::format("; made with packing.friction = {}, which contact.friction = {} may not hold",
+                     generator->friction, description.law.friction);
+}
+
 template <int D>
 std::uint64_t fingerprint_of(const Material<D>& material) {
   XXH3_state_t state;
@@ -254,14 +261,15 @@ std::shared_ptr<const Material<D>> make_material(MaterialDescription description
     throw Error(outcome.status,
                 fmt::format("contacts carry no more at F = I than rounding makes of "
                             "them; {}",
-                            unsettled(workspace.increment)));
+                            unsettled(workspace.increment) + made_with_more_friction(description)));
   }
   if (outcome.status != GRAINLAW_OK) {
-    throw Error(outcome.status, fmt::format("the packing found no equilibrium at F = I: residual "
-                                            "{:.3g} after {} relaxation steps, expected {:.3g}; {}",
-                                            workspace.increment.residual_norm(),
-                                            workspace.increment.cost.relaxation_steps,
-                                            request.tolerance, unsettled(workspace.increment)));
+    throw Error(outcome.status,
+                fmt::format("the packing found no equilibrium at F = I: residual "
+                            "{:.3g} after {} relaxation steps, expected {:.3g}; {}",
+                            workspace.increment.residual_norm(),
+                            workspace.increment.cost.relaxation_steps, request.tolerance,
+                            unsettled(workspace.increment) + made_with_more_friction(description)));
   }
   const auto stress = free ? Tensor<D>{} : piola_stress(workspace.increment);
   workspace.increment.advance_history();
