@@ -54,8 +54,8 @@ template <int D>
 void check_given_forces(const Material<D>& material) {
   constexpr double tolerance = 0.01;
   const auto& packing = material.packing;
-  double given = 0;
-  double found = 0;
+  const double most_shear = std::max(100.0, material.law.friction);  // over the normal forces
+  double given = 0, found = 0, shear = 0;
   for (const auto& contact : packing.contacts) {
     const auto i = static_cast<std::size_t>(contact.i);
     const auto j = static_cast<std::size_t>(contact.j);
@@ -65,6 +65,7 @@ void check_given_forces(const Material<D>& material) {
       return pulls ? std::abs(value) : std::max(value, 0.0);
     };
     given += carried(contact.normal_force);
+    if (!pulls) shear += length<3>(contact.tangential_force);
     found += material.law.normal_force(packing.radius[i], packing.radius[j],
                                        carried(overlap + contact.bond_gap));
   }
@@ -76,6 +77,13 @@ void check_given_forces(const Material<D>& material) {
                     "stiffness the packing was made with, or no packing.contacts",
                     given, found));
   }
+  if (shear > most_shear * given)
+    throw Error(
+        GRAINLAW_BAD_PACKING,
+        fmt::format(
+            "packing.contacts: tangential forces add up to {:.6g} N, normal ones to {:.6g} N; "
+            "expected at most {:g} times as much",
+            shear, given, most_shear));
 }
 
 // Mean normal force of the packing as it is given: without it, a boundary under uniform stress could

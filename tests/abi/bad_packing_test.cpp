@@ -119,5 +119,20 @@ TEST(bad_packing, of_another_stiffness_than_its_forces_is_told) {
   EXPECT_NE(std::string(message).find("forces"), std::string::npos) << message;
 }
 
+TEST(bad_packing, of_forces_that_no_friction_holds_is_told) {
+  const TemporaryDirectory directory;
+  write_text(directory / "particles.csv", particles);
+  write_text(directory / "contacts.csv",
+             "i,j,shift_x,shift_y,fn,ftx_on_j,fty_on_j\n0,1,0,0,200,0,3e4\n");
+  write_text(directory / "cell.csv", cell);
+  char message[1024];
+  grainlaw_material* made = nullptr;
+  expect_refused(grainlaw_material_parse(file.c_str(), directory.string().c_str(), &made, message,
+                                         sizeof message),
+                 GRAINLAW_BAD_PACKING, "tangential");
+  EXPECT_NE(std::string(message).find("add up to 30000 N, normal ones to 200 N"), std::string::npos)
+      << message;
+}
+
 }  // namespace
 }  // namespace grainlaw::test
