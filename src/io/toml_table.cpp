@@ -191,8 +191,10 @@ void TomlTable::fail(std::string_view key, std::string_view found,
     if (!has(key) && !asked && resembles(key, other.str()))
       perhaps = fmt::format(" ({} in line {}?)", other.str(), value.source().begin.line);
   }
-  throw Error(GRAINLAW_BAD_MATERIAL, fmt::format("{}: {}: found {}, expected {}{}", where(key),
-                                                 path(key), found, expected, perhaps));
+  std::string text = fmt::format("{}: {}: found {}, expected {}{}", where(key), path(key), found,
+                                 expected, perhaps);
+  std::ranges::replace(text, '\0', ' ');  // of the file; it would end the text
+  throw Error(GRAINLAW_BAD_MATERIAL, text);
 }
 
 const toml::node* TomlTable::node(std::string_view key) {
@@ -254,7 +256,6 @@ std::string TomlTable::describe(const toml::node& node) {
     found = out.str();
   }
   std::ranges::replace(found, '\n', ' ');
-  std::ranges::replace(found, '\0', ' ');  // would end the message
   if (found.size() > longest) found = found.substr(0, longest) + "...";
   return found;
 }

@@ -156,6 +156,12 @@ class Imports(unittest.TestCase):
         for name, wanted in (("H00", 0.039), ("H01", 0.00975), ("H11", 0.0169)):
             self.assertAlmostEqual(float(cell[name]), wanted, places=12)
 
+    def test_options_are_finite_numbers(self):
+        path = self.place.write("good.txt", "x,y,r\n0.1,0.1,0.05\n0.2,0.1,0.05\n")
+        for option in ("--length", "--thickness", "--density", "--young", "--kn", "--pressure", "--ratio", "--friction"):
+            for value in ("nan", "inf", "-1"):
+                self.assertIn(f"found {value}, expected a number >", self.run_import(path, option, value, status=2))
+
     def test_what_is_wrong_is_told_by_file_line_and_column(self):
         good = "x,y,r\n0.1,0.1,0.05\n0.2,0.1,0.05\n"
         cases = (

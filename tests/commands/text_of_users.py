@@ -105,7 +105,7 @@ class TextOfUsers(unittest.TestCase):
         self.assertEqual(self.place.files("."), {"home", "t.csv", "bytes", "out " + CODE})
 
     def test_refused_probes(self):
-        for name in REFUSED:
+        for name in [*REFUSED, "a\0b"]:
             scene = self.place.write("s.toml", "steps = 1\n" + PERIODIC + SOLVE.format(value=-1e-5)
                                      + f'[[probe]]\nname = {toml(name)}\non = "top"\n')
             self.refuses("probe[1].name: found", "solve", scene)

@@ -4,18 +4,29 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <string>
 
 namespace verification {
 
-inline CLI::Validator at_least(int low) {
-  return {[low](std::string& text) {
+// CLI11's own take NaN and infinity.
+template <class Accept>
+CLI::Validator finite_number(const std::string& rule, Accept accept) {
+  return {[rule, accept](std::string& text) {
             double value = 0;
-            return CLI::detail::lexical_cast(text, value) && value >= low
+            return CLI::detail::lexical_cast(text, value) && std::isfinite(value) && accept(value)
                        ? std::string()
-                       : fmt::format("found {}, expected a number >= {}", text, low);
+                       : fmt::format("found {}, expected a number {}", text, rule);
           },
-          fmt::format(">= {}", low)};
+          rule};
+}
+
+inline CLI::Validator at_least(int low) {
+  return finite_number(fmt::format(">= {}", low), [low](double value) { return value >= low; });
+}
+
+inline CLI::Validator above(int low) {
+  return finite_number(fmt::format("> {}", low), [low](double value) { return value > low; });
 }
 
 }  // namespace verification

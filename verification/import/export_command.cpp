@@ -135,8 +135,6 @@ void run_export(const ExportArguments& arguments) {
   source.base = source.file.parent_path();
   const SceneFile file(arguments.material);  // tells whether it is there
   const std::string name = arguments.name.empty() ? source.file.stem().string() : arguments.name;
-  if (!is_file_name(name))
-    throw InputError(fmt::format("--name: found \"{}\", expected {}", name, file_name_rule));
   const auto stem = output_stem(arguments.output, name);
   for (const Form& form : forms) {
     if (arguments.format != form.name) continue;
