@@ -3,6 +3,8 @@
 // Newton's method with the exact tangent. Every evaluation of that path is a sample; it is done
 // again, from the state that was committed then, with other tolerances, with and without the
 // tangent.
+#include "../data.hpp"
+
 #include <grainlaw/grainlaw.hpp>
 
 #include <benchmark/benchmark.h>
@@ -31,7 +33,7 @@ constexpr int path_digits = 8;  // of the tolerance, for the states the samples 
 
 // Tolerance 10^-digits.
 Material material(int digits) {
-  const std::string data = GRAINLAW_TEST_DATA;
+  const std::string data = grainlaw::test::data_directory();
   const std::string text =
       "dimension = 2\n"
       "[packing]\n"

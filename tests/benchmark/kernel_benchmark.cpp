@@ -1,4 +1,5 @@
 // The engine's inner loops, on the reference packing in the middle of an increment of 0.1 %.
+#include "../data.hpp"
 #include "equilibrium/strategy.hpp"
 #include "material/material.hpp"
 #include "material/material_file.hpp"
@@ -22,13 +23,13 @@ constexpr std::array<double, 4> target{1.0004, 0, 0, 0.999};
 
 const Material<2>& material() {
   static const auto instance =
-      make_material<2>(read_material_file(GRAINLAW_TEST_DATA "/rve400.toml"));
+      make_material<2>(read_material_file(grainlaw::test::data_file("rve400.toml")));
   return *instance;
 }
 
 // The packing side by side with itself, `side` x `side` times, particles numbered at random.
 std::shared_ptr<const Material<2>> tiled(int side) {
-  MaterialDescription description = read_material_file(GRAINLAW_TEST_DATA "/rve400.toml");
+  MaterialDescription description = read_material_file(grainlaw::test::data_file("rve400.toml"));
   const Packing one = description.packing;
   Packing& many = description.packing;
   const std::size_t n = one.size();

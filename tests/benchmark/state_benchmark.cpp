@@ -1,4 +1,6 @@
 // A state through the C ABI: kinds of tangent, a batch by threads, saving and loading.
+#include "../data.hpp"
+
 #include <grainlaw/grainlaw.hpp>
 
 #include <benchmark/benchmark.h>
@@ -15,7 +17,7 @@ using Tensor = std::array<double, 4>;
 using Tangent = std::array<double, 16>;
 
 const Material& material() {
-  static const Material instance = Material::load(GRAINLAW_TEST_DATA "/rve400.toml");
+  static const Material instance = Material::load(grainlaw::test::data_file("rve400.toml"));
   return instance;
 }
 

@@ -1,5 +1,6 @@
 // Explicit dynamics against closed forms, on a string of bonded discs: a linear elastic bar.
 #include "fe/solver/dynamics.hpp"
+#include "../data.hpp"
 #include "fe/mesh/mass.hpp"
 #include "support.hpp"
 
@@ -22,8 +23,8 @@ const double wave_speed = std::sqrt(modulus / density);
 
 Material string_material() {
   MaterialSource source;
-  source.file = GRAINLAW_TEST_DATA "/string.toml";
-  source.base = GRAINLAW_TEST_DATA;
+  source.file = grainlaw::test::data_file("string.toml");
+  source.base = grainlaw::test::data_directory();
   return make_material(source);
 }
 

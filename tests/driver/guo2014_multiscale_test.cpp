@@ -1,4 +1,5 @@
 // The scenes of guo2014_multiscale: they read, and the meshes of one test differ in their mesh alone.
+#include "../data.hpp"
 #include "fe/scene.hpp"
 #include "point/scene.hpp"
 
@@ -13,7 +14,7 @@ namespace verification {
 namespace {
 
 const std::filesystem::path directory =
-    GRAINLAW_TEST_DATA "/../../verification/scenes/guo2014_multiscale";
+    grainlaw::test::data_file("../../verification/scenes/guo2014_multiscale");
 
 FiniteElementScene scene(const std::string& name) {
   return read_fe_scene(SceneFile(directory / (name + ".toml")));

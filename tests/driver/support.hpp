@@ -1,6 +1,7 @@
 // A material that is cheap to evaluate, and what several tests of the driver need.
 #pragma once
 
+#include "../data.hpp"
 #include "app/material.hpp"
 #include "fe/mesh/mesh.hpp"
 
@@ -31,8 +32,8 @@ inline Material lattice_material() {
 // The 400 discs of tests/data.
 inline Material packing_material() {
   MaterialSource source;
-  source.file = GRAINLAW_TEST_DATA "/rve400.toml";
-  source.base = GRAINLAW_TEST_DATA;
+  source.file = grainlaw::test::data_file("rve400.toml");
+  source.base = grainlaw::test::data_directory();
   return make_material(source);
 }
 

@@ -1,5 +1,6 @@
 // What solvers tell their points of time: a part of a load step is the shorter for it, so that its drag
 // does not depend on how the step is cut; and that what has drag goes on as it went.
+#include "../data.hpp"
 #include "fe/solver/last_move.hpp"
 #include "fe/solver/newton.hpp"
 #include "fe/solver/relaxation.hpp"
@@ -14,8 +15,8 @@ namespace {
 // The 400 discs, of which an increment that lasts `increment` has a viscous time of 100.
 Material with_drag(double increment) {
   MaterialSource source;
-  source.file = GRAINLAW_TEST_DATA "/rve400.toml";
-  source.base = GRAINLAW_TEST_DATA;
+  source.file = grainlaw::test::data_file("rve400.toml");
+  source.base = grainlaw::test::data_directory();
   toml::table solver{{"viscous_time", 100}, {"viscous_increment", increment}};
   source.changes.insert("solver", std::move(solver));
   return make_material(source);

@@ -1,5 +1,6 @@
 // Waves through rows of discs: particles against closed forms, meshes against particles.
 
+#include "../data.hpp"
 #include "material/material_file.hpp"
 #include "wave/motion.hpp"
 #include "wave/run.hpp"
@@ -14,7 +15,7 @@
 namespace verification {
 namespace {
 
-const std::string scenes = GRAINLAW_TEST_DATA "/../../verification/scenes/liu2018_waves/";
+const std::string scenes = grainlaw::test::data_file("../../verification/scenes/liu2018_waves/");
 constexpr const char* string_bonds =
     "contact = { law = 'bonded', ratio = 0.4, friction = 0, bond.normal_strength = 3e6, "
     "bond.tangential_strength = 6e6 }";

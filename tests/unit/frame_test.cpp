@@ -1,5 +1,6 @@
 #include "frame/frame.hpp"
 
+#include "../data.hpp"
 #include "base/error.hpp"
 #include "frame/frame_geometry.hpp"
 #include "generate/compaction.hpp"
@@ -21,7 +22,7 @@ namespace grainlaw::core {
 namespace {
 
 Packing yade_packing() {
-  const std::string data = GRAINLAW_TEST_DATA "/rve400_";
+  const std::string data = grainlaw::test::data_file("rve400_");
   return read_packing({data + "particles.csv", data + "contacts.csv", data + "cell.csv"});
 }
 

@@ -1,5 +1,6 @@
 #include "material/packing_file.hpp"
 
+#include "../data.hpp"
 #include "../temporary_directory.hpp"
 #include "base/error.hpp"
 #include "frame/frame.hpp"
@@ -14,7 +15,7 @@
 namespace grainlaw::core {
 namespace {
 
-const std::string data = GRAINLAW_TEST_DATA "/rve400_";
+const std::string data = grainlaw::test::data_file("rve400_");
 
 const char* const good_particles = "id,x,y,r\n7,0.1,0.1,0.1\n-3,0.29,0.1,0.1\n";
 const char* const good_contacts =

@@ -1,6 +1,7 @@
 // States of sphere packings: stress, tangents, rotations, bytes; and a layer of spheres against discs.
 #include "sphere_support.hpp"
 
+#include "../data.hpp"
 #include "base/error.hpp"
 #include "homogenise/measures.hpp"
 #include "state/serialise.hpp"
@@ -96,7 +97,7 @@ TEST(spheres, saved_bytes_bring_the_state_back) {
 
 // Discs seen as spheres between two walls of symmetry: one deep, in a cell higher than they are.
 TEST(layer_of_spheres, is_the_disc_packing) {
-  const std::string data = GRAINLAW_TEST_DATA "/rve400_";
+  const std::string data = grainlaw::test::data_file("rve400_");
   MaterialDescription discs;
   discs.packing = read_packing({data + "particles.csv", data + "contacts.csv", data + "cell.csv"});
   discs.law.young = 6e8;

@@ -1,6 +1,7 @@
 // What the tests of spheres share: packings, materials, and increments from state to state.
 #pragma once
 
+#include "../data.hpp"
 #include "homogenise/measures.hpp"
 #include "material/packing_file.hpp"
 #include "norms.hpp"
@@ -24,7 +25,7 @@ using test::relative_difference;
 // 500 spheres at 100 kPa made with YADE, tests/data.
 inline const Packing& reference_packing() {
   static const Packing packing = [] {
-    const std::string data = GRAINLAW_TEST_DATA "/spheres500_";
+    const std::string data = grainlaw::test::data_file("spheres500_");
     return read_packing({data + "particles.csv", data + "contacts.csv", data + "cell.csv"}, 3);
   }();
   return packing;

@@ -1,6 +1,7 @@
 // What the tests of the mechanics share: packings, materials, and increments from state to state.
 #pragma once
 
+#include "../data.hpp"
 #include "frame/frame.hpp"
 #include "generate/compaction.hpp"
 #include "homogenise/measures.hpp"
@@ -79,7 +80,7 @@ inline ContactLaw locked_law() {
 // 400 discs at 100 kPa, tests/data.
 inline const Packing& reference_packing() {
   static const Packing packing = [] {
-    const std::string data = GRAINLAW_TEST_DATA "/rve400_";
+    const std::string data = grainlaw::test::data_file("rve400_");
     return read_packing({data + "particles.csv", data + "contacts.csv", data + "cell.csv"});
   }();
   return packing;

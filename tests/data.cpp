@@ -1,0 +1,10 @@
+#include "data.hpp"
+
+namespace grainlaw::test {
+
+const std::string& data_directory() {
+  static const std::string path = GRAINLAW_TEST_DATA;
+  return path;
+}
+
+}  // namespace grainlaw::test
