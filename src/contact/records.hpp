@@ -1,7 +1,10 @@
 // How the loops over contacts see particles and nodes: whole vector registers each.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
+#include <type_traits>
 
 namespace grainlaw::core {
 
@@ -86,6 +89,24 @@ struct LeastMass<3> {
   double spin = 0;            // [N/m]
   double inverse_radius = 0;  // [1/m]
 };
+
+// The components of a record: translations, then rotations.
+template <class Record>
+inline constexpr auto components_of = [] {
+  if constexpr (requires(Record record) { record.eta_x; }) {
+    return std::array{&Record::x,     &Record::y,     &Record::z,
+                      &Record::eta_x, &Record::eta_y, &Record::eta_z};
+  } else if constexpr (requires(Record record) { record.spin_x; }) {
+    return std::array{&Record::x,      &Record::y,      &Record::z,
+                      &Record::spin_x, &Record::spin_y, &Record::spin_z};
+  } else {
+    return std::array{&Record::x, &Record::y, &Record::roll};
+  }
+}();
+template <class Record>
+constexpr auto& component(Record& record, std::size_t k) {
+  return record.*components_of<std::remove_const_t<Record>>[k];
+}
 
 // A drag on nodes: stiffness x (expected - place) each; empty, there is none.
 template <int D>

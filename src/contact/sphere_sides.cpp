@@ -134,7 +134,7 @@ void ContactSides<3>::hold(std::span<const ParticleRecord<3>> particles, const N
     of.stiffness[k] = drag.stiffness[p].x;
     of.stiffness_spin[k] = drag.stiffness[p].spin_x;
     for (std::size_t c = 0; c < size; ++c) {
-      of.distance[c][k] = (&drag.expected[p].x)[c] - (&particles[p].x)[c];
+      of.distance[c][k] = component(drag.expected[p], c) - component(particles[p], c);
     }
     Nodes& nodes = nodes_[slot / lanes];
     nodes.mass[k] += factor * of.stiffness[k];
@@ -172,8 +172,8 @@ void ContactSides<3>::move(std::span<ParticleRecord<3>> particles) const {
     const ParticleRecord<3>& moved = moves_[slots_.slot(p)];
     double eta_square = 0;
     for (std::size_t c = 0; c < size; ++c) {
-      double& value = (&particle.x)[c];
-      value += (&moved.x)[c];
+      double& value = component(particle, c);
+      value += component(moved, c);
       if (c >= 3) eta_square += value * value;
     }
     particle.half = 0.5 / std::sqrt(1 + 0.25 * eta_square / (particle.radius * particle.radius));

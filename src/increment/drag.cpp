@@ -57,8 +57,8 @@ void Drag<D>::begin(const DragStart<D>& how, const BoundarySpace<D>& space, bool
     for (std::size_t k = 0; k < components; ++k) {
       const double length = k < D ? 1 : radius;
       const double last = move.empty() ? 0 : move[k * n + p];
-      (&move_[q].x)[k] = length * last;
-      (&expected_[q].x)[k] = length * (affine[k * n + p] + how.follow * last);
+      component(move_[q], k) = length * last;
+      component(expected_[q], k) = length * (affine[k * n + p] + how.follow * last);
     }
   }
 }
@@ -69,7 +69,7 @@ void Drag<D>::follow_deformation(const BoundarySpace<D>& space, const Tensor<D>&
   for (std::size_t q = 0; q < expected_.size(); ++q) {
     const double* x = space.reference.data() + particle_[q];
     for (std::size_t k = 0; k < D; ++k) {
-      (&expected_[q].x)[k] += dot<D>(change.data() + D * k, x, n);
+      component(expected_[q], k) += dot<D>(change.data() + D * k, x, n);
     }
   }
 }
@@ -81,8 +81,8 @@ void Drag<D>::restart_turns(std::span<const Place> particles) {
     for (std::size_t q = 0; q < expected_.size(); ++q) {
       const auto p = static_cast<std::size_t>(particle_[q]);
       for (std::size_t k = 0; k < 3; ++k) {
-        const double turned = (&particles[p].eta_x)[k];
-        (&expected_[q].eta_x)[k] -= turned;
+        const double turned = component(particles[p], 3 + k);
+        component(expected_[q], 3 + k) -= turned;
         part_start_[(3 + k) * n + p] -= turned / particles[p].radius;
       }
     }
@@ -150,9 +150,9 @@ double Drag<D>::work(std::span<const Place> particles, std::span<const double> a
     const Place distance = excess(q, particles);
     for (std::size_t k = 0; k < components; ++k) {
       const double length = k < D ? 1 : particles[p].radius;
-      const double moved = (&particles[p].x)[k] - length * affine[k * n + p];
-      const double drag = (&stiffness_[q].x)[k] * (&distance.x)[k];
-      sum += 0.5 * ((&before_[q].x)[k] + drag) * moved;
+      const double moved = component(particles[p], k) - length * affine[k * n + p];
+      const double drag = component(stiffness_[q], k) * component(distance, k);
+      sum += 0.5 * (component(before_[q], k) + drag) * moved;
     }
   }
   return sum;

@@ -5,15 +5,26 @@
 #include "increment/records.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
 namespace grainlaw::core {
 
+namespace {
+
+std::uint64_t next_epoch() {
+  static std::atomic<std::uint64_t> last = 0;
+  return last.fetch_add(1, std::memory_order_relaxed) + 1;
+}
+
+}  // namespace
+
 template <int D>
 void Increment<D>::begin(const Problem<D>& problem, const Configuration<D>& from,
                          const Tensor<D>& target) {
   problem_ = &problem;
+  epoch_ = next_epoch();
   cost = {};
   holds_spins_ = false;
   losses_.begin();
@@ -158,7 +169,7 @@ void Increment<D>::reduce(std::span<ForceRecord<D>> forces) const {
     const unsigned char fixed = space.fixed[q];
     if (fixed == 0) continue;
     for (std::size_t k = 0; k < Dimension<D>::unknowns; ++k) {
-      if ((fixed & fixed_bit(k)) != 0) (&forces[q].x)[k] = 0;
+      if ((fixed & fixed_bit(k)) != 0) component(forces[q], k) = 0;
     }
   }
   masses_.take_out_averages(space, forces);

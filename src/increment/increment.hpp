@@ -12,6 +12,7 @@
 #include "increment/touching_history.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -45,6 +46,8 @@ class Increment {
   void begin(const Problem<D>& problem, const Configuration<D>& from, const Tensor<D>& deformation);
   // Reach for another F from the present history; the guess moves affinely with it.
   void deform(const Tensor<D>& deformation);
+  // A number that no other increment of this process has: what was cached for it serves it alone.
+  [[nodiscard]] std::uint64_t epoch() const { return epoch_; }
   // Relist neighbours when a particle may have come near one that is not listed; whether it did.
   bool keep_neighbours();
 
@@ -162,6 +165,7 @@ class Increment {
   [[nodiscard]] double potential_energy() const;
 
   const Problem<D>* problem_ = nullptr;
+  std::uint64_t epoch_ = 0;
   Motion<D> motion_;
   Candidates<D> candidates_;
   TouchingHistory<D> history_;

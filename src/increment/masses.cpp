@@ -80,7 +80,7 @@ void Masses<D>::find_rows(const Problem<D>& problem, const Motion<D>& motion,
     for (std::size_t j = 0; j < D; ++j) number += space.found[D * i + j] ? 1 : 0;
     MassRecord<D> row{};
     for (std::size_t j = 0; j < D; ++j) {
-      (&row.x)[j] = tuned::deformation_mass_factor * std::max(number * sum[j] / scale, least);
+      component(row, j) = tuned::deformation_mass_factor * std::max(number * sum[j] / scale, least);
     }
     records_[problem.nodes() + i] = row;
   }

@@ -174,7 +174,7 @@ void Motion<D>::change_deformation(const double* rows) {
   const double* x = space.reference.data();
   for (std::size_t p = 0; p < n; ++p) {
     for (std::size_t k = 0; k < dim; ++k) {
-      (&records_[p].x)[k] += dot<D>(change.data() + dim * k, x + p, n);
+      component(records_[p], k) += dot<D>(change.data() + dim * k, x + p, n);
     }
   }
   if (drag_.acts()) drag_.follow_deformation(space, change);

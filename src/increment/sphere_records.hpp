@@ -18,12 +18,12 @@ inline void load_records(const double* coordinates, bool rotating,
   const std::size_t n = records.size();
   for (std::size_t p = 0; p < n; ++p) {
     auto& record = records[p];
-    for (std::size_t k = 0; k < 3; ++k) (&record.x)[k] = coordinates[k * n + p];
+    for (std::size_t k = 0; k < 3; ++k) component(record, k) = coordinates[k * n + p];
     if (!rotating) continue;
     double squares = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const double theta = coordinates[(3 + k) * n + p];
-      (&record.eta_x)[k] = record.radius * theta;
+      component(record, 3 + k) = record.radius * theta;
       squares += theta * theta;
     }
     record.half = 0.5 / std::sqrt(1 + 0.25 * squares);
@@ -35,10 +35,10 @@ inline void store_records(std::span<const ParticleRecord<3>> records, bool rotat
   const std::size_t n = records.size();
   for (std::size_t p = 0; p < n; ++p) {
     const auto& record = records[p];
-    for (std::size_t k = 0; k < 3; ++k) coordinates[k * n + p] = (&record.x)[k];
+    for (std::size_t k = 0; k < 3; ++k) coordinates[k * n + p] = component(record, k);
     if (!rotating) continue;
     for (std::size_t k = 0; k < 3; ++k) {
-      coordinates[(3 + k) * n + p] = (&record.eta_x)[k] / record.radius;
+      coordinates[(3 + k) * n + p] = component(record, 3 + k) / record.radius;
     }
   }
 }
@@ -48,9 +48,9 @@ inline void put_residual(const ForceRecord<3>* forces, std::span<const double> r
                          bool rotating, double* residual) {
   const std::size_t m = radius.size();
   for (std::size_t q = 0; q < m; ++q) {
-    for (std::size_t k = 0; k < 3; ++k) residual[k * m + q] = (&forces[q].x)[k];
+    for (std::size_t k = 0; k < 3; ++k) residual[k * m + q] = component(forces[q], k);
     for (std::size_t k = 0; k < 3; ++k) {
-      residual[(3 + k) * m + q] = rotating ? (&forces[q].spin_x)[k] * radius[q] : 0;
+      residual[(3 + k) * m + q] = rotating ? component(forces[q], 3 + k) * radius[q] : 0;
     }
   }
 }

@@ -88,7 +88,7 @@ void DragDerivatives<D>::add_to(const Increment<D>& increment, const Deformation
     }
     if (affine) {
       Vec<D> reference{};
-      for (std::size_t k = 0; k < D; ++k) reference[k] = (&distance.x)[k];
+      for (std::size_t k = 0; k < D; ++k) reference[k] = component(distance, k);
       reference = product<D>(back, reference);
       for (std::size_t k = 0; k < D; ++k) {
         for (std::size_t l = 0; l < D; ++l) {

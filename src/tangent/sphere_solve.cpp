@@ -10,6 +10,7 @@ namespace grainlaw::core {
 template <>
 void Stiffness<3>::prepare_iteration(Increment<3>& increment) {
   ++increment.cost.factorisations;
+  factorised_ = increment.epoch();
   ground(increment, tuned::incomplete_grounding);
   iterative_.prepare(matrix_, ground_);
 }

@@ -53,7 +53,7 @@ void Stiffness<D>::find_touching(const Increment<D>& increment) {
 template <int D>
 bool Stiffness<D>::graph_serves(const Increment<D>& increment) const {
   const auto& list = increment.contacts();
-  if (increment.cost.factorisations == 0 || listed_i_.size() != list.size() ||
+  if (factorised_ != increment.epoch() || listed_i_.size() != list.size() ||
       !std::equal(listed_i_.begin(), listed_i_.end(), list.i.begin()) ||
       !std::equal(listed_j_.begin(), listed_j_.end(), list.j.begin())) {
     return false;

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -35,7 +36,7 @@ struct TouchingContact {
 
 // What one increment of deformation left here serves the rest of it: the graph while all contacts
 // that touch are in it, the factors for solve_together(). Nothing is carried from one increment to the
-// next that could change a bit there: Increment::cost has no factorisations when one begins.
+// next that could change a bit there: the epoch tells them apart.
 template <int D>
 class Stiffness {
  public:
@@ -132,6 +133,7 @@ class Stiffness {
   std::size_t iterative_from_ = tuned::iterative_nodes;
   int most_products_ = tuned::most_products;
   Factors factors_ = Factors::none;
+  std::uint64_t factorised_ = 0;  // epoch of the increment that was factorised in last
   std::vector<TouchingContact<D>> touching_;
   std::vector<ContactMoment<D>> moments_;
   std::vector<Edge> graph_;

@@ -54,8 +54,9 @@ void Stiffness<D>::ground(const Increment<D>& increment, double share) {
 
 template <int D>
 void Stiffness<D>::factorise(Increment<D>& increment) {
-  const bool first = increment.cost.factorisations++ == 0;
-  lu_.analyse(matrix_, !first);
+  ++increment.cost.factorisations;
+  lu_.analyse(matrix_, factorised_ == increment.epoch());
+  factorised_ = increment.epoch();
   gmres_.reserve(matrix_.nodes);
   ground(increment, tuned::grounding);
   factors_ = lu_.factorise(matrix_, ground_) ? Factors::of_matrix : Factors::none;
