@@ -4,7 +4,7 @@
 //           "What the constants of the solver are chosen by";
 //   reach, start, newton, error, spheres   chosen by that study of `verification/run study`;
 //   timed   chosen by run time, measured by a program that is not in the repository;
-//   method  follows from the method or from the quantity it is compared with
+//   method  follows from the method or from the quantity it is compared with;
 //   chosen  set by judgement; no command of the repository measures it.
 // The compiler options GRAINLAW_TUNE_NAME="name" and GRAINLAW_TUNE_VALUE=value replace one of them.
 #pragma once
@@ -255,8 +255,8 @@ GRAINLAW_TUNED(int, most_subincrements, 64);
 GRAINLAW_TUNED(int, finest_refinement, 8);
 // Upper bound of the rounding error that raises the tolerance [-]; method.
 GRAINLAW_TUNED(double, largest_rounding, 1e-3);
-// Mean forces at which a packing that may lose its contacts is free of stress, and may become so [mean
-// force at F = I]; reach.
+// Mean forces at which a packing that may lose its contacts is free of stress, and may become so
+// [mean force at F = I]; reach.
 GRAINLAW_TUNED(double, faded, 1e-6);
 GRAINLAW_TUNED(double, fading, 1e-2);
 
