@@ -140,8 +140,8 @@ GRAINLAW_TUNED(long, settling_steps, 60);
 // [-]; sweep.
 GRAINLAW_TUNED(int, most_corrections, 5);
 GRAINLAW_TUNED(double, hopeless_correction, 1e4);
-// Stiffness of the spring that enforces the rule of a two-contact sphere [its mass]. @formula
-// free-spin; method.
+// Stiffness of the spring that enforces the rule of a two-contact sphere [its mass].
+// @formula free-spin; method.
 GRAINLAW_TUNED(double, free_spin_hold, 0.1);
 // Upper bound of the force above which a contact supports a sphere, however coarse the tolerance
 // [mean force]. Chosen; docs/theory.md, "How an increment is solved", has the rule of two-contact
@@ -203,8 +203,8 @@ GRAINLAW_TUNED(int, most_products, 400);
 // Upper bound of the ratio rho between expected and last displacement [-]. @formula inertia;
 // chosen.
 GRAINLAW_TUNED(double, largest_follow, 3);
-// Least strain of an increment that has a direction to continue in [-]. Fluctuations of a hold
-// would otherwise be expected to follow any next increment. Chosen; verification/README.md,
+// Least strain of an increment that has a direction to continue in [-]. After a
+// pause, fluctuations would otherwise be expected to repeat in any next increment. Chosen; verification/README.md,
 // "Without jumps", says between which bounds.
 GRAINLAW_TUNED(double, least_followed_strain, 1e-9);
 // Residual at which a relaxation of discs with drag hands over to Newton [-]; chosen. Spheres with

@@ -56,8 +56,8 @@ struct ContactChange {
 template <int D>
 struct HistoryChange;
 
-// Derivatives of the start of the history, carried from one sub-increment to the next. @formula
-// sensitivity
+// Derivatives of the start of the history, carried from one sub-increment to the next.
+// @formula sensitivity
 template <int D>
 class HistoryDerivatives;
 
