@@ -39,7 +39,8 @@ class FloatingEnvironment {
   std::fenv_t host_;
 };
 
-// A thread that the host cancels goes on to the end of the call: what unwinds it could not be stopped.
+// Defers cancellation of a thread by the host to the end of the call, since unwinding cannot be
+// stopped inside it.
 class CancellationOff {
  public:
   CancellationOff() noexcept { pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &host_); }

@@ -1,4 +1,4 @@
-// The one exception of the library: a status of the C ABI and a message for a person.
+// The only exception of the library: a status of the C ABI and a message for a person.
 #pragma once
 
 #include <grainlaw/grainlaw.h>

@@ -1,4 +1,4 @@
-// Vectors that are sized once: what is reused from call to call soon allocates no more.
+// Growth of vectors that are reused from call to call: after a few calls they allocate no more.
 #pragma once
 
 #include <algorithm>
@@ -6,8 +6,8 @@
 
 namespace grainlaw::core {
 
-// Resize, and when the vector has to grow leave room for one part in so many: a thread's memory has
-// plenty, a state's, of which there are many, as much as its contacts vary.
+// Spare capacity as a divisor of the size: a vector that grows reserves size / divisor more.
+// `plenty` serves the memory of a thread, `little` that of the many states.
 constexpr std::size_t plenty = 2;
 constexpr std::size_t little = 8;
 
@@ -28,7 +28,7 @@ void copy_with_room(const Vector& from, Vector& to, std::size_t part = plenty) {
   std::copy(from.begin(), from.end(), to.begin());
 }
 
-// The same for a vector that was filled one by one.
+// Reserves spare capacity for a vector that was filled by push_back.
 template <class Vector>
 void keep_room(Vector& vector) {
   if (vector.capacity() < vector.size() + vector.size() / 4) {

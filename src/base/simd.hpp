@@ -1,5 +1,5 @@
-// Two, four or eight doubles at a time by the compiler's vector types, and functions compiled once per
-// instruction set, the best chosen when the program starts.
+// Vector registers of two, four or eight doubles by the compiler's vector types. Functions are
+// compiled once per instruction set, and the best one is chosen when the program starts.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,10 @@
 #include <new>
 #include <vector>
 
-// Everything that passes vectors by value is inlined.
+// All functions that pass vectors by value are inlined, so the ABI warning is void.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-// The widest registers to dispatch to [bit]; what sums differ by between widths is rounding.
+// Widest registers to dispatch to [bit]. Sums of different widths differ by rounding.
 #ifndef GRAINLAW_WIDEST_VECTORS
 #define GRAINLAW_WIDEST_VECTORS 512
 #endif
@@ -37,17 +37,16 @@
 #define GRAINLAW_OF_FOUR
 #endif
 #define GRAINLAW_INLINE inline __attribute__((always_inline))
-#define GRAINLAW_INLINED __attribute__((always_inline))  // of a lambda
+#define GRAINLAW_INLINED __attribute__((always_inline))  // for lambdas
 
 namespace grainlaw::core::simd {
 
-// Tests ask for the lanes of narrower registers in GRAINLAW_LANES; the sums keep their bits.
+// Limit of lanes from the environment variable GRAINLAW_LANES, for tests. Results keep their bits.
 inline const int most_lanes = [] {
   const char* const asked = std::getenv("GRAINLAW_LANES");
   return asked == nullptr ? 8 : std::atoi(asked);
 }();
 
-// Whether registers hold eight doubles.
 inline bool eight_lanes() {
 #if GRAINLAW_DISPATCH >= 512
   return most_lanes >= 8 && __builtin_cpu_supports("x86-64-v4") != 0;
@@ -56,7 +55,6 @@ inline bool eight_lanes() {
 #endif
 }
 
-// Whether they hold four.
 inline bool four_lanes() {
 #if GRAINLAW_DISPATCH >= 256
   return most_lanes >= 4 && __builtin_cpu_supports("x86-64-v3") != 0;
@@ -67,7 +65,8 @@ inline bool four_lanes() {
 #endif
 }
 
-// function(parameters) for as many lanes as there are: of<lanes, ...>(arguments).
+// Defines function(parameters) as a dispatch to of<lanes, ...>(arguments) by the lanes of the
+// processor.
 #define GRAINLAW_BY_LANES(Result, function, of, parameters, arguments, ...)                  \
   Result function##_of_two parameters { return of<2 __VA_OPT__(, ) __VA_ARGS__> arguments; } \
   GRAINLAW_OF_FOUR Result function##_of_four parameters {                                    \
@@ -101,7 +100,7 @@ GRAINLAW_INLINE void store(double* to, const Vector& value) {
   std::memcpy(to, &value, sizeof value);
 }
 
-// Four records beside another four.
+// Concatenates two records of four.
 GRAINLAW_INLINE Lanes<8> beside(const Record& a, const Record& b) {
   return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
 }
@@ -112,7 +111,8 @@ GRAINLAW_INLINE Record second(const Lanes<8>& a) {
   return __builtin_shufflevector(a, a, 4, 5, 6, 7);
 }
 
-// Records, one a row (half a one with two lanes, two with eight), become columns, and back.
+// Transposes records, one per row, into columns, and back. Two lanes take half a record per row,
+// eight lanes two.
 GRAINLAW_INLINE void transpose(Lanes<2>& a, Lanes<2>& b) {
   const Lanes<2> odd = __builtin_shufflevector(a, b, 1, 3);
   a = __builtin_shufflevector(a, b, 0, 2);
@@ -159,7 +159,7 @@ GRAINLAW_INLINE Vector magnitude(const Vector& a) {
   using Bits = typename simd::Vector<sizeof a / sizeof(double)>::bits;
   return (Vector)((Bits)a & 0x7fffffffffffffffLL);
 }
-// Of the components where `sign` is -0, the other sign.
+// Changes the sign of the components where `sign` is -0.
 template <class Vector>
 GRAINLAW_INLINE Vector flip(const Vector& a, const Vector& sign) {
   using Bits = typename simd::Vector<sizeof a / sizeof(double)>::bits;
@@ -178,7 +178,7 @@ GRAINLAW_INLINE double most(const Vector& a) {
   return value;
 }
 
-// Memory whose whole registers never lie across two cache lines.
+// Allocator with an alignment of 64 bytes, so that no register lies across two cache lines.
 template <class Value>
 struct CacheLineAllocator {
   using value_type = Value;

@@ -20,7 +20,7 @@ void ContactList<D>::resize(std::size_t contacts, bool weighted, double radius,
     resize_with_room(column, padded);
     std::fill(column.begin() + static_cast<std::ptrdiff_t>(contacts), column.end(), filling);
   };
-  // Filled up with a particle beside itself at twice its diameter, without stiffness.
+  // Padding: a particle beside itself at twice its diameter, without stiffness.
   fit(i, 0);
   fit(j, 0);
   for (std::size_t k = 0; k < D; ++k) {
@@ -33,7 +33,7 @@ void ContactList<D>::resize(std::size_t contacts, bool weighted, double radius,
   fit(reach, 2 * radius);
   fit(inverse_reach, 0.5 / radius);
   fit(lever_i, 0.5);
-  // Other laws leave their columns behind.
+  // Columns of other laws are cleared.
   for (auto* column : {&hold, &rest, &bending_stiffness, &rolling_length, &torsion_stiffness,
                        &twisting_length, &inverse_radius_i, &inverse_radius_j}) {
     column->clear();

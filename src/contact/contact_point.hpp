@@ -1,5 +1,6 @@
-// One contact: its forces and stiffness in its own frame, and what its springs hold; by overloads of
-// contact_point(), contact_stiffness(), contact_moment() and stored_energy() for the list's dimension.
+// One contact: forces and stiffness in its own frame, and energy of its springs. Functions are
+// overloaded by the dimension of the list: contact_point(), contact_stiffness(), contact_moment()
+// and stored_energy().
 #pragma once
 
 #include "contact/disc_point.hpp"

@@ -1,4 +1,4 @@
-// The contacts of a plain law with friction, each from both its sides.
+// Half contacts of a plain law with friction: each contact listed at both its nodes.
 #pragma once
 
 #include "contact/disc_sides.hpp"

@@ -12,7 +12,7 @@ namespace {
 
 using namespace simd;
 
-// One for each dimension, by overloads: a template has no clones.
+// Overloads for each dimension, because templates have no clones per instruction set.
 GRAINLAW_CLONES void store_sums(const ContactSums<2>& of, const double* values, const double* sign,
                                 double* sums) {
   of.for_each_record(values, sign,
@@ -44,7 +44,7 @@ void ContactSums<D>::arrange(std::span<const std::int32_t> i, std::span<const st
     most = std::max(most, ++as_j_[node_of(j[c])]);
   }
 
-  // Nodes by their contacts as i, among equals by those as j: sorted by j, then by i, by counting.
+  // Nodes sorted by their contacts as i, then as j, by counting: first by j, then by i.
   const auto sort_by = [&](const std::vector<std::uint32_t>& count,
                            const std::vector<std::uint32_t>& from, std::vector<std::uint32_t>& to) {
     zeroes(places_, std::size_t{most} + 2);
@@ -53,7 +53,7 @@ void ContactSums<D>::arrange(std::span<const std::int32_t> i, std::span<const st
     for (const std::uint32_t q : from) to[places_[count[q]]++] = q;
   };
   resize_with_room(node_, nodes);
-  resize_with_room(begin_, nodes);  // until it is filled below, for nodes by j
+  resize_with_room(begin_, nodes);  // filled below; until then nodes sorted by j
   std::iota(node_.begin(), node_.end(), 0U);
   sort_by(as_j_, node_, begin_);
   sort_by(as_i_, begin_, node_);
@@ -70,7 +70,7 @@ void ContactSums<D>::arrange(std::span<const std::int32_t> i, std::span<const st
   for (const std::uint32_t q : node_) {
     begin_[q] = free;
     free += as_i_[q] + as_j_[q];
-    as_j_[q] = begin_[q] + as_i_[q];  // from here on where the next one goes
+    as_j_[q] = begin_[q] + as_i_[q];  // from here on the index of the next one
   }
   resize_with_room(contact_, 2 * i.size());
   for (std::size_t c = 0; c < i.size(); ++c) {

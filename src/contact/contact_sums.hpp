@@ -1,5 +1,5 @@
-// Sums of contact forces over the contacts of every node, gathered node by node: adding contact by
-// contact would wait for the last sum on the same particle.
+// Sums of contact forces over the contacts of every node, node by node. Adding contact by contact
+// would wait for the last sum on the same particle.
 #pragma once
 
 #include "base/simd.hpp"
@@ -16,25 +16,25 @@ namespace grainlaw::core {
 template <int D>
 class ContactSums {
  public:
-  // Contacts i[c], j[c] of particles; node[p] is the node of particle p.
+  // Arranges contacts i[c], j[c] of particles; node[p] is the node of particle p.
   void arrange(std::span<const std::int32_t> i, std::span<const std::int32_t> j,
                std::span<const int> node, std::size_t nodes);
 
-  // sums[q] = sum of values[c] over contacts whose j is on node q, plus that times `sign` over
-  // contacts whose i is.
+  // Computes sums[q] = sum of values[c] over contacts with j on node q, plus `sign` times that over
+  // contacts with i on it.
   void add_up(std::span<const ForceRecord<D>> values, const ForceRecord<D>& sign,
               std::span<ForceRecord<D>> sums) const;
-  // The same of stiffnesses, which have no sign.
+  // Sums stiffnesses over the contacts of every node, without sign.
   void add_up(std::span<const StiffnessRecord<D>> values, std::span<StiffnessRecord<D>> sums) const;
 
-  // take(q, sum) with the same sum of every node, each node once, instead of storing it.
+  // Calls take(q, sum) once per node, instead of storing the sum.
   template <class Take>
   GRAINLAW_INLINE void for_each(std::span<const ForceRecord<D>> values, const ForceRecord<D>& sign,
                                 Take&& take) const {
     for_each_record(values.empty() ? nullptr : &values.data()->x, &sign.x, take);
   }
 
-  // As `lanes` doubles each.
+  // Calls take(q, sum) with records of `lanes` doubles each.
   template <class Take>
   GRAINLAW_INLINE void for_each_record(const double* records, const double* sign,
                                        Take&& take) const {
@@ -59,14 +59,13 @@ class ContactSums {
 
  private:
   static constexpr std::size_t lanes = Dimension<D>::lanes;
-  // Nodes with equal numbers of contacts follow each other, so that the loops over them are
-  // foreseeable.
+  // Run of nodes with equal numbers of contacts, so that branches of the loops are predictable.
   struct Run {
     std::uint32_t nodes, as_i, as_j;
   };
   std::vector<Run> runs_;
   std::vector<std::uint32_t> node_;     // in this order
-  std::vector<std::uint32_t> contact_;  // of each node, first those it is i of
+  std::vector<std::uint32_t> contact_;  // of each node, first those with the node as i
   std::vector<std::uint32_t> as_i_, as_j_, begin_, places_;
 };
 

@@ -1,5 +1,5 @@
-// Records of particles and contacts as columns of as many lanes, and back; sums that do not depend on
-// how many lanes there are.
+// Conversion between records of particles or contacts and columns of lanes, and sums that do not
+// depend on the number of lanes.
 #pragma once
 
 #include "base/simd.hpp"
@@ -15,13 +15,13 @@ using namespace simd;
 static_assert(sizeof(ParticleRecord<2>) == sizeof(Record) &&
               sizeof(ForceRecord<2>) == sizeof(Record));
 
-// Records of as many contacts or pairs of particles as there are lanes.
+// Records of contacts or pairs of particles, one per lane.
 template <std::size_t width>
 struct Columns {
   Lanes<width> x, y, roll, last;
 };
 
-// The record of the particle at a lane and, with eight lanes, of that four further on.
+// Record of the particle at a lane and, with eight lanes, of the one four further on.
 template <std::size_t width, std::size_t stride = 4>
 GRAINLAW_INLINE Lanes<width> record(const double* records, const std::int32_t* index,
                                     std::size_t lane) {
@@ -41,7 +41,7 @@ GRAINLAW_INLINE Lanes<2> half_record(const double* records, std::int32_t index, 
   return load<2>(records + stride * static_cast<std::size_t>(index) + from);
 }
 
-// The records at these indices, `stride` doubles apart.
+// Records at these indices, `stride` doubles apart.
 template <std::size_t width, std::size_t stride = 4>
 GRAINLAW_INLINE Columns<width> records_of(const double* records, const std::int32_t* index) {
   if constexpr (width == 2) {
@@ -62,14 +62,14 @@ GRAINLAW_INLINE Columns<width> records_of(const double* records, const std::int3
   }
 }
 
-// Records one after another.
+// Consecutive records.
 template <std::size_t width>
 GRAINLAW_INLINE Columns<width> columns_at(const double* records) {
   constexpr std::int32_t index[8] = {0, 1, 2, 3, 4, 5, 6, 7};
   return records_of<width>(records, index);
 }
 
-// p_j + sign p_i = (l_x, l_y, rolls, radii) of the pairs i, j of particles.
+// Columns p_j + sign p_i = (l_x, l_y, rolls, radii) of the pairs i, j of particles.
 template <std::size_t width>
 GRAINLAW_INLINE Columns<width> pair_columns(const double* particles, const std::int32_t* i,
                                             const std::int32_t* j) {
@@ -94,7 +94,7 @@ GRAINLAW_INLINE Columns<width> pair_columns(const double* particles, const std::
   }
 }
 
-// Columns as records, the one of lane k put at place(k).
+// Stores columns as records; place(k) is the address for lane k.
 template <std::size_t width, class Place>
 GRAINLAW_INLINE void put_records(const Columns<width>& columns, Place&& place) {
   Columns<width> from = columns;
@@ -126,7 +126,7 @@ GRAINLAW_INLINE void put_records(const Columns<width>& from, double* to) {
   put_records<width>(from, [to](std::size_t k) { return to + 4 * k; });
 }
 
-// A sum over contacts by their places in a group, so that it has the same bits for any width.
+// Sum over contacts by their positions in a group, with equal bits for any width.
 template <std::size_t width>
 struct GroupSum {
   static constexpr std::size_t parts = ContactList<2>::group / width;

@@ -16,8 +16,8 @@ const Law& law_of(const ContactLaw& law) {
   return law.hertzian() ? hertz : rotating;
 }
 
-// Moments of rolling and bending, gathered apart, become part of M / R. What stands behind the nodes,
-// for F, has none.
+// Sums forces onto nodes. Moments of rolling and bending, summed separately, become part of M / R.
+// Rows of F after the nodes have no moments.
 void gather(const ContactLaw& law, const ContactList<2>& list, std::span<ForceRecord<2>> nodes) {
   list.sums.add_up(list.forces, opposite<2>, nodes);
   if (!law.moments()) return;

@@ -1,4 +1,4 @@
-// Discs with Hertz-Mindlin contacts.
+// Loops of discs with Hertz-Mindlin contacts.
 #include "contact/disc_laws.hpp"
 
 namespace grainlaw::core::disc_loops {

@@ -1,4 +1,4 @@
-// Discs with linear springs.
+// Loops of discs with linear springs.
 #include "contact/disc_laws.hpp"
 
 namespace grainlaw::core::disc_loops {

@@ -1,4 +1,4 @@
-// The loops over all contacts: one template over what a law has, for two, four and eight lanes.
+// Loops over all contacts: one template over the features of a law, for two, four and eight lanes.
 #pragma once
 
 #include "base/simd.hpp"
@@ -24,18 +24,18 @@ struct Loop {
   ContactList<2>* list;
 };
 
-// What is known of a block of contacts. The loops go over a block in steps, each with short chains of
-// operations that depend on each other, so that the processor finds others to do meanwhile.
+// Intermediate values of a block of contacts. Loops pass over a block in steps with short
+// dependency chains, so that the processor finds independent operations.
 constexpr std::size_t block = 4 * ContactList<2>::group;
 struct alignas(64) Block {
   double x[block], y[block];  // branch [m]
   double reach[block];        // R_i + R_j [m]
   double roll[block];         // R_i theta_i + R_j theta_j [m]
   double distance[block], inverse[block], sine[block], normal_force[block];
-  double root[block];  // of the overlap, Hertz-Mindlin alone [m^0.5]
+  double root[block];  // square root of the overlap, Hertz-Mindlin alone [m^0.5]
 };
 
-// Branches: the particles' records subtracted and transposed.
+// Finds the branches: subtracts the particles' records and transposes them. @formula branch
 template <std::size_t width>
 GRAINLAW_INLINE void find_branches(const double* particles, const ContactList<2>& list,
                                    std::size_t first, std::size_t size, Block& at) {
@@ -53,7 +53,7 @@ GRAINLAW_INLINE void find_branches(const double* particles, const ContactList<2>
 
 enum class Kinematics { frictionless, locked, rotating };
 
-// What a law has. What it has not is not in its loop.
+// Features of a law; a loop contains only the features of its law.
 struct Features {
   Kinematics kinematics;
   bool hertz = false;
@@ -62,11 +62,11 @@ struct Features {
 };
 
 struct LoopResult {
-  double beyond;      // > 0: a touching branch turned beyond the short series
+  double beyond;      // > 0: a touching branch rotated beyond the short series
   double dissipated;  // when advancing [J]
 };
 
-// Overlap of contacts, negative across a gap; and down to which they carry.
+// Overlap of contacts [m], negative across a gap.
 template <std::size_t width, Features law>
 GRAINLAW_INLINE Lanes<width> overlap_of(const ContactList<2>& list, std::size_t c,
                                         const Lanes<width>& reach, const Lanes<width>& distance) {
@@ -76,6 +76,7 @@ GRAINLAW_INLINE Lanes<width> overlap_of(const ContactList<2>& list, std::size_t 
     return reach - distance;
   }
 }
+// Least overlap at which contacts transmit force [m].
 template <std::size_t width, Features law>
 GRAINLAW_INLINE Lanes<width> least_overlap(const ContactList<2>& list, std::size_t c) {
   if constexpr (law.bonds) {
@@ -85,7 +86,7 @@ GRAINLAW_INLINE Lanes<width> least_overlap(const ContactList<2>& list, std::size
   }
 }
 
-// theta_j - theta_i
+// Relative rotation theta_j - theta_i [rad].
 template <std::size_t width>
 GRAINLAW_INLINE Lanes<width> spin_of(const ParticleRecord<2>* particles, const ContactList<2>& list,
                                      std::size_t c) {
@@ -98,8 +99,8 @@ GRAINLAW_INLINE Lanes<width> spin_of(const ParticleRecord<2>* particles, const C
          roll_i * load<width>(&list.inverse_radius_i[c]);
 }
 
-// Normal forces, and the sine of the turning since the start of the increment. Returns by how
-// much a touching branch has turned beyond the short series.
+// Finds normal forces and the sine of the branch's rotation since the start of the increment.
+// Returns by how much a touching branch exceeds the short series.
 template <std::size_t width, Features law>
 GRAINLAW_INLINE Lanes<width> find_normals(const ContactList<2>& list, std::size_t first,
                                           std::size_t size, Block& at) {
@@ -139,7 +140,8 @@ GRAINLAW_INLINE Lanes<width> find_normals(const ContactList<2>& list, std::size_
   return beyond;
 }
 
-// Sliding (rolling) at the force, and what the spring gives up when the bound falls below its force.
+// Energy lost by sliding (rolling) at the force, and by the spring when its bound falls below its
+// force [J].
 template <std::size_t width>
 GRAINLAW_INLINE Lanes<width> lost_by(const Lanes<width>& start, const Lanes<width>& trial,
                                      const Lanes<width>& force, const Lanes<width>& bound,
@@ -148,7 +150,8 @@ GRAINLAW_INLINE Lanes<width> lost_by(const Lanes<width>& start, const Lanes<widt
   return (magnitude(force * (trial - force)) + 0.5 * excess * excess) / stiffness;
 }
 
-// `far` takes any turn; `advance` moves the start of the history here and adds up what was dissipated.
+// Finds forces. `far` admits any rotation; `advance` restarts the history here and sums the
+// dissipated energy.
 template <std::size_t width, Features law, bool far, bool advance>
 GRAINLAW_INLINE void find_forces(const Loop& loop, std::size_t first, std::size_t size,
                                  const Block& at, GroupSum<width>& dissipated) {
@@ -232,7 +235,7 @@ GRAINLAW_INLINE void find_forces(const Loop& loop, std::size_t first, std::size_
       store(start_y + c, y * inverse);
       if constexpr (rotating) store(start_roll + c, roll);
       if constexpr (law.hertz) {
-        // Nothing is left of an open contact's overlap, nor of its spring.
+        // An open contact loses the whole energy of its spring.
         const V held = load<width>(start_force + c);
         const V all = load<width>(stiffness + c);
         dissipated.add(c, kt > zero ? lost : (all > zero ? 0.5 * held * held / all : zero));

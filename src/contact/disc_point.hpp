@@ -1,6 +1,6 @@
-// One contact of discs: its forces and stiffness in its own frame, and what its springs hold. What every
-// iteration asks of every contact is inline: a result of many numbers is not worth a trip through
-// memory.
+// One contact of discs: forces and stiffness in its own frame, and energy of its springs. Functions
+// that every iteration calls for every contact are inline, which keeps their many results in
+// registers.
 #pragma once
 
 #include "contact/disc_turn.hpp"
@@ -15,8 +15,8 @@
 
 namespace grainlaw::core {
 
-// One contact of discs seen from its own frame: normal n, tangent t = (-n_y, n_x), distance, forces,
-// and the tangential displacement divided by the distance.
+// Contact of discs in its own frame: normal n, tangent t = (-n_y, n_x), distance, forces, and
+// tangential displacement over distance.
 template <>
 struct ContactPoint<2> {
   Vec<2> branch;  // [m]
@@ -26,7 +26,7 @@ struct ContactPoint<2> {
   double turn;                            // du / d [rad]
   ContactStatus status;
 
-  // Directions across the normal, in which the tangential spring acts.
+  // Directions of the tangential spring.
   [[nodiscard]] std::array<Vec<2>, 1> tangents() const { return {Vec<2>{-normal[1], normal[0]}}; }
   [[nodiscard]] Vec<2> force_on_j() const {
     return {normal_force * normal[0] - tangential_force * normal[1],
@@ -34,7 +34,7 @@ struct ContactPoint<2> {
   }
 };
 
-// By what the branch has turned since the start of the increment [rad].
+// Rotation of the branch since the start of the increment [rad].
 inline double turn_of_branch(const ContactList<2>& list, std::size_t c,
                              const ContactPoint<2>& point) {
   const double cross =
@@ -82,10 +82,9 @@ inline ContactPoint<2> contact_point(const ContactList<2>& list, std::size_t c,
   return point;
 }
 
-// d(fn, ft, d ft) by (normal displacement, tangential displacement, lambda_i theta_i + lambda_j
-// theta_j) of the branch, 3 x 3 row-major; the first two rows are the force vector's components in
-// the turning frame of the contact. Exact derivative of the law within its status. Of a contact
-// with linear springs:
+// Derivatives of (fn, ft, d ft) for linear springs, 3 x 3 row-major. Columns: normal displacement,
+// tangential displacement, and lambda_i theta_i + lambda_j theta_j. The first two rows are the
+// force in the rotating frame of the contact. They are exact within the contact's status.
 inline std::array<double, 9> contact_stiffness(const ContactPoint<2>& point, double kn, double kt,
                                                double friction) {
   const double d = point.distance;
@@ -110,7 +109,7 @@ inline std::array<double, 9> contact_stiffness(const ContactPoint<2>& point, dou
           d * by_rotation};
 }
 
-// Of any contact.
+// Derivatives of (fn, ft, d ft) for any law.
 inline std::array<double, 9> contact_stiffness(const ContactList<2>& list, std::size_t c,
                                                const ContactPoint<2>& point,
                                                const ContactLaw& law) {
@@ -119,7 +118,7 @@ inline std::array<double, 9> contact_stiffness(const ContactList<2>& list, std::
   const double kt = list.tangential_stiffness[c] * scale;
   auto k = contact_stiffness(point, list.normal_stiffness[c] * scale, kt, law.friction);
   if (law.hertzian() && law.tangential() && point.status == ContactStatus::sticking) {
-    // kt and the share of the start follow the overlap.
+    // kt and the scaled start force depend on the overlap.
     const double d = point.distance;
     const double start = list.start_force[0][c] * start_scale(overlap, law);
     const double by_normal = (0.5 * kt * d * point.turn - 0.25 * start) / overlap;
@@ -129,14 +128,15 @@ inline std::array<double, 9> contact_stiffness(const ContactList<2>& list, std::
   return k;
 }
 
-// The moment of rolling or bending on j, and its derivatives by the normal displacement [N] and by
-// theta_j - theta_i [N m]. Of laws with moments, where the point is not open.
+// Moment of rolling or bending on j [N m], and its derivatives by normal displacement [N] and
+// theta_j - theta_i [N m]. It requires a law with moments and a contact that is not open.
+// @formula rolling
 template <>
 struct ContactMoment<2> {
   double moment, by_normal, by_spin;
-  bool capped;  // rolls
+  bool capped;  // rolls: the moment is at its bound
 };
-// Its part of what breaks a bond, 1 at failure [-].
+// Share of the moment in the failure of a bond, 1 at failure [-]. @formula bond
 inline double bond_share(const ContactMoment<2>& moment, const Bond& bond) {
   return bond.bending_strength > 0 ? std::abs(moment.moment) / bond.bending_strength : 0;
 }
@@ -144,7 +144,7 @@ ContactMoment<2> contact_moment(const ContactList<2>& list, std::size_t c,
                                 const ContactPoint<2>& point, std::span<const double> coordinates,
                                 std::size_t particles, const ContactLaw& law);
 
-// What the springs of all contacts hold [J].
+// Energy of the springs of all contacts [J].
 double stored_energy(const ContactList<2>& list, std::span<const double> coordinates,
                      std::size_t particles, const ContactLaw& law);
 

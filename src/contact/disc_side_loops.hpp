@@ -1,5 +1,5 @@
-// The loops over the sides of contacts, node by node: a look at the geometry, and a step of a
-// relaxation to first order around it.
+// Loops over half contacts, node by node: a relinearisation, and a step of a relaxation to first
+// order around it.
 #pragma once
 
 #include "contact/disc_loops.hpp"
@@ -26,13 +26,13 @@ struct Loop {
   const ContactSides<2>::Drag* drags = nullptr;
   const ContactSides<2>::Start* starts;
   ContactSides<2>::Side* sides;
-  const double* records;         // of the place, or the moves
+  const double* records;         // of the positions, or the displacements
   double* last_moves = nullptr;  // in: of the step before; out: of the next
   double curvature = 0, friction = 0, ratio = 0, factor = 0, keep = 0, gain = 0;
 };
 
 struct Looked {
-  double beyond;  // > 0: a touching branch turned beyond the short series
+  double beyond;  // > 0: a touching branch rotated beyond the short series
   double force, touching;
 };
 

@@ -76,7 +76,7 @@ void ContactSides<2>::bound_masses(std::span<const LeastMass<2>> least_masses) {
 }
 
 void ContactSides<2>::list_sides(const ContactList<2>& list, double longest_reach) {
-  // Filled up with nodes beside themselves, further than they reach, without stiffness.
+  // Padding: nodes beside themselves beyond their reach, without stiffness.
   Start nothing{};
   std::fill_n(nothing.offset_x, lanes, 2 * longest_reach);
   std::fill_n(nothing.inverse_reach, lanes, 1 / longest_reach);
@@ -138,7 +138,7 @@ ContactTotals ContactSides<2>::look(std::span<const ParticleRecord<2>> particles
   }
   if (list.turns_far) seen = law.rotating() ? look_far(loop) : look_locked_far(loop);
   drags_.clear();
-  // Every contact was seen twice.
+  // Half contacts count every contact twice.
   return {0.5 * seen.force, 0.5 * seen.touching, static_cast<int>(0.5 * seen.touching)};
 }
 

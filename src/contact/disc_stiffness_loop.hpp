@@ -1,11 +1,11 @@
-// The loop that sums stiffnesses of discs, for pseudo-masses.
+// Loop that sums stiffnesses of discs, for pseudo-masses.
 #pragma once
 
 #include "contact/disc_loops.hpp"
 
 namespace grainlaw::core::disc_loops {
 
-// Records (kn, kn, kt d^2 / (R_i + R_j), kr or 1) of the touching contacts.
+// Writes records (kn, kn, kt d^2 / (R_i + R_j), kr or 1) of the touching contacts.
 template <std::size_t width, Features law>
 GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
   using V = Lanes<width>;

@@ -1,16 +1,16 @@
-// By what angle a branch has turned, without a trigonometric call: of doubles and of vectors of them.
+// Rotation angle of a branch without trigonometric calls, for doubles and vectors of them.
 #pragma once
 
 #include "base/simd.hpp"
 
 namespace grainlaw::core {
 
-// Up to this sine the series of an angle is exact to round-off: 11 degrees, more than touching
-// contacts usually turn by in an increment of a host's size.
+// Sine up to which the series of an angle is exact to rounding: 11 degrees. Touching contacts
+// rarely rotate further in an increment of a host.
 constexpr double short_series = 0.2;
 
-// The arc sine of s by its series, without a trigonometric call; to round-off for |s| <= 0.2. Even
-// and odd powers apart: one long chain of multiplications would set the pace of the whole loop.
+// Arc sine of s by its series, exact to rounding for |s| <= 0.2. Even and odd powers are separate,
+// because one long chain of multiplications would limit the whole loop.
 template <class Vector>
 GRAINLAW_INLINE Vector arc_sine(const Vector& s) {
   const Vector u = s * s;
@@ -24,7 +24,7 @@ GRAINLAW_INLINE Vector arc_sine(const Vector& s) {
   return s * (even + u * odd);
 }
 
-// The arc tangent of t by its series, to round-off for |t| <= 0.2.
+// Arc tangent of t by its series, exact to rounding for |t| <= 0.2.
 template <class Vector>
 GRAINLAW_INLINE Vector arc_tangent(const Vector& t) {
   const Vector u = t * t;
@@ -36,8 +36,8 @@ GRAINLAW_INLINE Vector arc_tangent(const Vector& t) {
   return t * (a + u4 * (b + u4 * c));
 }
 
-// Any turn by halving the angle, to round-off below 90 degrees and to 1e-7 at 180; dot and cross are
-// the start normal's products with the branch.
+// Any rotation by halving the angle, exact to rounding below 90 degrees and to 1e-7 at 180. dot and
+// cross are products of start normal and branch.
 template <class Vector>
 GRAINLAW_INLINE Vector far_turn(const Vector& distance, const Vector& dot, const Vector& cross) {
   const Vector half = cross / simd::largest(distance + dot, 1e-12 * distance);

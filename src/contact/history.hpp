@@ -1,4 +1,4 @@
-// What a touching contact remembers.
+// History of a touching contact.
 #pragma once
 
 #include "math/dimension.hpp"
@@ -8,7 +8,7 @@
 
 namespace grainlaw::core {
 
-// Branch l = x_j - x_i + F H0 shift.
+// Contact with the branch l = x_j - x_i + F H0 shift. @formula branch
 template <int D>
 struct ContactHistory {
   std::int32_t i = 0;
@@ -16,7 +16,7 @@ struct ContactHistory {
   std::array<std::int16_t, static_cast<std::size_t>(D)> shift{};
   bool sliding = false;  // at the friction limit
   bool bonded = false;
-  // On j: of discs along the branch normal turned by +90 degrees, of spheres a vector [N].
+  // Force on j [N]: for discs along the normal rotated by +90 degrees, for spheres a vector.
   std::array<double, Dimension<D>::tangents> tangential_force{};
 };
 

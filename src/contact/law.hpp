@@ -1,19 +1,20 @@
-// The contact law of a material: stiffness, friction, bonds, rolling, and what may rotate.
+// Contact law of a material: stiffness, friction, bonds, rolling, and whether particles rotate.
 #pragma once
 
 #include <cmath>
 
 namespace grainlaw::core {
 
-// compressive  fn = kn overlap, nothing else (bond-elastic's counterpart in Liu's thesis, eq. 4.7)
-// frictional   Liu, Bosco & Suiker (2017) eq. 6
-// bonded       eqs. 7-8 until a bond breaks, then frictional
-// hertz        Hertz-Mindlin, Guo & Zhao (2014) after eq. 9
+// Laws by their sources.
+//   compressive  fn = kn overlap, no other force [liu2018_waves, eq. 4.7];
+//   frictional   [liu2017_boundary, eq. 6];
+//   bonded       [liu2017_boundary, eqs. 7 and 8] until a bond breaks, then frictional;
+//   hertz        Hertz-Mindlin [guo2014_multiscale, after eq. 9].
 enum class LawKind { frictional, compressive, bonded, hertz };
 
-// A spring between the rotations of two discs, capped: kr = ratio kt r^2 and |m| <= friction r fn,
-// with r = 2 Ri Rj / (Ri + Rj), the radius of equal discs.
-// Of spheres another about the branch, with ratio and bound of its own.
+// Rolling resistance: a spring between the rotations of two discs, with r = 2 Ri Rj / (Ri + Rj). kr
+// = ratio kt r^2 and |m| <= friction r fn. @formula rolling Spheres have another spring about the
+// branch, with its own ratio and bound.
 struct RollingResistance {
   double ratio = 0;              // [-]
   double friction = 0;           // [-]
@@ -21,23 +22,23 @@ struct RollingResistance {
   double twisting_friction = 0;  // [-]
 };
 
-// A bond has the contact's kn and kt, in tension too, and bends; of spheres it twists too, about the branch.
-// It breaks when fn / normal_strength + |ft| / tangential_strength + |m| / bending_strength + |m_n| /
-// torsion_strength >= 1, fn positive in tension.
+// Bond with the contact's kn and kt, in tension too, and a bending spring; between spheres also a
+// torsion spring about the branch. It breaks when the sum of its loads over their strengths reaches
+// 1, fn positive in tension. @formula bond
 struct Bond {
   double normal_strength = 0;      // [N]
   double tangential_strength = 0;  // [N]
-  double bending_strength = 0;     // [N m], 0 when bonds do not bend
+  double bending_strength = 0;     // [N m], 0: bonds do not bend
   double bending_stiffness = 0;    // [N m / rad]
-  double torsion_strength = 0;     // [N m], 0 when bonds do not twist
+  double torsion_strength = 0;     // [N m], 0: bonds do not twist
   double torsion_stiffness = 0;    // [N m / rad]
-  double gap = 0;                  // discs that touch or are nearer at F = I are bonded [m]
+  double gap = 0;                  // discs within this distance at F = I are bonded [m]
 };
 
 struct ContactLaw {
   LawKind kind = LawKind::frictional;
-  double young = 0;             // kn = young * 2 Ri Rj / (Ri + Rj), Guo & Zhao eq. 14 [Pa]; or
-  double normal_stiffness = 0;  // kn itself, used when young is 0 [N/m]
+  double young = 0;  // kn = young * 2 Ri Rj / (Ri + Rj) [guo2014_multiscale, eq. 14] [Pa]; or
+  double normal_stiffness = 0;  // kn itself, if young is 0 [N/m]
   double ratio = 0;             // kt / kn; Hertz-Mindlin: 2 (1 - poisson) / (2 - poisson) [-]
   double friction = 0;          // tan(phi) [-]
   bool rotation = true;         // false: particles keep their orientation
@@ -45,31 +46,32 @@ struct ContactLaw {
   double poisson = 0;           // Hertz-Mindlin [-]
   RollingResistance rolling;
   Bond bond;
-  // Overlap / common radius at which a Hertz-Mindlin contact states one stiffness, where the solver
-  // needs a scale; that of the packing at F = I [-].
+  // Overlap over common radius at which the solver takes the stiffness of a Hertz-Mindlin contact;
+  // that of the packing at F = I [-].
   double typical_overlap = 1e-3;
 
-  // 2 a b / (a + b) [m]
+  // Common radius 2 a b / (a + b) [m].
   [[nodiscard]] static double common_radius(double a, double b) { return 2 * a * b / (a + b); }
 
-  // Normal stiffness of a contact between radii a and b [N/m].
+  // Normal stiffness of a contact between radii a and b [N/m]. @formula stiffness
   [[nodiscard]] double stiffness(double a, double b) const {
     if (hertzian()) return coefficient(a, b) * std::sqrt(typical_overlap * common_radius(a, b));
     return young > 0 ? young * 2 * a * b / (a + b) : normal_stiffness;
   }
-  // What contacts are listed with: kn [N/m]; Hertz-Mindlin: kn / sqrt(overlap), G / (1 - poisson)
-  // sqrt(2 r) [N/m^1.5].
+  // Coefficient of listed contacts: kn [N/m], or for Hertz-Mindlin kn / sqrt(overlap) = G / (1 -
+  // poisson) sqrt(2 r) [N/m^1.5]. @formula hertz
   [[nodiscard]] double coefficient(double a, double b) const {
     if (!hertzian()) return stiffness(a, b);
     return shear_modulus / (1 - poisson) * std::sqrt(2 * common_radius(a, b));
   }
-  // Of a contact between radii a and b; overlap negative in tension, which only bonds carry [N].
+  // Normal force between radii a and b [N]; overlap is negative in tension, which bonds alone
+  // transmit.
   [[nodiscard]] double normal_force(double a, double b, double overlap) const {
     const double root = hertzian() ? std::sqrt(overlap > 0 ? overlap : 0) : 1;
     return (hertzian() ? 2.0 / 3 : 1) * coefficient(a, b) * root * overlap;
   }
-  // What its springs hold, by the squares of tangential force and of the moments across the branch and
-  // along it [J]; bonded: by a bond.
+  // Energy of the contact's springs [J], from the squares of tangential force and of moments across
+  // and along the branch. `bonded`: with the stiffness of a bond.
   [[nodiscard]] double energy(double a, double b, double overlap, double tangential_square,
                               double moment_square, double twisting_square, bool bonded) const {
     const double kn =
@@ -84,13 +86,13 @@ struct ContactLaw {
     }
     return sum;
   }
-  // kr / kt of contacts without a bond [m2].
+  // kr / kt of contacts without a bond [m^2]. @formula rolling
   [[nodiscard]] double rolling_ratio(double a, double b) const {
     const double r = common_radius(a, b);
     return rolls() ? rolling.ratio * r * r : 0;
   }
 
-  // The same about the branch.
+  // Stiffness about the branch over kt, for contacts without a bond [m^2].
   [[nodiscard]] double twisting_ratio(double a, double b) const {
     const double r = common_radius(a, b);
     return twists() ? rolling.twisting_ratio * r * r : 0;
@@ -98,9 +100,9 @@ struct ContactLaw {
 
   [[nodiscard]] bool hertzian() const { return kind == LawKind::hertz; }
   [[nodiscard]] bool bonds() const { return kind == LawKind::bonded; }
-  // Tangential springs act: there is friction (or a bond) and stiffness.
+  // True if tangential springs act: there is friction (or a bond) and stiffness.
   [[nodiscard]] bool tangential() const { return ratio > 0 && (friction > 0 || bonds()); }
-  // Particle rotations are unknowns.
+  // True if particle rotations are unknowns.
   [[nodiscard]] bool rotating() const { return tangential() && rotation; }
   [[nodiscard]] bool rolls() const {
     return rotating() && rolling.ratio > 0 && rolling.friction > 0;
@@ -108,9 +110,9 @@ struct ContactLaw {
   [[nodiscard]] bool twists() const {
     return rotating() && rolling.twisting_ratio > 0 && rolling.twisting_friction > 0;
   }
-  // Contacts carry moments.
+  // True if contacts transmit moments.
   [[nodiscard]] bool moments() const { return rolls() || (rotating() && bonds()); }
-  // Linear, without bonds and moments: the law of the shortest loops.
+  // True for linear laws without bonds and moments, which have the shortest loops.
   [[nodiscard]] bool plain() const { return !hertzian() && !bonds() && !moments(); }
 };
 

@@ -1,4 +1,4 @@
-// How the loops over contacts see particles and nodes: whole vector registers each.
+// Records of particles and nodes for the loops over contacts: whole vector registers each.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ struct MassRecord;
 template <int D>
 struct LeastMass;
 
-// Of a disc. With the turned length R theta for the rotation and M / R for the moment, both ends of a
-// contact see the same tangential term.
+// Record of a disc. With R theta for the rotation and M / R for the moment, both ends of a contact
+// have the same tangential term.
 template <>
 struct alignas(32) ParticleRecord<2> {
   double x = 0, y = 0;  // [m]
@@ -31,31 +31,31 @@ template <>
 struct alignas(32) ForceRecord<2> {
   double x = 0, y = 0;  // [N]
   double roll = 0;      // M / R by tangential forces [N]
-  double moment = 0;    // of rolling and bending [N m], until it becomes a part of `roll`
+  double moment = 0;    // of rolling and bending [N m], until added to `roll` over R
 };
-// Sums over the contacts that touch.
+// Sums over the touching contacts of a node.
 template <>
 struct alignas(32) StiffnessRecord<2> {
   double x = 0, y = 0;  // kn [N/m]
   double roll = 0;      // kt d^2 / (R_i + R_j) [N]
-  double bending = 0;   // kr [N m] of laws with moments, else the number of contacts
+  double bending = 0;   // kr of laws with moments [N m]; otherwise the number of contacts
 };
-// Pseudo-masses of a relaxation whose steps have length 1: stiffnesses.
+// Pseudo-masses of a relaxation with unit steps: stiffnesses.
 template <>
 struct alignas(32) MassRecord<2> {
   double x = 1, y = 1;  // [N/m]
   double roll = 1;      // I / R^2 [N/m]
   double filling = 1;
 };
-// What they are at least, one contact's worth.
+// Lower bounds of the masses: the stiffness of one contact.
 template <>
 struct alignas(32) LeastMass<2> {
   double x = 0, y = 0, roll = 0;  // [N/m]
   double inverse_radius = 0;      // [1/m]
 };
 
-// Of a sphere. eta = R theta with the Gibbs vector theta = 2 tan(angle / 2) e of its rotation since the
-// history started; its unit quaternion is (2 half, half theta).
+// Record of a sphere. eta = R theta, with the Gibbs vector theta = 2 tan(angle / 2) e of its
+// rotation since the start of the history. Its unit quaternion is (2 half, half theta).
 template <>
 struct alignas(64) ParticleRecord<3> {
   double x = 0, y = 0, z = 0;              // [m]
@@ -63,7 +63,7 @@ struct alignas(64) ParticleRecord<3> {
   double half = 0.5;                       // 1 / (2 sqrt(1 + theta^2 / 4)) [-]
   double radius = 0;                       // [m]
 };
-// With M / R for the moment both ends of a contact see the same.
+// Record of forces; with M / R for the moment both ends of a contact have the same term.
 template <>
 struct alignas(64) ForceRecord<3> {
   double x = 0, y = 0, z = 0;                 // [N]
@@ -74,7 +74,7 @@ template <>
 struct alignas(64) StiffnessRecord<3> {
   double x = 0, y = 0, z = 0;                 // kn [N/m]
   double spin_x = 0, spin_y = 0, spin_z = 0;  // kt d^2 / (R_i + R_j) [N]
-  double bending = 0;                         // of laws with moments [N m]
+  double bending = 0;                         // for laws with moments [N m]
   double filling = 0;
 };
 template <>
@@ -85,7 +85,7 @@ struct alignas(64) MassRecord<3> {
 };
 template <>
 struct LeastMass<3> {
-  double x = 0;               // of every direction [N/m]
+  double x = 0;               // in every direction [N/m]
   double spin = 0;            // [N/m]
   double inverse_radius = 0;  // [1/m]
 };
@@ -108,14 +108,14 @@ constexpr auto& component(Record& record, std::size_t k) {
   return record.*components_of<std::remove_const_t<Record>>[k];
 }
 
-// A drag on nodes: stiffness x (expected - place) each; empty, there is none.
+// Drag on nodes: stiffness x (expected - position) each; empty without drag.
 template <int D>
 struct NodeDrag {
   std::span<const ParticleRecord<D>> expected;
-  std::span<const MassRecord<D>> stiffness;  // 0 in what fills the record
+  std::span<const MassRecord<D>> stiffness;  // 0 in padding
 };
 
-// What acts on i against what acts on j.
+// Factors from the record on j to that on i.
 template <int D>
 inline constexpr ForceRecord<D> opposite{};
 template <>

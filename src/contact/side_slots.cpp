@@ -13,7 +13,7 @@ std::size_t at(std::int32_t particle) { return static_cast<std::size_t>(particle
 
 }  // namespace
 
-// By counting.
+// Sorts by counting.
 void SideSlots::sort(std::span<const std::int32_t> i, std::span<const std::int32_t> j,
                      std::size_t particles, std::span<const std::int32_t> order) {
   resize_with_room(count_, particles);

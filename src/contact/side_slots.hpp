@@ -1,5 +1,5 @@
-// Nodes in groups, one node for each lane of the widest registers; nodes with equally many contacts are
-// put together. The sides of a group's contacts lie in rows: a row has one side of every node.
+// Nodes in groups, one node per lane of the widest registers; nodes of a group have similar numbers
+// of contacts. Half contacts of a group lie in rows: a row has one half contact of every node.
 #pragma once
 
 #include <cstddef>
@@ -16,17 +16,18 @@ class SideSlots {
     std::uint32_t first, count;
   };
 
-  // Of the particles of contacts i[c], j[c], each a node of its own; in this order where it is not empty.
+  // Sorts the particles of contacts i[c], j[c], each a node of its own; equal ones stay in `order`
+  // unless it is empty.
   void sort(std::span<const std::int32_t> i, std::span<const std::int32_t> j, std::size_t particles,
             std::span<const std::int32_t> order);
-  // The row of the next side of a particle, of each of its sides once after sort().
+  // Row of the next half contact of a particle; each is asked for once after sort().
   [[nodiscard]] std::size_t next_row(std::size_t particle) {
     return rows_[slot_[particle] / lanes].first + count_[particle]++;
   }
 
   [[nodiscard]] std::span<const Rows> groups() const { return rows_; }
   [[nodiscard]] std::size_t row_count() const { return rows_.back().first + rows_.back().count; }
-  // Lane of a group, lanes x group + lane.
+  // Position of a particle: lanes x group + lane.
   [[nodiscard]] std::uint32_t slot(std::size_t particle) const { return slot_[particle]; }
 
  private:

@@ -1,4 +1,4 @@
-// Records of spheres and their contacts as columns of as many lanes, and back.
+// Conversion between records of spheres or their contacts and columns of lanes.
 #pragma once
 
 #include "contact/disc_columns.hpp"
@@ -8,7 +8,7 @@ namespace grainlaw::core::sphere_loops {
 using namespace simd;
 using disc_loops::GroupSum;
 
-// Vectors, a component in every register.
+// Vectors with a component per register.
 template <std::size_t width>
 struct Triple {
   Lanes<width> x, y, z;
@@ -26,7 +26,7 @@ template <std::size_t width>
 GRAINLAW_INLINE Triple<width> sum(const Triple<width>& a, const Triple<width>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
-// a + factor b
+// Computes a + factor b.
 template <std::size_t width>
 GRAINLAW_INLINE Triple<width> sum(const Triple<width>& a, const Lanes<width>& factor,
                                   const Triple<width>& b) {
@@ -43,7 +43,7 @@ struct Spheres {
   Lanes<width> half, radius;
 };
 
-// The records at these indices.
+// Records at these indices.
 template <std::size_t width>
 GRAINLAW_INLINE Spheres<width> spheres_at(const double* records, const std::int32_t* index) {
   const auto first = disc_loops::records_of<width, 8>(records, index);
@@ -65,7 +65,7 @@ GRAINLAW_INLINE void put(const Triple<width>& value, std::array<Column<double>, 
   store(&columns[2][c], value.z);
 }
 
-// Two vectors and a number as a record of each contact.
+// Stores two vectors and a number as a record of each contact.
 template <std::size_t width>
 GRAINLAW_INLINE void put_records(const Triple<width>& a, const Triple<width>& b, double* to,
                                  const Lanes<width>& last = Lanes<width>{}) {

@@ -7,7 +7,7 @@ namespace {
 
 using namespace sphere_loops;
 
-// The loops of one law.
+// Loops of one law.
 struct Law {
   double (*forces)(const Loop&);
   double (*advancing)(const Loop&);
@@ -40,8 +40,8 @@ const Law& law_of(const ContactLaw& law) {
   return law.hertzian() ? hertz : rotating;
 }
 
-// Moments of rolling and bending, gathered apart, become part of M / R. What stands behind the nodes,
-// for F, has none.
+// Sums forces onto nodes. Moments of rolling and bending, summed separately, become part of M / R.
+// Rows of F after the nodes have no moments.
 void gather(const ContactLaw& law, ContactList<3>& list, std::span<ForceRecord<3>> nodes) {
   list.sums.add_up(list.forces, opposite<3>, nodes);
   if (!law.moments()) return;

@@ -1,8 +1,8 @@
-// The loops over all contacts of spheres: one template over what a law has.
-//   Rbar = mean rotation of the pair, each weighted by its radius; h = Rbar (ft_c + kt d n_c);
-//   t* = h - n (n.h); ft = t* within friction fn, else shortened to it
-// One formula for the spring, its transport with tilt and twist, and the increment of slip: exact for
-// rotations of the pair as a body, to second order that of discs in the plane.
+// Loops over all contacts of spheres: one template over the features of a law.
+//   h = Rbar (ft_c + kt d n_c);  t* = h - n (n.h);  ft = t* min(1, friction fn / |t*|).
+// Rbar is the mean rotation of the pair, weighted by the radii. One formula contains the spring,
+// its rotation with the contact, and the increment of slip. It is exact for rigid rotations of the
+// pair and agrees with discs in the plane to second order. @formula mean-rotation
 #pragma once
 
 #include "contact/contact_forces.hpp"
@@ -19,7 +19,7 @@ struct Loop {
   ContactList<3>* list;
 };
 
-// What a law has. What it has not is not in its loop.
+// Features of a law; a loop contains only the features of its law.
 struct Features {
   bool tangential = true;
   bool rotating = true;
@@ -67,8 +67,8 @@ GRAINLAW_INLINE Triple<width> turn(const Geometry<width>& at, const Triple<width
   return sum(g, 2 / (w * w + dot(v, v)), cross(v, u));
 }
 
-// What a spring of this stiffness loses that started from a force of size `held`, would carry `size` and
-// carries `carried` within its bound.
+// Energy lost by a spring of this stiffness [J]. `held`: its force at the start; `size`: its trial
+// force; `carried`: its force within the bound.
 template <std::size_t width>
 GRAINLAW_INLINE Lanes<width> lost_by(const Lanes<width>& held, const Lanes<width>& size,
                                      const Lanes<width>& carried, const Lanes<width>& bound,
@@ -79,9 +79,9 @@ GRAINLAW_INLINE Lanes<width> lost_by(const Lanes<width>& held, const Lanes<width
   return stiffness > zero ? lost : zero;
 }
 
-// The moment on j: with rho = 2 vec q_j conj(q_i), m* = Rbar m_c - kb rho across n - kr rho along it, each
-// part of which is shortened to its bound; the history starts from it when it advances. Returns what is
-// lost [J].
+// Finds the moment on j and returns the lost energy [J]; advancing restarts the history from it.
+// With rho = 2 vec q_j conj(q_i): m* = Rbar m_c - kb rho_across - kr rho_along, across and along n.
+// Each part is limited to its bound.
 template <std::size_t width, Features law, bool advance>
 GRAINLAW_INLINE Lanes<width> moment_of(const Loop& loop, std::size_t c, const Geometry<width>& at,
                                        const Lanes<width>& fn, const Lanes<width>& root,
@@ -175,7 +175,7 @@ GRAINLAW_INLINE double contact_loop(const Loop& loop) {
         const V lost = lost_by<width>(square_root(dot(start, start)), size, carried, bound, kt);
         put(at.normal, list.start_normal, c);
         if constexpr (law.hertz) {
-          // Nothing is left of an open contact's overlap, nor of its spring.
+          // An open contact loses the whole energy of its spring.
           const Triple<width> kept = triple_at<width>(list.start_force, c);
           const V all = load<width>(&list.tangential_stiffness[c]);
           dissipated.add(c, kt > zero ? lost : (all > zero ? 0.5 * dot(kept, kept) / all : zero));
@@ -195,8 +195,8 @@ GRAINLAW_INLINE double contact_loop(const Loop& loop) {
   return dissipated.total();
 }
 
-// Records (kn three times, kt d^2 / (R_i + R_j) three times, the larger of kb and kr) of the touching
-// contacts.
+// Writes records of the touching contacts: three times kn, three times kt d^2 / (R_i + R_j), and
+// the larger of kb and kr.
 template <std::size_t width, Features law>
 GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
   using V = Lanes<width>;

@@ -8,12 +8,12 @@ namespace grainlaw::core {
 
 namespace {
 
-// m + factor a b
+// Adds factor a b to m.
 void add_product(Matrix3& m, double factor, const Matrix3& a, const Matrix3& b) {
   add(m, factor, product<3>(a, b));
 }
 
-// What the bounds leave of the trial moment m*: of its parts along and across n.
+// Trial moment m* limited by the bounds, in its parts along and across n.
 struct Cap {
   Vec<3> normal;
   Matrix3 roll_left{}, twist_left{};  // by dm*
@@ -85,7 +85,7 @@ ContactMoment<3> contact_moment(const ContactList<3>& list, std::size_t c,
   Matrix3 left = cap.roll_left;
   add(left, 1, cap.twist_left);
 
-  // m* by the branch; then what turns with n between the two parts.
+  // Derivative of m* by the branch, then of the split along n.
   Matrix3 across{};  // dn by dl
   add_identity(across, 1 / d);
   add_outer(across, -1 / d, n, n);

@@ -1,4 +1,5 @@
-// The moment of rolling, twisting, bending and torsion of one contact of spheres, as sphere_loops.hpp has it.
+// Moments of rolling, twisting, bending and torsion of one contact of spheres; see
+// sphere_loops.hpp.
 #pragma once
 
 #include "contact/sphere_point.hpp"
@@ -7,17 +8,17 @@
 
 namespace grainlaw::core {
 
-// On j, and what it changes by with the branch l, the spins of both and Rbar m_c's m_c. Of laws with
-// moments, where the point is not open.
+// Moment on j, and its derivatives by the branch l, the spins of both spheres, and the start moment
+// m_c. It requires a law with moments and a contact that is not open.
 template <>
 struct ContactMoment<3> {
   Vec<3> moment{};                   // [N m]
-  double bending = 0, torsion = 0;   // its sizes across and along the normal [N m]
+  double bending = 0, torsion = 0;   // magnitudes across and along the normal [N m]
   Matrix3 by_branch{};               // [N]
   Matrix3 by_spin_i{}, by_spin_j{};  // [N m]
   Matrix3 by_start{};                // [-]
 };
-// Its part of what breaks a bond, 1 at failure [-].
+// Share of the moment in the failure of a bond, 1 at failure [-]. @formula bond
 inline double bond_share(const ContactMoment<3>& moment, const Bond& bond) {
   const auto share = [](double size, double strength) {
     return strength > 0 ? size / strength : 0;

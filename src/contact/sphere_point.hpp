@@ -1,4 +1,4 @@
-// One contact of spheres: its forces and stiffness, exactly as the loops over all contacts have them.
+// One contact of spheres: forces and stiffness, exactly as in the loops over all contacts.
 #pragma once
 
 #include "contact/springs.hpp"
@@ -19,15 +19,15 @@ inline Vec<3> cross(const Vec<3>& a, const Vec<3>& b) {
 inline double dot(const Vec<3>& a, const Vec<3>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-// a + factor b
+// Computes a + factor b.
 inline Vec<3> sum(const Vec<3>& a, double factor, const Vec<3>& b) {
   return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
 }
-// [a]x, which makes a x b of b.
+// Matrix [a]x of the cross product a x b.
 inline Matrix3 cross_matrix(const Vec<3>& a) {
   return {0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0};
 }
-// m + factor a b^T
+// Adds factor a b^T to m.
 inline void add_outer(Matrix3& m, double factor, const Vec<3>& a, const Vec<3>& b) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) m[3 * i + j] += factor * a[i] * b[j];
@@ -40,30 +40,30 @@ inline void add(Matrix3& m, double factor, const Matrix3& other) {
   for (std::size_t k = 0; k < 9; ++k) m[k] += factor * other[k];
 }
 
-// Scalar and vector part.
+// Quaternion with scalar and vector part.
 struct Quaternion {
   double s = 1;
   Vec<3> v{};
 };
 
-// Of the Gibbs vector 2 tan(angle / 2) e, of unit length.
+// Unit quaternion of the Gibbs vector 2 tan(angle / 2) e.
 inline Quaternion quaternion_of(const Vec<3>& gibbs) {
   const double half = 0.5 / std::sqrt(1 + 0.25 * square<3>(gibbs));
   return {2 * half, {half * gibbs[0], half * gibbs[1], half * gibbs[2]}};
 }
-// a b: first b, then a.
+// Product a b: rotation b, then a.
 inline Quaternion product(const Quaternion& a, const Quaternion& b) {
   return {a.s * b.s - dot(a.v, b.v), sum(sum(cross(a.v, b.v), a.s, b.v), b.s, a.v)};
 }
 inline Quaternion conjugate(const Quaternion& a) { return {a.s, {-a.v[0], -a.v[1], -a.v[2]}}; }
 
-// q g conj(q) / |q|^2 of a quaternion that need not have unit length.
+// Rotates g by q, which need not have unit length: q g conj(q) / |q|^2.
 inline Vec<3> rotated(const Quaternion& q, const Vec<3>& g) {
   const Vec<3> u = sum(cross(q.v, g), q.s, g);
   return sum(g, 2 / (q.s * q.s + dot(q.v, q.v)), cross(q.v, u));
 }
 
-// n, t* and what they are made of; see sphere_loops.hpp.
+// Contact of spheres: n, t* and their terms. @formula mean-rotation
 template <>
 struct ContactPoint<3> {
   Vec<3> branch{};  // [m]
@@ -75,13 +75,13 @@ struct ContactPoint<3> {
   Vec<3> trial{};              // t* [N]
   double trial_size = 0;       // |t*| [N]
   Vec<3> turned_normal{};      // Rbar n_c
-  Vec<3> turned_start{};       // Rbar ft_c, as kept in the list
+  Vec<3> turned_start{};       // Rbar ft_c, as stored in the list
   Quaternion mean;             // of the pair, not normalised: R_i q_i + R_j q_j [m]
-  Matrix3 spin_i{}, spin_j{};  // A of d wbar = sum A_k R_k d omega_k / (R_i + R_j)
+  Matrix3 spin_i{}, spin_j{};  // A_k in d wbar = sum A_k R_k d omega_k / (R_i + R_j)
   ContactStatus status = ContactStatus::open;
 
   [[nodiscard]] Vec<3> force_on_j() const { return sum(tangential_force, normal_force, normal); }
-  // Directions across the normal, in which the tangential spring acts.
+  // Directions of the tangential spring.
   [[nodiscard]] std::array<Vec<3>, 2> tangents() const {
     std::size_t least = 0;
     for (std::size_t k = 1; k < 3; ++k) {
@@ -96,7 +96,7 @@ struct ContactPoint<3> {
   }
 };
 
-// A = a 1 - [b]x with (a, b) = q conj(mean / reach) / |mean / reach|^2.
+// Matrix A = a 1 - [b]x with (a, b) = q conj(mean / reach) / |mean / reach|^2.
 inline Matrix3 spin_matrix(const Quaternion& q, const Quaternion& mean, double reach) {
   const double square = (mean.s * mean.s + dot(mean.v, mean.v)) / (reach * reach);
   const Quaternion share = product(q, conjugate(mean));
@@ -166,8 +166,8 @@ inline ContactPoint<3> contact_point(const ContactList<3>& list, std::size_t c,
   return point;
 }
 
-// Derivatives of force f on j and of spin moment tau (M / R of both) by the branch l and by the mean
-// rotation wbar of the pair; and of the spring's force by the change of ft_c + kt d n_c.
+// Derivatives of the force f on j and the spin moment tau (M / R of both) by branch l and mean
+// rotation wbar. Also the derivative of the tangential force by ft_c + kt d n_c.
 struct SphereStiffness {
   Matrix3 force_by_branch{}, force_by_turn{};
   Matrix3 spin_by_branch{}, spin_by_turn{};
@@ -190,12 +190,12 @@ inline SphereStiffness contact_stiffness(const ContactList<3>& list, std::size_t
   add(by_branch, point.normal_force / d, across);
   if (!law.tangential()) return k;
 
-  // Of the trial force.
+  // Derivatives of the trial force.
   const double kt = list.tangential_stiffness[c] * scale;
   Vec<3> by_distance{};  // of h
   for (std::size_t m = 0; m < 3; ++m) by_distance[m] = kt * point.turned_normal[m];
   if (law.hertzian()) {
-    // kt and the share of the start follow the overlap.
+    // kt and the scaled start force depend on the overlap.
     const double start = start_scale(overlap, law);
     for (std::size_t m = 0; m < 3; ++m) {
       by_distance[m] -= 0.5 * kt / overlap * d * point.turned_normal[m] +
@@ -211,7 +211,7 @@ inline SphereStiffness contact_stiffness(const ContactList<3>& list, std::size_t
     add(trial_by_turn, -1, product<3>(across, cross_matrix(point.turned)));
   }
 
-  // What friction leaves of it.
+  // Derivatives after the friction limit.
   Matrix3 left{};
   add_identity(left, 1);
   Matrix3 spring_by_branch = trial_by_branch;
@@ -246,7 +246,7 @@ inline SphereStiffness contact_stiffness(const ContactList<3>& list, std::size_t
   return k;
 }
 
-// What the springs of all contacts hold [J].
+// Energy of the springs of all contacts [J].
 double stored_energy(const ContactList<3>& list, std::span<const double> coordinates,
                      std::size_t particles, const ContactLaw& law);
 

@@ -1,5 +1,5 @@
-// The loops over the sides of contacts of spheres, node by node: a look at the geometry, and a step of a relaxation to
-// first order around it.
+// Loops over half contacts of spheres, node by node: a relinearisation, and a step of a relaxation
+// to first order around it.
 #pragma once
 
 #include "contact/sphere_loops.hpp"
@@ -23,7 +23,7 @@ struct SideLoop {
   const Sides::Drag* drags = nullptr;
   const Sides::Start* starts;
   Sides::Side* sides;
-  const double* records;         // of the place, or the moves
+  const double* records;         // of the positions, or the displacements
   double* next_moves = nullptr;  // out
   double friction = 0, ratio = 0, factor = 0, keep = 0, gain = 0;
 };

@@ -67,7 +67,7 @@ void ContactSides<3>::arrange(const ContactList<3>& list, const Packing& packing
 }
 
 void ContactSides<3>::list_sides(const ContactList<3>& list, double longest_reach) {
-  // Filled up with nodes beside themselves, further than they reach, without stiffness.
+  // Padding: nodes beside themselves beyond their reach, without stiffness.
   Start nothing{};
   std::fill_n(nothing.offset[0], lanes, 2 * longest_reach);
   std::fill_n(nothing.inverse_reach, lanes, 1 / longest_reach);
@@ -119,7 +119,7 @@ ContactTotals ContactSides<3>::look(std::span<const ParticleRecord<3>> particles
                       .factor = factor};
   const Looked seen = law.rotating() ? look_rotating(loop) : look_locked(loop);
   drags_.clear();
-  // Every contact was seen twice.
+  // Half contacts count every contact twice.
   return {0.5 * seen.force, 0.5 * seen.touching, static_cast<int>(0.5 * seen.touching)};
 }
 

@@ -1,5 +1,5 @@
-// What disc_sides.hpp is for discs, for spheres: contacts from both sides, and their forces as functions
-// of how far the nodes moved.
+// Half contacts of spheres, with forces as functions of the nodes' displacements; see
+// disc_sides.hpp.
 #pragma once
 
 #include "contact/disc_sides.hpp"
@@ -7,14 +7,15 @@
 
 namespace grainlaw::core {
 
-// At a place, set by look(), with the moves u from it and the change w of eta_i + eta_j:
-//   fn = max(kn (overlap - n.u), 0), t* = trial - kt (u - n (n.u)) + kt s w x n, ft = t* within friction fn,
-//   else shortened to it; with s = d / (R_i + R_j), and -s n x ft on the spin
-// The normals stay.
+// Half contacts. look() sets the positions; u are displacements from them, w the change of eta_i +
+// eta_j.
+//   fn = max(kn (overlap - n.u), 0);  ft = t* min(1, friction fn / |t*|);
+//   t* = trial - kt (u - n (n.u)) + kt s w x n;  moment over radius: -s n x ft.
+// s = d / (R_i + R_j); normals stay.
 template <>
 class ContactSides<3> {
  public:
-  // As of discs. least_masses: kn [N/m], of spins, and 1 / R.
+  // Lists the half contacts; see ContactSides<2>. least_masses: kn [N/m], that of spins, and 1 / R.
   void arrange(const ContactList<3>& list, const Packing& packing,
                std::span<const LeastMass<3>> least_masses, bool at_rest);
   ContactTotals look(std::span<const ParticleRecord<3>> particles, const ContactLaw& law,
@@ -26,27 +27,27 @@ class ContactSides<3> {
   void move(std::span<ParticleRecord<3>> particles) const;
 
   static constexpr std::size_t lanes = SideSlots::lanes;
-  static constexpr std::size_t size = 6;  // components of a move
+  static constexpr std::size_t size = 6;  // components of a displacement
   using Doubles = double[lanes];
   struct alignas(64) Nodes {
     Doubles mass, mass_spin, gain, gain_spin;  // gain = 1 / mass
     Doubles moved[size], velocity[size];
   };
   struct alignas(64) Bounds {
-    Doubles least, least_spin, inverse_radius;  // masses are no smaller; 1 / R
+    Doubles least, least_spin, inverse_radius;  // lower bounds of the masses; 1 / R
   };
   struct alignas(64) Drag {
     Doubles stiffness, stiffness_spin;
-    Doubles distance[size];  // to what is expected
+    Doubles distance[size];  // to the expected position
   };
-  // As in ContactList<3>, with the node as j.
+  // Columns of ContactList<3>, with the node as j.
   struct alignas(64) Start {
     Doubles offset[3], inverse_reach, normal[3], force[3];
   };
   struct alignas(32) Side {
     std::int32_t other[lanes];
     Doubles normal[3], normal_stiffness;
-    Doubles normal_force, trial[3], stretch;  // at the place: kn overlap, the trial force, s
+    Doubles normal_force, trial[3], stretch;  // at the positions: kn overlap, trial force, s
   };
 
  private:
@@ -59,7 +60,7 @@ class ContactSides<3> {
   simd::Column<Drag> drags_;  // empty: none
   simd::Column<Start> starts_;
   simd::Column<Side> sides_;
-  // Of the nodes, and of those that fill up the last group.
+  // Records of the nodes, and of those that pad the last group.
   simd::Column<ParticleRecord<3>> place_, moves_, next_moves_;
   std::vector<std::array<double, size>> velocity_;  // by particles, while listing
 };

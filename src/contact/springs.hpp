@@ -1,4 +1,4 @@
-// What the springs of one contact share, whatever the dimension.
+// Functions of a contact's springs in any dimension.
 #pragma once
 
 #include "contact/contact_list.hpp"
@@ -12,17 +12,18 @@ namespace grainlaw::core {
 
 enum class ContactStatus : char { open, sticking, sliding, bonded };
 
-// By what Hertz-Mindlin stiffnesses are multiplied at this overlap; 1 for other laws.
+// Factor of Hertz-Mindlin stiffnesses at this overlap; 1 for other laws.
 inline double stiffness_scale(double overlap, const ContactLaw& law) {
   return law.hertzian() ? std::sqrt(std::max(overlap, 0.0)) : 1;
 }
 
-// From what a list starts with to a force (moment) at this overlap: 1 but for Hertz-Mindlin.
+// Factor from the list's start force (moment) to the force at this overlap; 1 except for
+// Hertz-Mindlin.
 inline double start_scale(double overlap, const ContactLaw& law) {
   return law.hertzian() ? std::sqrt(stiffness_scale(overlap, law)) : 1;
 }
 
-// Normal force at this overlap, negative across a gap whether it is carried or not [N].
+// Normal force at this overlap [N]; negative across a gap, whether or not it is transmitted.
 template <int D>
 double normal_force(const ContactList<D>& list, std::size_t c, double overlap,
                     const ContactLaw& law) {
@@ -30,12 +31,12 @@ double normal_force(const ContactList<D>& list, std::size_t c, double overlap,
   return 2.0 / 3 * list.normal_stiffness[c] * stiffness_scale(overlap, law) * overlap;
 }
 
-// Of a tangential force in one dimension or more.
+// Magnitude of a tangential force in one dimension or more.
 inline double magnitude_of(double force) { return std::abs(force); }
 inline double magnitude_of(const std::array<double, 1>& force) { return std::abs(force[0]); }
 inline double magnitude_of(const Vec<3>& force) { return std::sqrt(square<3>(force)); }
 
-// One contact seen from its own frame, and the moment it carries.
+// One contact in its own frame, and its moment.
 template <int D>
 struct ContactPoint;
 template <int D>

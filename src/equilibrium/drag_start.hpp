@@ -6,8 +6,9 @@
 
 namespace grainlaw::core {
 
-// Part k of `parts`: an implicit Euler step of masses `inertia` and a drag 1 - inertia. The first part
-// expects as much of the last move as the strain goes on in its direction, the others go on.
+// Start of part k of `parts`: share `inertia` of the drag is that of masses, the rest plain drag.
+// The first part scales the last displacement by the strain in its direction, the others repeat it.
+// @formula inertia
 template <int D>
 DragStart<D> drag_start(const Request<D>& request, int k, int parts);
 

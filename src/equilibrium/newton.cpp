@@ -9,7 +9,7 @@ namespace grainlaw::core {
 
 namespace {
 
-// sqrt(sum (r - a m dz)^2 / m): the part of the residual that the flow does not explain.
+// Residual that the flow does not explain: sqrt(sum (r - a m dz)^2 / m).
 template <int D>
 double defect_norm(const Increment<D>& increment, std::span<const double> step, double a) {
   const double* r = increment.residual().data();
@@ -22,7 +22,7 @@ double defect_norm(const Increment<D>& increment, std::span<const double> step, 
   return std::sqrt(sum);
 }
 
-// Largest move of a particle's surface under the step, against its neighbours where F moves [m].
+// Largest displacement of a particle's surface, relative to its neighbours where F is found [m].
 template <int D>
 double largest_move(const Increment<D>& increment, std::span<const double> step) {
   const auto nodes = increment.problem().nodes();
@@ -88,7 +88,7 @@ class PseudoTransientNewton {
   [[nodiscard]] double defect() const { return defect_norm(increment_, memory_.step, 0); }
   void assemble() { memory_.stiffness.assemble(increment_, shift_); }
 
-  // Of mechanisms, that counts [N].
+  // Least moment of a mechanism that counts, over the radius [N].
   [[nodiscard]] double least_moment() const {
     return tuned::least_moment * tolerance_ * increment_.scale().relative();
   }
@@ -104,7 +104,7 @@ class PseudoTransientNewton {
     mechanisms.find(increment_, memory_.stiffness.touching());
   }
 
-  // What a step may leave of the residual: what Newton's method would leave itself, from step to step.
+  // Share of the residual that a linear solve may leave, from the convergence of Newton's method.
   [[nodiscard]] double forcing() {
     if constexpr (D == 2) return 0;
     const double ratio = full_steps_ && last_norm_ > 0 ? norm_ / last_norm_ : 1;
@@ -113,7 +113,7 @@ class PseudoTransientNewton {
     return std::min(std::max(ratio * ratio, least), tuned::loose_step);
   }
 
-  // For memory_.step, at the present coordinates, of what was assembled there.
+  // Solves for memory_.step with the matrix assembled at the present coordinates.
   bool solve() {
     auto& stiffness = memory_.stiffness;
     const auto& residual = memory_.residual;
@@ -145,19 +145,19 @@ class PseudoTransientNewton {
     return shift_ <= tuned::largest_shift;
   }
 
-  // Whether a step that left so much of what there was before may be worth a relaxation.
+  // True if the residual after a step suggests a relaxation.
   [[nodiscard]] bool may_settle(double after, double before) const {
     return relaxation_ != nullptr && after > tuned::good_step * before &&
            after < tuned::largest_rise * before;
   }
 
-  // Long enough for what a step leaves around single contacts.
+  // Relaxes briefly, to balance forces around single contacts.
   void settle() {
     relax(increment_, tolerance_, tuned::settling_steps, History::committed, *relaxation_);
   }
 
-  // Moves of a few mean overlaps turn contacts over; what lies beyond is another packing. Where next to nothing
-  // holds some particles, a shift holds them.
+  // Takes a Newton step of limited length: longer ones exchange contacts. Where the limit leaves
+  // too little of it, the shift rises instead.
   void full_step() {
     const double before = norm_;
     const double limit = tuned::longest_full_step * increment_.scale().relative() /
@@ -191,7 +191,7 @@ class PseudoTransientNewton {
     }
   }
 
-  // How much of memory_.step leaves particles near where they are.
+  // Share of memory_.step that keeps particles near their positions [-].
   [[nodiscard]] double near_share() const {
     const auto radius = increment_.motion().node_radius();
     const double smallest = *std::min_element(radius.begin(), radius.end());
@@ -205,8 +205,8 @@ class PseudoTransientNewton {
     increment_.update_forces();
   }
 
-  // An implicit Euler step of the overdamped flow, shift_ m dz = r(z + dz): settled or corrected where
-  // contacts switch on the way, at last shortened.
+  // Takes an implicit Euler step of the overdamped flow, shift_ m dz = r(z + dz). Where contacts
+  // change status the step is settled, corrected or at last shortened.
   bool flow_step() {
     memory_.coordinates = increment_.motion().coordinates();
     memory_.flow = memory_.step;
@@ -238,7 +238,7 @@ class PseudoTransientNewton {
     return raise_shift();
   }
 
-  // Whether a relaxation from where the step went leaves less than there was; else it is taken back.
+  // Relaxes after a step; undoes that unless the residual falls below its value before the step.
   bool settled(double error) {
     if (!may_settle(error, norm_)) return false;
     memory_.moved = increment_.motion().coordinates();
@@ -249,7 +249,7 @@ class PseudoTransientNewton {
     return false;
   }
 
-  // Newton on the equation of a whole implicit step, from where the first iteration of it went.
+  // Applies Newton's method to the equation of the implicit step, after its first iteration.
   bool corrected(double error) {
     memory_.total = memory_.flow;
     for (int k = 0; k < tuned::most_corrections && error < tuned::hopeless_correction * norm_;
@@ -273,11 +273,11 @@ class PseudoTransientNewton {
   double tolerance_;
   NewtonMemory<D>& memory_;
   RelaxationMemory<D>* relaxation_;  // null: none
-  bool may_roll_;                    // there may be some
+  bool may_roll_;                    // rolling mechanisms are possible
   double shift_ = tuned::first_shift;
   double norm_ = 0;       // of the residual at the present coordinates
-  double last_norm_ = 0;  // before the last step; 0: there was none
-  double best_ = 0;       // the least so far, at memory.best
+  double last_norm_ = 0;  // before the last step; 0: no step yet
+  double best_ = 0;       // least norm so far, at memory_.best
   Tensor<D> best_deformation_{};
   int without_gain_ = 0;
   bool full_steps_ = true;

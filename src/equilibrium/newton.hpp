@@ -1,6 +1,5 @@
-// Pseudo-transient continuation (Kelley & Keyes 1998), in two gaits: full Newton steps through the
-// kinks of contacts that open, close, stick and slide; and implicit Euler steps of the overdamped flow
-// m dz/dt = r where those lead away.
+// Pseudo-transient continuation [kelley1998] in two modes. Full Newton steps cross the changes of
+// contact status; where they diverge, implicit Euler steps follow the overdamped flow m dz/dt = r.
 #pragma once
 
 #include "equilibrium/relaxation.hpp"
@@ -22,16 +21,15 @@ struct NewtonMemory {
   std::vector<double> step, residual, coordinates, moved, best, flow, total;
 };
 
-// Solve (K + s M) dz = r with the exact, non-symmetric K until residual_norm() < tolerance.
-// A step on which contacts switch leaves forces out of balance around them: with memory for a short
-// relaxation, that settles what the step did not foresee, and may end it all.
-// Full steps may pass through states of larger residual all the same; when a few in a row gain
-// nothing, or one ends where it began, they are taken back and the flow leads on until it gains.
-// Before a step, rolling mechanisms turn to where they are in balance.
-// The flow's s falls while the linear model is good and rises when it is not, and a step that no
-// relaxation settles is corrected by Newton on its own equation; with s > 0 it is stable exactly
-// where the equilibrium is, flutter included. False after max_factorisations, or a few more to end a
-// step, or when the residual is no longer finite.
+// Solves (K + s M) dz = r with the exact, non-symmetric K until residual_norm() < tolerance.
+// @formula newton Full steps may raise the residual for a while. After a few without gain, or one
+// without change, they are undone and the flow takes over until it gains. With relaxation memory, a
+// short relaxation balances the forces around contacts that changed status in a step. Rolling
+// mechanisms rotate to equilibrium before a step. The shift s of the flow falls while the linear
+// model is good and rises otherwise. Newton's method on the flow's own equation corrects steps that
+// no relaxation settles. With s > 0 the flow is stable exactly where the equilibrium is, flutter
+// included. Returns false after max_factorisations (a few more may complete a step), or if the
+// residual is not finite.
 template <int D>
 bool pseudo_transient_newton(Increment<D>& increment, double tolerance, int max_factorisations,
                              NewtonMemory<D>& memory, RelaxationMemory<D>* relaxation = nullptr);

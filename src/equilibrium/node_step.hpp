@@ -1,4 +1,5 @@
-// A step of a relaxation: velocity and place of a node from its residual, and what is measured on the way.
+// Step of a relaxation: velocity and position of a node from its residual, and the sums measured on
+// the way.
 #pragma once
 
 #include "base/simd.hpp"
@@ -12,16 +13,17 @@ namespace grainlaw::core::node_step {
 
 using namespace simd;
 
-// One record per node: translation, and rotation as turned length R theta. Its force M / R makes
-// every component a force, and its mass is I / R^2.
+// Records of the nodes: translation [m], and rotation as the length R theta [m]. Moments enter as M
+// / R [N], moments of inertia as I / R^2.
 struct Nodes {
   double* velocity;
   const double* mass;
-  const double* gain;  // 1 / mass, and 0 where nothing moves
-  double* z;           // moves along; null: moved by others
+  const double* gain;  // 1 / mass; 0 for fixed components
+  double* z;           // positions to update; null: the caller updates them
 };
 
-// v <- keep v + gain r / m, and z <- z + v, node by node; what is measured is of the state before.
+// Performs v <- keep v + gain r / m and z <- z + v, node by node. Measured sums belong to the state
+// before the step. @formula relaxation
 template <std::size_t width>
 class NodeStep {
   using Record = Lanes<width>;
@@ -53,21 +55,21 @@ class NodeStep {
   Record largest_{}, power_{}, next_power_{}, inertia_{};
 };
 
-// On node q at z.
+// Drag on node q at position z [N].
 template <int D, std::size_t width = Dimension<D>::lanes>
 GRAINLAW_INLINE Lanes<width> drag_on(std::size_t q, const double* z, const NodeDrag<D>& drag) {
   return load<width>(&drag.stiffness[q].x) *
          (load<width>(&drag.expected[q].x) - load<width>(z + width * q));
 }
 
-// One for each dimension, by overloads: a template has no clones.
+// Overloads for each dimension, because templates have no clones per instruction set.
 ContactSides<2>::Measured step_all(const Nodes& nodes, std::span<const ForceRecord<2>> residual,
                                    double keep, double gain);
-// The same with the sums of the contacts' forces and the drag, which nothing else is asked of.
+// Steps each node with the sum of its contact forces and its drag, without storing that sum.
 ContactSides<2>::Measured gather_and_step(const Nodes& nodes, const ContactList<2>& contacts,
                                           const NodeDrag<2>& drag, double keep, double gain);
 
-// Of spheres, whose records have a number that follows from their rotation.
+// Overloads for spheres also renew the record's factor `half`, which follows from the rotation.
 ContactSides<3>::Measured step_all(const Nodes& nodes, std::span<const ForceRecord<3>> residual,
                                    double keep, double gain);
 ContactSides<3>::Measured gather_and_step(const Nodes& nodes, const ContactList<3>& contacts,

@@ -36,7 +36,7 @@ Relaxation<D>::Relaxation(Increment<D>& increment, History history, RelaxationMe
   const bool by_places = history == History::committed && problem_.space->identity;
   by_sides_ = by_places && law.plain() && law.tangential();
   at_once_ = by_places && law.plain() && !by_sides_;
-  // Without friction nothing flutters, and the damping is that of the softest mode.
+  // Without friction there is no flutter, and the damping follows the softest mode.
   rough_ = by_places && law.tangential();
   extrapolates_ = may_extrapolate && rough_;
   if (extrapolates_) {
@@ -49,7 +49,7 @@ Relaxation<D>::Relaxation(Increment<D>& increment, History history, RelaxationMe
   }
 }
 
-// Masses, mean force and neighbours of the present coordinates.
+// Updates masses, mean force and neighbours at the present coordinates.
 template <int D>
 void Relaxation<D>::refresh() {
   if (history_ == History::advancing) increment_.advance_history();
@@ -80,8 +80,8 @@ void Relaxation<D>::refresh() {
   }
 }
 
-// Whether a look may wait: contacts hardly move, those that switch find their forces all the same, and
-// masses that no longer do would raise the residual.
+// True if the relinearisation may wait. Contacts hardly move, forces of those that switch are still
+// right, and outdated masses would raise the residual.
 template <int D>
 bool Relaxation<D>::calm() const {
   return by_sides_ && residual_ < tuned::calm_residual &&
@@ -90,7 +90,7 @@ bool Relaxation<D>::calm() const {
 
 template <int D>
 void Relaxation<D>::update() {
-  if (by_sides_) return;  // step() finds them
+  if (by_sides_) return;  // step() finds the forces
   if (at_once_) return increment_.find_contact_forces();
   increment_.find_forces(history_);
 }
@@ -100,7 +100,8 @@ double Relaxation<D>::size() const {
   return std::max(1.0, static_cast<double>(problem_.nodes()) / tuned::usual_nodes);
 }
 
-// A high floor keeps flutter down, a low one lets soft modes move, which are softer in large packings.
+// A high lower bound suppresses flutter; a low one lets soft modes move, which are softer in large
+// packings.
 template <int D>
 void Relaxation<D>::review_floor() {
   if (residual_ > tuned::slow_window * window_start_) {
@@ -115,7 +116,7 @@ void Relaxation<D>::review_floor() {
   window_start_ = window_max_ = window_min_ = residual_;
 }
 
-// Whether it does so without end: some clusters have no stable equilibrium within reach.
+// True if friction flutters without end: some clusters have no stable equilibrium within reach.
 template <int D>
 bool Relaxation<D>::flutters() const {
   if (!rough_ || window_max_ <= tuned::flutter_residual) return false;
@@ -123,8 +124,8 @@ bool Relaxation<D>::flutters() const {
          tuned::flutter_patience * std::pow(size(), tuned::flutter_growth);
 }
 
-// Where soft modes creep under the damping that flutter asks for, on with them at once; whether it
-// did. Less often every time: what an extrapolation disturbs needs the relaxation.
+// Extrapolates where soft modes creep under the damping that flutter needs, and returns whether it
+// did. Pauses grow, since the relaxation has to remove what an extrapolation disturbs.
 template <int D>
 bool Relaxation<D>::extrapolate() {
   if (steps_ % tuned::extrapolation_interval != 0) return false;
@@ -154,7 +155,7 @@ bool Relaxation<D>::extrapolate() {
   return true;
 }
 
-// With the damping that the last step measured.
+// Takes one step with the damping that the last step measured.
 template <int D>
 void Relaxation<D>::step() {
   const double damping = std::clamp(2 * frequency_, floor_, tuned::largest_damping);
@@ -199,7 +200,7 @@ auto Relaxation<D>::step_nodes(double keep, double gain) -> Measured {
   return before;
 }
 
-// Found components of F move on with the nodes, never far in one step.
+// Changes the found components of F along with the nodes, by a limited length per step.
 template <int D>
 void Relaxation<D>::step_deformation() {
   const double limit = tuned::largest_deformation_step * motion_.deformation_scale();

@@ -1,5 +1,5 @@
-// Damped relaxation in pseudo-time towards equilibrium: unit steps, masses that follow the
-// contacts.
+// Damped relaxation in pseudo-time towards equilibrium, with unit steps and masses that follow the
+// contacts. @formula relaxation
 #pragma once
 
 #include "base/constants.hpp"
@@ -12,7 +12,7 @@
 
 namespace grainlaw::core {
 
-// Memory of the relaxations, reused from call to call.
+// Memory of relaxations, reused from call to call.
 template <int D>
 struct RelaxationMemory {
   std::vector<double> velocity, gain;
@@ -20,18 +20,19 @@ struct RelaxationMemory {
   SubspaceExtrapolation<D> slow;
 };
 
-// Viscous relaxation: the damping follows the lowest active frequency, and its floor adapts to
-// flutter. Where soft modes creep under it, the relaxation extrapolates along them.
+// Viscous relaxation. The damping follows the lowest active frequency, and its lower bound adapts
+// to flutter. Where soft modes creep, the relaxation extrapolates along them.
 template <int D>
 class Relaxation {
  public:
-  // At rest at the present coordinates. An extrapolation may end on another branch of equilibria.
+  // Starts at rest at the present coordinates. An extrapolation may end on another branch of
+  // equilibria.
   Relaxation(Increment<D>& increment, History history, RelaxationMemory<D>& memory,
              bool may_extrapolate = true);
 
-  // Go on until residual_norm() < tolerance, at most `steps` further steps. Returns whether it got
-  // there. Ends too when no more than `least_force` is left of the mean contact force [N], or when
-  // friction keeps it fluttering. The coordinates may be changed between two calls.
+  // Relaxes until residual_norm() < tolerance, for at most `steps` more steps, and returns whether
+  // it converged. It also stops if the mean contact force is below `least_force` [N] or friction
+  // flutters. Coordinates may change between two calls.
   bool run(double tolerance, long steps, double least_force = 0);
 
  private:
@@ -43,7 +44,7 @@ class Relaxation {
   Measured one_step(double keep, double gain);
   Measured step_nodes(double keep, double gain);
   void update();
-  [[nodiscard]] double size() const;  // of the packing, over 400 nodes; 1 where there are fewer
+  [[nodiscard]] double size() const;  // packing size over tuned::usual_nodes [-], at least 1
   void review_floor();
   bool extrapolate();
   [[nodiscard]] bool flutters() const;
@@ -55,28 +56,28 @@ class Relaxation {
   Motion<D>& motion_;
   History history_;
   RelaxationMemory<D>& memory_;
-  bool by_sides_ = false;      // forces and steps by ContactSides
-  bool at_once_ = false;       // nothing comes between the sums of forces and the step
-  bool arranged_ = false;      // of the contacts listed at present
-  bool at_rest_ = true;        // no velocities to keep
-  bool rough_ = false;         // friction, and forces a function of the places
-  bool extrapolates_ = false;  // in the subspace of the last moves
-  double residual_ = 0;   // before the last step [-]; infinite: no contact, or not a finite number
-  double power_ = 0;      // sum of the last step's velocity times the residual before it
-  double frequency_ = 0;  // sqrt of the Rayleigh quotient of the velocity [1 / step]
-  double floor_ = tuned::first_floor;  // of the damping
+  bool by_sides_ = false;      // ContactSides computes forces and steps
+  bool at_once_ = false;       // sums of forces and steps are one loop
+  bool arranged_ = false;      // ContactSides has the contacts listed at present
+  bool at_rest_ = true;        // there are no velocities to keep
+  bool rough_ = false;         // with friction, and forces a function of positions
+  bool extrapolates_ = false;  // in the subspace of the last displacements
+  double residual_ = 0;        // before the last step [-]; infinite: no contact, or not finite
+  double power_ = 0;           // sum of the last step's velocity times the residual before it
+  double frequency_ = 0;       // square root of the velocity's Rayleigh quotient [1/step]
+  double floor_ = tuned::first_floor;  // lower bound of the damping [-]
   long steps_ = 0;
-  long next_extrapolation_ = tuned::first_extrapolation;  // not before this step
+  long next_extrapolation_ = tuned::first_extrapolation;  // earliest step
   double pause_ = 0;                                      // after the last extrapolation [steps]
-  double calm_start_ = 0, calm_max_ = 0;  // residual at the last look at the geometry, and since
-  double look_max_ = 0, look_min_ = std::numeric_limits<double>::infinity();  // residual since then
+  double calm_start_ = 0, calm_max_ = 0;  // residual at the last relinearisation, largest since
+  double look_max_ = 0, look_min_ = std::numeric_limits<double>::infinity();  // since last check
   double window_start_ = std::numeric_limits<double>::infinity();
   double window_max_ = 0, window_min_ = std::numeric_limits<double>::infinity();
-  double least_max_ = std::numeric_limits<double>::infinity();  // of the windows'
-  long last_gain_ = 0;                                          // when it fell [steps]
+  double least_max_ = std::numeric_limits<double>::infinity();  // least window_max_
+  long last_gain_ = 0;  // step of the last fall of least_max_
 };
 
-// A Relaxation from rest, run once.
+// Runs a relaxation once, from rest.
 template <int D>
 bool relax(Increment<D>& increment, double tolerance, long max_steps, History history,
            RelaxationMemory<D>& memory, double least_force = 0, bool may_extrapolate = true);

@@ -12,7 +12,7 @@ bool RollingMechanisms<2>::possible(const Problem<2>& problem) {
   return problem.law->rotating() && !problem.law->moments() && problem.space->identity;
 }
 
-// Towards the root, on a path that it leaves short.
+// Finds the root of the node's tree and shortens the path to it.
 RollingMechanisms<2>::Member RollingMechanisms<2>::member(std::size_t node) {
   Member result{node, 1};
   while (parent_[result.cluster] != result.cluster) {
@@ -46,7 +46,7 @@ void RollingMechanisms<2>::find(const Increment<2>& increment,
   for (auto* column : {&locked_, &wanted_}) {
     std::fill(column->begin(), column->end(), static_cast<unsigned char>(0));
   }
-  // As many as there may be: their number varies more than that of the contacts.
+  // Capacities are upper bounds, because these numbers vary more than that of the contacts.
   reserve_with_room(sliding_, touching.size());
   reserve_with_room(sides_, 2 * touching.size());
   reserve_with_room(kinks_, 2 * touching.size());
@@ -98,7 +98,7 @@ void RollingMechanisms<2>::list_sides() {
   });
 }
 
-// Along the turn.
+// Force of the sliding contacts along the rotation [N].
 double RollingMechanisms<2>::force(std::span<const Side> sides) const {
   double sum = 0;
   for (const Side& side : sides) {
@@ -108,13 +108,13 @@ double RollingMechanisms<2>::force(std::span<const Side> sides) const {
   return sum;
 }
 
-// The turn that undoes the force, which falls as it goes on, by lines from kink to kink.
+// Rotation [m] that cancels the force, which falls linearly from kink to kink.
 double RollingMechanisms<2>::balance(std::span<const Side> sides, double force) {
   kinks_.clear();
   const double way = force > 0 ? 1 : -1;
   for (const Side& side : sides) {
     const Sliding& contact = sliding_[side.contact];
-    const double by_turn = way * contact.stiffness * side.rate;  // of the trial force
+    const double by_turn = way * contact.stiffness * side.rate;  // change of the trial force
     if (by_turn == 0) continue;
     const auto [sticks, slides] = std::minmax(
         {(-contact.bound - contact.trial) / by_turn, (contact.bound - contact.trial) / by_turn});
@@ -135,7 +135,7 @@ double RollingMechanisms<2>::balance(std::span<const Side> sides, double force) 
     turn = kink.turn;
     stiffness += kink.stiffness;
   }
-  return 0;  // rounding: nothing is left to slip back
+  return 0;  // rounding: no slip is left to undo
 }
 
 void RollingMechanisms<2>::hold(const Increment<2>& increment, Stiffness<2>& stiffness) const {

@@ -1,5 +1,5 @@
-// Rolling mechanisms of spheres: larger ones than free spins (increment/free_spins.hpp) were not seen, so
-// there is nothing to find and nothing to turn.
+// Rolling mechanisms of spheres. None larger than two-contact spheres (increment/free_spins.hpp)
+// were observed, so all functions are empty.
 #pragma once
 
 #include "equilibrium/rolling_mechanisms.hpp"

@@ -6,7 +6,7 @@ namespace {
 
 using OfSpheres = ContactSides<3>::Measured;
 
-// The eta of a record at z, moved, and 1 / (2 sqrt(1 + theta^2 / 4)) of it.
+// Renews 1 / (2 sqrt(1 + theta^2 / 4)) of the record at z after its eta changed.
 GRAINLAW_INLINE void renew_half(double* z) {
   const double eta_square = z[3] * z[3] + z[4] * z[4] + z[5] * z[5];
   z[6] = 0.5 / __builtin_sqrt(1 + 0.25 * eta_square / (z[7] * z[7]));

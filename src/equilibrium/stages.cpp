@@ -16,14 +16,14 @@ constexpr Effort full_effort{.rounds = tuned::rounds,
                              .most_factorisations = tuned::most_factorisations,
                              .relaxation_steps = tuned::relaxation_steps,
                              .finest = tuned::finest_refinement};
-// With a loose tolerance to end at.
+// Effort with a loose tolerance.
 constexpr Effort bounded_effort{.rounds = tuned::bounded_rounds,
                                 .first_factorisations = tuned::bounded_first_factorisations,
                                 .most_factorisations = tuned::bounded_factorisations,
                                 .relaxation_steps = tuned::bounded_relaxation_steps,
                                 .finest = 1};
 
-// What fluttered before in this step seldom settles now.
+// Fewer rounds: an increment that fluttered before in this step rarely converges now.
 constexpr Effort repeated(Effort effort) {
   effort.rounds = tuned::repeated_rounds;
   return effort;
@@ -38,8 +38,8 @@ long relaxation_limit(double steps, std::size_t nodes) {
   return static_cast<long>(steps * size_factor(nodes));
 }
 
-// Fewer in large packings, where sub-increments cost less than to go on: in one of 6400 discs that
-// would not settle all rounds took fifty times what an increment does.
+// Count for large packings, at least `least`. Sub-increments are cheaper there: all rounds cost
+// fifty increments in a packing of 6400 discs that did not converge.
 int limit_of(int count, int least, std::size_t nodes) {
   const long fewer = std::lround(count / size_factor(nodes));
   return std::min(count, std::max(least, static_cast<int>(fewer)));
@@ -50,8 +50,8 @@ double hand_over_of(std::size_t nodes) {
                                      tuned::hand_over_power);
 }
 
-// Mean force below which what is left of forces that do not settle counts for nothing [N]. Bonds
-// hold on without any.
+// Mean force below which the packing counts as free of stress [N]. Bonds need no force and exclude
+// that: 0.
 template <int D>
 double faded_force(const Request<D>& request, const Increment<D>& increment) {
   if (!may_be_free(request) || request.problem->law->bonds()) return 0;
@@ -59,7 +59,7 @@ double faded_force(const Request<D>& request, const Increment<D>& increment) {
                   increment.scale().rounding());
 }
 
-// Without contacts there is no force to be balanced, nor where all forces fade.
+// True if no contact touches, or if all forces have faded; then contacts are released.
 template <int D>
 bool is_free(const Request<D>& request, Increment<D>& increment) {
   if (!may_be_free(request)) return false;
@@ -86,16 +86,15 @@ bool has_drag(const Request<D>& request) {
   return request.options->viscosity.time > 0;
 }
 
-// The tolerance, and no less than rounding leaves: below that there is no equilibrium to speak of.
-// Forces may fade on the way to it.
+// Tolerance, raised to the rounding error of the present forces [-]. It changes while forces fade.
 template <int D>
 double reachable(const Request<D>& request, const Increment<D>& increment) {
   return std::max(request.tolerance,
                   std::min(increment.scale().relative_rounding(), tuned::largest_rounding));
 }
 
-// One sub-increment: relaxation, then Newton; when Newton does not get there, both again from where
-// they are, the relaxation longer and tighter, at last down to the target itself.
+// Solves one sub-increment in rounds of relaxation and Newton. Later rounds go on from the last
+// iterate and relax longer and tighter, at last down to the target.
 template <int D>
 bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
   const bool whole = outcome.subincrements == 1;
@@ -122,7 +121,7 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
     last = whole && round >= enough && hand_over <= target;
     const double tolerance = std::max(hand_over, target);
     const long limit = (round < tuned::long_rounds ? 1 : 2) * steps;
-    // From the last iterate of a step the next is found on the same branch.
+    // Without extrapolation the iterates of a step stay on one branch of equilibria.
     const bool may_extrapolate = request.guess == nullptr && !has_drag(request);
     const bool relaxed =
         relax(increment, tolerance, limit, History::committed, w.relaxation, 0, may_extrapolate);
@@ -135,7 +134,7 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
     const int factorisations = unsettled    ? tuned::unsettled_factorisations
                                : round == 0 ? effort.first_factorisations
                                             : most_factorisations;
-    // What is fading away settles nowhere.
+    // A packing that loses its forces settles nowhere.
     auto* const settling = may_fade(request, increment) ? nullptr : &w.relaxation;
     if (pseudo_transient_newton(increment, target, factorisations, w.newton, settling)) return true;
     if ((round > 0 || request.guess_loose) && is_loose()) return outcome.loose = true;
@@ -145,8 +144,8 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
   return is_free(request, increment);
 }
 
-// Once at equilibrium, break the bonds that are beyond their strength and find the next one at the
-// same F, until none is: `solve_again` does, after `before_break`.
+// Breaks the overloaded bonds at an equilibrium and solves again at the same F, until no bond is
+// overloaded.
 template <int D, class BeforeBreak, class SolveAgain>
 bool settle_bonds(Increment<D>& increment, BeforeBreak&& before_break, SolveAgain&& solve_again) {
   while (increment.overloads_bonds()) {
@@ -233,7 +232,7 @@ template <int D>
 bool solve_advancing(const Request<D>& request, Method method, Workspace<D>& w, Outcome& outcome) {
   auto& increment = w.increment;
   outcome.subincrements = 1;
-  outcome.history_advanced = request.problem->law->tangential();  // else there is none
+  outcome.history_advanced = request.problem->law->tangential();  // else no history
   w.sensitivity.reset();
   start_iteration(request, 1, increment);
   const auto equilibrium = [&] {
@@ -258,7 +257,7 @@ bool solve_advancing(const Request<D>& request, Method method, Workspace<D>& w, 
   const auto settled = [&] { return equilibrium() || is_free(request, increment); };
   const bool done = settled() && settle_bonds(
                                      increment, [] {}, settled);
-  // Counts as such too: an F at which the contacts were lost this way.
+  // An F at which the contacts were lost on this path counts as loose too.
   outcome.loose =
       request.loose_tolerance > 0 && increment.residual_norm() > reachable(request, increment);
   outcome.sensitivities = done && request.sensitivities && !outcome.loose && increment.bears() &&

@@ -12,7 +12,7 @@ namespace grainlaw::core {
 
 namespace {
 
-// Pi = |strain increment| kn / (p t), what makes an increment hard.
+// Hardness of an increment [-]. @formula hardness
 template <int D>
 double hardness(const Request<D>& request) {
   const auto& f0 = request.from->deformation;
@@ -26,18 +26,18 @@ double hardness(const Request<D>& request) {
   const double pressure = -1.0 / D * work / determinant<D>(f0);
   const double radius = mean_radius(packing.radius);
   double line = std::max(pressure * depth<D>(packing), request.problem->force_floor / radius);
-  // A free packing has no pressure to compare with: that at F = I serves.
+  // A packing without stress has no pressure to compare with; the pressure at F = I replaces it.
   if (may_be_free(request)) {
     line = std::max(line, unloaded_force(*request.problem) / radius);
   }
-  // Bonds hold each other in place until they break.
+  // Bonds support each other up to their strength.
   if (request.problem->law->bonds()) {
     line = std::max(line, request.problem->law->bond.normal_strength / radius);
   }
   return line > 0 ? strain * request.problem->law->stiffness(radius, radius) / line : 0;
 }
 
-// Sub-increments that the size of the increment asks for.
+// Number of sub-increments that the size of the increment requires.
 template <int D>
 int least_parts(const Request<D>& request) {
   const double asked = std::ceil(hardness(request) / request.options->increment_limit);
@@ -47,15 +47,15 @@ int least_parts(const Request<D>& request) {
 struct Stage {
   enum Kind {
     as_asked,   // by the method of the material
-    parts,      // so many sub-increments
-    fading,     // advancing history, where all forces may fade away: only if they do
-    advancing,  // advancing history, whatever it ends at
+    parts,      // sub-increments
+    fading,     // advancing history; succeeds only if all forces fade
+    advancing,  // advancing history; any end succeeds
   } kind;
   int number = 1;           // of sub-increments
-  bool then_whole = false;  // a detour: the whole increment is tried from where it ended
+  bool then_whole = false;  // afterwards try the whole increment from this end
 };
 
-// In the order in which they are tried.
+// Stages in the order in which they are tried.
 class Stages {
  public:
   template <int D>
@@ -73,7 +73,8 @@ class Stages {
     }
     const Viscosity& viscosity = request.options->viscosity;
     if (viscosity.time > 0) {
-      // How many parts there are changes P a little: as long as they serve, their number must not follow F.
+      // P depends a little on the number of parts, so that number is constant in F as long as it
+      // converges.
       const int steps = static_cast<int>(viscosity.steps);
       add({Stage::parts, steps});
       const int least = std::max(steps, least_parts(request));
@@ -85,11 +86,12 @@ class Stages {
       }
       return;
     }
-    // What ended so before in this step would seldom end otherwise now.
+    // An increment that ended so before in this step would rarely end otherwise now.
     if (request.guess_advanced && request.guess_loose) add({Stage::advancing});
     const int least = least_parts(request);
     const int finest = effort_of(request).finest;
-    // Nothing broke or came free on the way of a detour, which then may be compared with the whole.
+    // Comparison with the whole increment is sound only if no bond broke and no contact was
+    // released on the way.
     const bool whole = least == 1 && request.loose_tolerance == 0 &&
                        !request.problem->law->bonds() && !may_be_free(request);
     for (int refinement = 1; refinement <= finest; refinement *= 2) {
@@ -111,7 +113,7 @@ class Stages {
   std::size_t size_ = 0;
 };
 
-// Walks the stages until one ends in an equilibrium.
+// Tries the stages until one ends in an equilibrium.
 template <int D>
 class Walk {
  public:

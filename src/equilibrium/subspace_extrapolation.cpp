@@ -19,7 +19,7 @@ using namespace simd;
 constexpr std::size_t width = 4;
 constexpr std::size_t moves = moves_seen;
 
-// What was seen, newest first.
+// Recorded positions and forces, newest first.
 struct Path {
   std::array<const double*, moves + 1> place, force;
   std::size_t doubles;
@@ -29,10 +29,10 @@ GRAINLAW_INLINE Record move_of(const Path& path, std::size_t a, std::size_t k) {
   return load<4>(path.place[a] + k) - load<4>(path.place[a + 1] + k);
 }
 
-// Sums over the records, of moves d_a and the forces r they changed.
+// Sums over the records, with displacements d_a and forces r.
 struct Products {
   double lengths[moves][moves];  // d_a . d_b
-  double work[moves][moves];     // -d_a . change of r by d_b
+  double work[moves][moves];     // -d_a . (change of r by d_b)
   double left[moves];            // d_a . r
 };
 
@@ -90,7 +90,8 @@ using Shares = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, moves, 1>;
 
 bool positive(const Square& matrix) { return Eigen::LLT<Square>(matrix).info() == Eigen::Success; }
 
-// How many of the newest moves are independent, with at least this stiffness along all of them.
+// Number of the newest displacements that are independent and have at least this stiffness along
+// all of them.
 Eigen::Index count_stable(const Square& lengths, const Square& work, double least) {
   const Square symmetric = 0.5 * (work + work.transpose());
   for (Eigen::Index n = 1; n <= lengths.rows(); ++n) {

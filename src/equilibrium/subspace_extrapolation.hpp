@@ -1,6 +1,6 @@
-// Subspace extrapolation. Where a relaxation creeps, its last moves point along the slowest modes: a Galerkin projection on
-// them finds the place that it creeps to (as Anderson 1965 does by the least residual instead, which
-// stiff modes dominate).
+// Subspace extrapolation. Where a relaxation creeps, its last displacements point along the slowest
+// modes, and a Galerkin projection on them finds its limit. [anderson1965] uses the least residual
+// instead, which stiff modes dominate.
 #pragma once
 
 #include "contact/records.hpp"
@@ -12,7 +12,7 @@
 
 namespace grainlaw::core {
 
-// Spanned by so many of the last moves.
+// Number of displacements that span the subspace.
 inline constexpr std::size_t moves_seen = 3;
 
 template <int D>
@@ -21,18 +21,18 @@ class SubspaceExtrapolation {
   static constexpr std::size_t moves = moves_seen;
 
   void reserve(std::size_t nodes);
-  // Forget where the relaxation has been.
+  // Clears the recorded path.
   void forget() { seen_ = 0; }
-  // Where it is now, the forces there, and their relative residual.
+  // Records the present positions, the forces there and their relative residual.
   void see(std::span<const ParticleRecord<D>> place, std::span<const ForceRecord<D>> forces,
            double residual);
-  // Whether enough has been seen, and the residual fell slowly meanwhile.
+  // True if the record is full and the residual fell slowly over it.
   [[nodiscard]] bool slow() const;
 
-  // Move the records, which are at the last place seen, to where the forces do no work along the
-  // last moves, by secants; no component by more than `limit` [m]. Only the newest moves count up to
-  // where the stiffness [N/m] along all of them falls below `least`: beyond lie unstable equilibria,
-  // which nothing goes back to by itself. False, and nothing moves, when it does so along the newest.
+  // Moves the records from the last recorded positions to where forces do no work along the
+  // displacements, by secants. No component moves by more than `limit` [m]. Only the newest
+  // displacements count, as long as the stiffness along them is at least `least` [N/m]: beyond lie
+  // unstable equilibria. If none counts, it returns false and moves nothing.
   bool extrapolate(std::span<ParticleRecord<D>> records, double limit, double least) const;
 
  private:

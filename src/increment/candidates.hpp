@@ -1,4 +1,4 @@
-// The pairs that may touch while particles move less than a gap.
+// Neighbour pairs that may touch while particles move less than a gap.
 #pragma once
 
 #include "boundary/boundary_space.hpp"
@@ -14,14 +14,15 @@ namespace grainlaw::core {
 template <int D>
 class Candidates {
  public:
-  // All within the gap [m], and those that are bonded: bonds hold however far they are stretched.
+  // Lists all pairs within the gap [m] and all bonded pairs, since bonds transmit force at any
+  // stretch.
   void list(const Problem<D>& problem, const Motion<D>& motion, double gap,
             const TouchingHistory<D>& history);
-  // Whether a particle may have come near one that is not listed.
+  // True if a particle may have come near one that is not listed.
   [[nodiscard]] bool outdated(std::span<const double> coordinates) const;
 
   [[nodiscard]] const std::vector<NeighbourPair<D>>& pairs() const { return pairs_; }
-  // 1, or 1 / copies; empty when all are 1.
+  // Weights of the pairs: 1, or 1 / copies [-]. Empty if all are 1.
   [[nodiscard]] std::span<const double> weights() const { return weights_; }
 
  private:

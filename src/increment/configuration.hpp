@@ -1,4 +1,4 @@
-// An equilibrium of the representative volume: all that the next increment needs to know.
+// Equilibrium of the representative volume: all that the next increment needs.
 #pragma once
 
 #include "contact/history.hpp"
@@ -17,7 +17,8 @@ namespace grainlaw::core {
 template <int D>
 struct Configuration {
   Tensor<D> deformation{};  // F
-  // Component-major: places [m], and rotations since F = I in turn_numbers where particles turn.
+  // Component-major: positions [m], then rotations since F = I in turn_numbers per particle if
+  // particles rotate.
   std::vector<double> coordinates;
   std::vector<ContactHistory<D>> contacts;  // touching contacts, ordered by (i, j, shift)
   Tensor<D> stress{};                       // first Piola-Kirchhoff stress P [Pa]
@@ -25,14 +26,14 @@ struct Configuration {
   std::vector<double> moments;    // on j, `spins` per contact; empty for laws without moments [N m]
   std::vector<double> bond_gaps;  // stress-free branch - (R_i + R_j), one per contact; empty unless
                                   // bonds span gaps [m]
-  double broken_bonds = 0;        // since F = I, each with its contact's weight [-]
-  // With drag, of the last part of the last increment: move of the fluctuations (coordinates, rotations
-  // as vectors [rad]) and G - 1; else empty.
+  double broken_bonds = 0;        // since F = I, weighted as their contacts [-]
+  // Displacement of the fluctuations ([m], rotation vectors [rad]) and G - 1 in the last part of
+  // the last increment with drag. Empty without drag.
   std::vector<double> move;
   Tensor<D> move_stretch{};
 };
 
-// Neither infinite nor not a number.
+// True if no value is infinite or NaN.
 inline bool all_finite(std::span<const double> values) {
   double zero = 0;
   for (const double value : values) zero += value - value;
@@ -49,7 +50,8 @@ bool all_finite(const Configuration<D>& c) {
          });
 }
 
-// A rotation, kept in numbers `apart` doubles from each other, as an angle or a rotation vector [rad].
+// Angle or rotation vector [rad] of a rotation whose numbers are stored `apart` doubles from each
+// other.
 template <int D>
 std::array<double, Dimension<D>::spins> rotation_of(const double* numbers, std::size_t apart) {
   if constexpr (D == 2) {
@@ -63,7 +65,7 @@ std::array<double, Dimension<D>::spins> rotation_of(const double* numbers, std::
   }
 }
 
-// Rotations of particles that have not turned yet, behind their places.
+// Appends zero rotations to the positions.
 template <int D>
 void append_unturned(std::size_t particles, std::vector<double>& coordinates) {
   if constexpr (D == 3) coordinates.resize(coordinates.size() + particles, 1.0);

@@ -1,4 +1,4 @@
-// Discs between their coordinates and the records that the loops over contacts read.
+// Conversion of discs between coordinates and the records that loops over contacts read.
 #pragma once
 
 #include "contact/law.hpp"
@@ -10,7 +10,7 @@
 
 namespace grainlaw::core {
 
-// Coordinates are component-major: x, y, and rotations where there are any (rotation not null).
+// Loads component-major coordinates: x, y and, if `rotating`, rotations.
 inline void load_records(const double* coordinates, bool rotating,
                          std::span<ParticleRecord<2>> records) {
   const std::size_t n = records.size();
@@ -39,7 +39,7 @@ inline void store_records(std::span<const ParticleRecord<2>> records, bool rotat
   }
 }
 
-// Forces and moments of nodes, component-major [N, N m].
+// Writes forces and moments of nodes, component-major [N, N m].
 inline void put_residual(const ForceRecord<2>* forces, std::span<const double> radius,
                          bool rotating, double* residual) {
   const std::size_t m = radius.size();
@@ -68,7 +68,8 @@ inline MassRecord<2> mass_of(const StiffnessRecord<2>& sum, const LeastMass<2>& 
   return {mass, mass, factor * std::max(sum.roll * least.inverse_radius, least.roll), 1};
 }
 
-// Component-major; that of a rotation is I [N m].
+// Writes masses component-major; that of a rotation is I, in the dimension of a stiffness times
+// length squared [N m].
 inline void put_masses(const MassRecord<2>* records, std::span<const double> radius, bool rotating,
                        double* mass) {
   const std::size_t m = radius.size();

@@ -19,7 +19,7 @@ Record<D> load(const Struct& record) {
   return simd::load<Dimension<D>::lanes>(&record.x);
 }
 
-// One contact's stiffness; nothing resists what does not turn.
+// Stiffness of one contact over the duration; 0 for rotations of particles without rotation.
 MassRecord<2> stiffness_of(const LeastMass<2>& least, double rate, bool rotating) {
   return {rate * least.x, rate * least.y, rotating ? rate * least.roll : 0, 0};
 }

@@ -1,9 +1,10 @@
-// Drag on the fluctuations: one implicit Euler step of masses with drag, against the move that is
-// expected of them. What is a jump of an equilibrium, a rearrangement, takes time so.
-//   r(z) - W (z - z*) = 0,  z* = G (x + rho u)
-// with the places x where the part of an increment began, the move u of the fluctuations in the part
-// before it, the deformation G of the part, and W one contact's stiffness over the duration of the
-// part. Rotations likewise, of which G changes nothing.
+// Drag on the fluctuations: each part of an increment is one implicit Euler step of masses with
+// drag.
+//   r(z) - W (z - z*) = 0,  z* = G (x + rho u)   @formula viscous
+// x: positions at the start of the part [m]. u: displacement of the fluctuations in the part before
+// [m]. G: deformation of the part. W: stiffness of one contact over the duration of the part [N/m].
+// Rotations likewise, without G. Rearrangements, which are jumps between equilibria, then take
+// time.
 #pragma once
 
 #include "boundary/boundary_space.hpp"
@@ -17,13 +18,13 @@
 
 namespace grainlaw::core {
 
-// How a part begins.
+// Start of a part.
 template <int D>
 struct DragStart {
-  double rate = 0;    // 1 / duration, that in relaxation times of a contact [-]; 0: no drag
-  double follow = 0;  // rho, how much of the last move is expected again [-]
-  Tensor<D> follow_by_stretch{};  // its derivative by G
-  Tensor<D> stretch{};            // G - 1 as it is asked for
+  double rate = 0;    // 1 / duration, in relaxation times of a contact [-]; 0: no drag
+  double follow = 0;  // rho, the share of the last displacement that is expected again [-]
+  Tensor<D> follow_by_stretch{};  // d rho / dG
+  Tensor<D> stretch{};            // G - 1 as prescribed
 };
 
 template <int D>
@@ -35,46 +36,48 @@ class Drag {
   [[nodiscard]] bool acts() const { return how_.rate > 0; }
   [[nodiscard]] const DragStart<D>& how() const { return how_; }
 
-  // Of a part that begins at the coordinates `start` under the deformation `from`. Without fluctuations
-  // it would lead to `affine`; `move` is the last move under the deformation of the part. `least` is one
-  // contact's stiffness, by nodes.
+  // Begins a part at the coordinates `start` under the deformation `from`. `affine` is its end
+  // without fluctuations, `move` the last displacement under the deformation of the part. `least`
+  // is the stiffness of one contact, per node.
   void begin(const DragStart<D>& how, const BoundarySpace<D>& space, bool rotating,
              std::span<const LeastMass<D>> least, const std::vector<double>& start,
              const Tensor<D>& from, std::span<const double> affine, std::span<const double> move);
 
-  // Of nodes, where F changes by what is found: as it moves their particles.
+  // Moves the expected positions of nodes with a change of the found components of F.
   void follow_deformation(const BoundarySpace<D>& space, const Tensor<D>& change);
-  // Rotations are counted from where they are.
+  // Sets the present rotations as the reference of rotations.
   void restart_turns(std::span<const Place> particles);
 
-  // Take the drag from the forces on the nodes, and add its stiffness to masses of the nodes.
+  // Subtracts the drag from the forces on the nodes [N].
   void subtract_from(std::span<ForceRecord<D>> forces, std::span<const Place> particles) const;
+  // Adds factor x the drag's stiffness to the masses of the nodes [N/m].
   void add_to(std::span<MassRecord<D>> masses, double factor) const;
 
-  // The same for loops over nodes that are particles; empty without drag.
+  // Drag for loops over nodes that are particles; empty without drag.
   [[nodiscard]] NodeDrag<D> of_nodes() const {
     return acts() ? NodeDrag<D>{expected_, stiffness_} : NodeDrag<D>{};
   }
 
-  // Forces of the contacts on the nodes where the next part begins: the drag of the part before it.
+  // Takes the contact forces on the nodes at the start of a part as the drag of the part before.
   void go_on_from(std::span<const ForceRecord<D>> forces);
-  // The same where this part ended.
+  // Takes the drag at the end of this part as that of the part before.
   void go_on_from(std::span<const Place> particles);
 
-  // The largest drag on a node [N].
+  // Largest drag on a node [N].
   [[nodiscard]] double largest(std::span<const Place> particles) const;
-  // What it takes from where the node would be without a fluctuation, `affine`, on: by the mean of the
-  // drag it begins and ends with, as stored energy is that of springs, while only the end would be an
-  // implicit step's own [J].
+  // Work of the drag on the fluctuations since the position `affine` [J]. It takes the mean of the
+  // drag at both ends, since the energy of springs is a trapezoid too. An implicit step alone would
+  // take the drag at its end. @formula viscous
   [[nodiscard]] double work(std::span<const Place> particles, std::span<const double> affine) const;
 
-  // Of a node: stiffness [N/m], distance from what was expected and the move that is expected again,
-  // rotations as turned lengths [m].
+  // Stiffness of the drag on node q [N/m].
   [[nodiscard]] const MassRecord<D>& stiffness(std::size_t q) const { return stiffness_[q]; }
+  // Distance of node q from its expected position; rotations as lengths R theta [m].
   [[nodiscard]] Place excess(std::size_t q, std::span<const Place> particles) const;
+  // Last displacement of node q, which the drag expects again; rotations as lengths R theta [m].
   [[nodiscard]] const Place& move(std::size_t q) const { return move_[q]; }
 
-  // Coordinates where the part began, and F there.
+  // Coordinates and F at the start of the part.
   [[nodiscard]] const std::vector<double>& start() const { return part_start_; }
   [[nodiscard]] const Tensor<D>& from() const { return from_; }
 
@@ -82,10 +85,10 @@ class Drag {
   DragStart<D> how_;
   Tensor<D> from_{};
   std::vector<double> part_start_;
-  std::vector<std::int32_t> particle_;  // one of each node
+  std::vector<std::int32_t> particle_;  // one particle of each node
   std::vector<Place> expected_, move_;
   std::vector<MassRecord<D>> stiffness_;
-  std::vector<ForceRecord<D>> before_;  // the drag it begins with
+  std::vector<ForceRecord<D>> before_;  // drag at the start of the part
 };
 
 }  // namespace grainlaw::core

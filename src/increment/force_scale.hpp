@@ -1,4 +1,4 @@
-// What forces that are left over are compared with.
+// Force scale of residuals, and random scatter of forces.
 #pragma once
 
 #include "base/constants.hpp"
@@ -14,7 +14,7 @@ namespace grainlaw::core {
 
 class ForceScale {
  public:
-  // Nothing touches yet.
+  // Begins without contacts.
   template <int D>
   void begin(const Problem<D>& problem, const Motion<D>& motion) {
     const auto radius = motion.node_radius();
@@ -34,20 +34,20 @@ class ForceScale {
     mean_force_ = touching_ > 0 ? totals.force / totals.weights : 0;
   }
 
-  // Of the contacts that touched when it was last looked.
+  // Number of contacts that touched at the last relinearisation.
   [[nodiscard]] int touching() const { return touching_; }
-  [[nodiscard]] double mean_force() const { return mean_force_; }  // normal [N]
-  // Residuals are relative to this [N].
+  [[nodiscard]] double mean_force() const { return mean_force_; }  // mean normal force [N]
+  // Force that residuals are relative to [N].
   [[nodiscard]] double relative() const { return std::max(mean_force_, floor_); }
-  // What the rounding of coordinates leaves of a residual at worst [N], and relative [-]: no
-  // tolerance below it can be met.
+  // Largest part of a residual that rounding of coordinates causes [N], and relative [-]. No
+  // smaller tolerance can be met.
   [[nodiscard]] double rounding() const { return rounding_; }
   [[nodiscard]] double relative_rounding() const {
     return touching_ > 0 ? rounding_ / relative() : 0;
   }
-  // Whether contacts carry no more than what rounding makes of them.
+  // True if contact forces are below the rounding error.
   [[nodiscard]] bool drowned() const { return relative_rounding() > tuned::largest_rounding; }
-  // Forces differ by this much by chance: tolerance and rounding [N].
+  // Random scatter of forces, by tolerance and rounding [N].
   [[nodiscard]] double chance() const {
     return std::max(std::min(tolerance_, tuned::largest_chance) * relative(), rounding_);
   }

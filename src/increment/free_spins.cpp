@@ -16,7 +16,7 @@ namespace {
 constexpr unsigned char two = 2, more = 3;
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-// 1 where the node is the first of the contact, else -1, and the other node.
+// Side of the node in the contact (1: first, -1: second), and the other node.
 struct Place {
   double side;
   std::size_t neighbour;
@@ -86,7 +86,7 @@ FreeSpins::Held FreeSpins::held_at(const Increment<3>& increment, std::size_t q)
   Held held{};
   held.node = q;
   held.contact = contact_[q];
-  Vec<3> point{};  // of the first contact, over the radius
+  Vec<3> point{};  // first contact point, over the radius
   for (std::size_t k = 0; k < 2; ++k) {
     const std::size_t c = held.contact[k];
     const auto [side, neighbour] = place_of(increment, c, q);
@@ -106,7 +106,7 @@ FreeSpins::Held FreeSpins::held_at(const Increment<3>& increment, std::size_t q)
       held.departure[m] += 0.5 * held.side[k] * departure[m];
     }
   }
-  // In the ratio of the masses with which spheres relax.
+  // Ratio of the masses in a relaxation of spheres.
   const double inertia = 2 * increment.problem().law->ratio;
   held.way_scale = 1 / (inertia * radius);
   held.way = sum({}, held.way_scale, cross(held.chord, point));
@@ -131,7 +131,7 @@ void FreeSpins::find_limits(const Increment<3>& increment) {
   }
 }
 
-// How far the sphere may roll until the contact closes, to first order.
+// Finds how far the sphere may roll until contact c closes, to first order.
 void FreeSpins::see_third(const Increment<3>& increment, std::size_t c, std::size_t place,
                           double side) {
   const Held& held = held_[place];
@@ -142,7 +142,7 @@ void FreeSpins::see_third(const Increment<3>& increment, std::size_t c, std::siz
   const double distance = length<3>(branch);
   const double radius = motion.node_radius()[held.node];
   const Vec<3> outward = sum({}, side / distance, branch);
-  // By a spin of chord about the chord: of the distance, and of the excess.
+  // Derivatives for a rotation of length chord about the chord: of the distance, and of the excess.
   const Vec<3> moved = sum({}, radius / held.way_scale, held.way);
   const double opening = dot(outward, moved);
   if (std::abs(opening) < tuned::least_closing * length<3>(moved)) return;
@@ -153,7 +153,7 @@ void FreeSpins::see_third(const Increment<3>& increment, std::size_t c, std::siz
   if (room < limit.room) limit = {room, c, sum({}, scale, outward)};
 }
 
-// Excess goes down to zero unless it meets its lower limit first; below zero, up.
+// Reduces positive excess to zero or to its lower limit, raises negative excess likewise.
 void FreeSpins::stop(const Increment<3>& increment) {
   for (std::size_t k = 0; k < held_.size(); ++k) {
     Held& held = held_[k];

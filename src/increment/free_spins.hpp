@@ -1,4 +1,5 @@
-// Spheres with two contacts, which nothing holds against a spin about the chord between these.
+// Two-contact spheres: equilibrium leaves their rotation about the chord between both contacts
+// open.
 #pragma once
 
 #include "math/dimension.hpp"
@@ -15,57 +16,57 @@ namespace grainlaw::core {
 template <int D>
 class Increment;
 
-// The sphere may roll around the chord on both, and the contacts' forces have no moment about that: what
-// balances them is a whole line of places, on which P is not the same. The rule that picks one: since the
-// history started the sphere has not gone that way from where F carries it between its neighbours; where a
-// third sphere is in the way, it is where it meets that. A spring about the chord, without moment where the
-// rule is kept, holds to it.
+// Rule for two-contact spheres. Such a sphere may roll along a path around the chord, on which all
+// positions are in equilibrium but P differs. @formula free-spin The rule: since the start of the
+// history the sphere has not moved along the path, relative to its neighbours' affine motion. A
+// third sphere in the way stops it. A spring about the chord enforces the rule; its moment vanishes
+// at the solution.
 class FreeSpins {
  public:
-  // The excess over the rule, chord . rotation + way . departure [rad], or what is left to the third sphere
-  // before that.
+  // Two-contact sphere with its excess over the rule, chord . rotation + way . departure [rad], or
+  // over its stop at a third sphere.
   struct Held {
     std::size_t node;
-    std::array<std::size_t, 2> contact;  // in the increment's list
+    std::array<std::size_t, 2> contact;  // indices in the increment's list
     std::array<std::size_t, 2> neighbour;
-    std::array<double, 2> side;  // 1 where the node is the first of the contact, else -1
-    Vec<3> chord;                // where the history started, over the radius [-]
+    std::array<double, 2> side;  // 1 if the node is the contact's first, else -1
+    Vec<3> chord;                // at the start of the history, over the radius [-]
     double way_scale;            // [1/m]
-    Vec<3> way;        // way_scale x chord x first point of contact over the radius, there [1/m]
-    Vec<3> departure;  // of the neighbours' mean from where F carries it, seen from the sphere [m]
-    Vec<3> by_spin;    // of the excess [-]
+    Vec<3> way;        // way_scale x chord x (first contact point over radius), at the start [1/m]
+    Vec<3> departure;  // of the neighbours' mean from affine motion, relative to the sphere [m]
+    Vec<3> by_spin;    // derivative of the excess by spin [-]
     double excess;     // [rad]
     double stiffness;  // [N m]
-    std::size_t third = none;  // contact
+    std::size_t third = none;  // index of its contact
     std::size_t third_neighbour;
     double third_side;
-    Vec<3> by_third;  // of the excess by the third branch, outwards [1/m]
+    Vec<3> by_third;  // derivative of the excess by the third branch, outwards [1/m]
 
     [[nodiscard]] bool stopped() const { return third != none; }
-    // On the surface [N].
+    // Moment of the spring over the radius [N].
     [[nodiscard]] double force(double radius) const {
       return stiffness * std::abs(excess) * length<3>(chord) / radius;
     }
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-  // Whether contacts leave spins free at all.
+  // True if neither the law nor drag resists rotation about the chord.
   static bool possible(const Increment<3>& increment);
   void forget() {
     held_.clear();
     by_chance_ = false;
   }
-  // At the present coordinates, with the present masses.
+  // Finds the two-contact spheres at the present coordinates, with the present masses.
   void find(const Increment<3>& increment);
-  // What the springs do to the residual.
+  // Adds the moments of the springs to the residual [N m].
   void add_to(std::size_t nodes, std::span<double> residual) const;
 
   [[nodiscard]] std::span<const Held> held() const { return held_; }
-  // Whether some are stopped by spheres that nothing holds, which are where a relaxation left them.
+  // True if some stop at an unsupported sphere, whose position depends on the relaxation.
   [[nodiscard]] bool by_chance() const { return by_chance_; }
 
  private:
-  // Where a third sphere leaves so much of the excess on the one way and on the other.
+  // Limit of the excess at a third sphere, in one direction of rolling.
   struct Limit {
     double room;  // [rad]
     std::size_t contact;
@@ -77,9 +78,9 @@ class FreeSpins {
   void stop(const Increment<3>& increment);
 
   std::vector<Held> held_;
-  std::vector<unsigned char> count_;  // contacts of a node, up to three
+  std::vector<unsigned char> count_;  // contacts of a node, at most three
   std::vector<std::array<std::size_t, 2>> contact_;
-  std::vector<std::size_t> place_;  // of a node in held_
+  std::vector<std::size_t> place_;  // index of a node in held_
   std::vector<std::array<Limit, 2>> limits_;
   bool by_chance_ = false;
 };

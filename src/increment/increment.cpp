@@ -158,9 +158,9 @@ void Increment<D>::sum_forces(std::span<ForceRecord<D>> forces) {
   if (motion_.drag().acts()) motion_.drag().subtract_from(forces, motion_.records());
 }
 
-// From forces on nodes to what is left of them: nothing on what is prescribed, nothing that the
-// average constraint carries (with the present masses), and behind the nodes a record for every row
-// of F with what the prescribed stresses leave to move it.
+// Reduces forces on nodes to residuals. Prescribed components become 0, and the part that the
+// average constraint supports is projected out, with the present masses. Found rows of F get the
+// missing stress as forces.
 template <int D>
 void Increment<D>::reduce(std::span<ForceRecord<D>> forces) const {
   const auto& space = *problem_->space;
@@ -176,7 +176,7 @@ void Increment<D>::reduce(std::span<ForceRecord<D>> forces) const {
   if (space.finds_deformation) take_found_stress(forces);
 }
 
-// V (P* - P) with V P = - sum f (x) L.
+// Force on the rows of F: V (P* - P) over the scale, with V P = - sum f (x) L. @formula stress
 template <int D>
 void Increment<D>::take_found_stress(std::span<ForceRecord<D>> forces) const {
   const auto& space = *problem_->space;

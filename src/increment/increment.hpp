@@ -1,5 +1,5 @@
-// One increment of deformation being solved: motion, contacts, masses and forces. Everything the solvers
-// share, and all their memory; sized once, reused from call to call by one thread.
+// Increment of deformation being solved: motion, contacts, masses and forces. It owns all that the
+// solvers share and all their memory. Buffers are sized once and reused by one thread.
 #pragma once
 
 #include "contact/contact_sides.hpp"
@@ -19,10 +19,10 @@
 
 namespace grainlaw::core {
 
-// Whether friction starts from where the increment began or from the last evaluation.
+// Reference of friction: the start of the increment, or the last evaluation.
 enum class History { committed, advancing };
 
-// What finding an equilibrium takes.
+// Work that an equilibrium takes.
 struct Cost {
   long relaxation_steps = 0;
   long servo_corrections = 0;
@@ -35,119 +35,124 @@ struct Cost {
   }
 };
 
-// Solvers move the motion and count what they do; all else follows by the functions here.
+// Solvers change the motion and count their work; the functions here derive all else.
 template <int D>
 class Increment {
  public:
   Cost cost;
 
-  // Start from a configuration; `deformation` is the F to be reached without rotation, the guess is the
-  // affine image. Rotations are counted from here.
+  // Starts from a configuration with the affine guess. `deformation` is the F to reach, without
+  // rotation. Rotations count from here.
   void begin(const Problem<D>& problem, const Configuration<D>& from, const Tensor<D>& deformation);
-  // Reach for another F from the present history; the guess moves affinely with it.
+  // Sets another F to reach with the present history; the guess moves affinely.
   void deform(const Tensor<D>& deformation);
-  // A number that no other increment of this process has: what was cached for it serves it alone.
+  // Returns a number that no other increment of this process has, so that caches can tell it.
   [[nodiscard]] std::uint64_t epoch() const { return epoch_; }
-  // Relist neighbours when a particle may have come near one that is not listed; whether it did.
+  // Relists neighbours if a particle may have come near one that is not listed. Returns whether it
+  // did.
   bool keep_neighbours();
 
-  // Forces at the present coordinates, and the residual.
+  // Computes forces at the present coordinates, and the residual.
   void update_forces(History history = History::committed);
-  // Of the present records: forces on nodes, reduced, and no residual is made of them; those of contacts
-  // alone; forces on nodes before they are reduced.
+  // Computes reduced forces on nodes from the present records, without the residual.
   void find_forces(History history);
+  // Computes the forces of the contacts from the present records.
   void find_contact_forces();
+  // Computes forces on nodes, drag included, before reduction.
   void sum_forces(std::span<ForceRecord<D>> forces);
 
-  // Of spheres whose contacts leave spins free: from the next update_forces() on the residual holds these
-  // to their rule, or no longer. Whether there is anything to hold.
+  // Adds the springs of two-contact spheres to the residual from the next update_forces() on.
+  // Returns whether the law needs them.
   bool hold_free_spins();
   void release_free_spins() { holds_spins_ = false; }
-  // At the present coordinates. What would hold them, as a residual is measured; 0 where there are none.
+  // Finds the two-contact spheres at the present coordinates. Returns the largest force of their
+  // springs over the force scale [-].
   double find_free_spins();
   [[nodiscard]] const auto& free_spins() const { return free_spins_; }
 
-  // Of the present coordinates, with the scale of forces; of the present records, for records alone;
-  // the scale alone, while the sides keep masses of their own.
+  // Updates masses and force scale at the present coordinates.
   void refresh_masses();
+  // Updates masses and force scale from the present records, for the records alone.
   void sum_masses();
+  // Relinearises half contacts around the present records and updates the force scale; they have
+  // masses of their own.
   void look(ContactSides<D>& sides);
 
-  // Largest residual force (moment / R) of update_forces over the scale of forces [-]; infinite when no
-  // contact is left or a number is not finite.
+  // Largest residual force (moment / R) of update_forces over the force scale [-]. Infinite without
+  // contacts or if a number is not finite.
   [[nodiscard]] double residual_norm() const;
 
-  // Make the present coordinates the start of the history; sums up the dissipated energy.
+  // Makes the present coordinates the start of the history and sums up the dissipated energy.
   void advance_history();
-  // The same on the way through an increment, where the answer must not depend on what equilibrium
-  // leaves open: nodes that nothing holds start where the deformation carries their last start, and
-  // the mean fluctuation of those that are held.
+  // Makes the present coordinates the start of the history within an increment. Unsupported nodes
+  // start at the affine image of their last start, plus the mean fluctuation of the supported ones.
+  // The answer then does not depend on what equilibrium leaves open.
   void continue_history();
-  // Whether a contact that carries, or the boundary, holds a node: fixed_bit() of each direction.
+  // Finds the directions in which contacts or the boundary support a node, as fixed_bit() of each.
   void find_held(std::vector<unsigned char>& held) const;
 
-  // As the motion's, with its losses; before the first part of an increment, where that begins.
+  // Computes the drag at the start of an increment, before its first part begins.
   void find_first_drag();
   void begin_drag(const DragStart<D>& how, std::span<const double> last_move, bool as_expected) {
     motion_.begin_drag(how, masses_.least(), last_move, as_expected);
   }
   void end_drag(std::vector<double>& move) { losses_.drag(motion_.end_drag(move)); }
 
-  // Break bonds that are beyond their strength here, and the history starts anew from here; false
-  // when none is. The worst break first, with all that exceed the strength by at least half as
-  // much: the others may be relieved, and equal bonds break together.
+  // Breaks overloaded bonds and restarts the history here; returns false if there is none. Breaks
+  // the worst bond and all whose excess is at least half of its. Others may be relieved, and equal
+  // bonds break together. @formula bond
   bool break_bonds();
-  // Whether break_bonds() would.
+  // True if break_bonds() would break one.
   [[nodiscard]] bool overloads_bonds() const { return worst_bond() >= 1; }
 
-  // Reference branch of a listed contact for a space bound to axes: X'_j - X'_i [m].
+  // Reference branch X'_j - X'_i of a listed contact, for a space bound to axes [m].
   [[nodiscard]] Vec<D> fixed_branch(std::size_t c) const {
     return motion_.fixed_branch(contacts_.i[c], contacts_.j[c]);
   }
-  // Of a listed contact, x_j - x_i [m].
+  // Branch x_j - x_i of a listed contact [m].
   [[nodiscard]] Vec<D> branch(std::size_t c) const;
   // Overlap of a listed contact, negative across a gap [m].
   [[nodiscard]] double overlap(std::size_t c) const;
-  // Whether it is open by more than rounding, without a root.
+  // True if the contact is open by more than rounding; needs no square root.
   [[nodiscard]] bool surely_open(std::size_t c) const {
     constexpr double more_than_rounding = 1 + 1e-9;
     const double rest = more_than_rounding * contacts_.rest_of(c);
     return branch_square(c) > rest * rest && !contacts_.bonded(c);
   }
-  // Whether a contact counts. Rattlers touch their cage with forces of about the residual, or not,
-  // by chance; ten times as much is no chance.
+  // True if the contact is load bearing. Rattlers touch their cage at random with forces of about
+  // the residual, so ten times the scatter is required.
   [[nodiscard]] bool carries(std::size_t c) const;
-  // Whether any contact counts.
+  // True if any contact is load bearing.
   [[nodiscard]] bool bears() const;
-  // From here to the next F no contact counts but a bond, whatever is left of its force.
+  // Makes all contacts but bonds ineffective until the next F, whatever their force.
   void release_contacts() { released_ = true; }
 
-  // Whether the boundary lost what it is to carry a uniform stress with: next to no force is left,
-  // or a boundary particle has no contact.
+  // True if the boundary cannot support a uniform stress: forces are close to zero, or a boundary
+  // particle has no contact.
   [[nodiscard]] bool collapsed();
-  // Whether it did, or no contact is left.
+  // True if the boundary collapsed or no contact is left.
   [[nodiscard]] bool lost() { return scale_.touching() == 0 || collapsed(); }
-  // Whether found components of F went further than an increment goes: nothing carries the stress.
+  // True if the found components of F changed too much: no contact supports the stress.
   [[nodiscard]] bool runs_away() const;
-  // Of those under uniform stress, the first without a contact; -1: none.
+  // First particle under uniform stress without a contact; -1: none.
   [[nodiscard]] int released_particle();
 
-  // Put contacts, coordinates and dissipation into `to`, rotations added to those of `from`.
+  // Writes contacts, coordinates and dissipation to `to`, with rotations since F = I.
   void export_to(const Configuration<D>& from, Configuration<D>& to) const;
 
   [[nodiscard]] const Problem<D>& problem() const { return *problem_; }
   [[nodiscard]] Motion<D>& motion() { return motion_; }
   [[nodiscard]] const Motion<D>& motion() const { return motion_; }
   [[nodiscard]] const ContactList<D>& contacts() const { return contacts_; }
-  // Of the listed contacts.
+  // Neighbour pairs of the listed contacts.
   [[nodiscard]] const std::vector<NeighbourPair<D>>& pairs() const { return candidates_.pairs(); }
   [[nodiscard]] const TouchingHistory<D>& history() const { return history_; }
   [[nodiscard]] const Masses<D>& masses() const { return masses_; }
   [[nodiscard]] const ForceScale& scale() const { return scale_; }
   [[nodiscard]] const Losses& losses() const { return losses_; }
-  // On nodes, and rows of F where some of it is found.
+  // Forces on nodes [N], then on the rows of F where components are found.
   [[nodiscard]] std::span<const ForceRecord<D>> forces() const { return forces_; }
-  // Of the unknowns, component-major [N, N m].
+  // Residual of the unknowns, component-major [N, N m].
   [[nodiscard]] std::span<const double> residual() const { return residual_; }
 
  private:
@@ -175,7 +180,7 @@ class Increment {
   Losses losses_;
   std::vector<ForceRecord<D>> forces_;
   std::vector<double> residual_;
-  std::vector<unsigned char> held_;  // of nodes, as found last
+  std::vector<unsigned char> held_;  // supported directions of nodes, as found last
   bool released_ = false;
   struct Nothing {};
   [[no_unique_address]] std::conditional_t<D == 3, FreeSpins, Nothing> free_spins_;

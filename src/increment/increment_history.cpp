@@ -1,5 +1,4 @@
-// Where the history of contacts starts, and what ends there: the parts of Increment that outlast an
-// equilibrium.
+// Functions of Increment that outlast an equilibrium: start of the contact history, and losses.
 #include "base/constants.hpp"
 #include "contact/contact_forces.hpp"
 #include "contact/contact_point.hpp"
@@ -26,8 +25,8 @@ bool Increment<D>::bears() const {
   return false;
 }
 
-// What the springs hold less what the prescribed stresses have given: at the given F and those
-// stresses nothing else gives energy.
+// Energy of the springs less the work of the prescribed stresses [J]. Nothing else supplies energy
+// at the given F.
 template <int D>
 double Increment<D>::potential_energy() const {
   const auto& space = *problem_->space;
@@ -119,7 +118,7 @@ bool Increment<D>::runs_away() const {
   return false;
 }
 
-// Eq. 8 of Liu, Bosco & Suiker (2017), 1 at failure; without a bond 0.
+// Load of a bond, 1 at failure; 0 without a bond [-]. @formula bond
 template <int D>
 double Increment<D>::bond_load(std::size_t c) const {
   if (!contacts_.bonded(c)) return 0;

@@ -1,4 +1,4 @@
-// What an increment loses on its way: energy by friction and broken bonds, and the bonds.
+// Losses of an increment: energy by friction, drag and broken bonds, and the number of bonds.
 #pragma once
 
 namespace grainlaw::core {
@@ -6,12 +6,12 @@ namespace grainlaw::core {
 class Losses {
  public:
   void begin() { *this = {}; }
-  // What friction takes [J].
+  // Adds the work of friction [J].
   void dissipate(double energy) { dissipated_ += energy; }
-  // What a drag takes [J].
+  // Adds the work of drag [J].
   void drag(double energy) { dragged_ += energy; }
-  // Bonds break in a state of this potential energy [J]: until end_break() what it falls by is lost, by
-  // friction too.
+  // Begins a break of bonds at this potential energy [J]. Until end_break() its decrease is lost,
+  // by friction too.
   void begin_break(double energy) {
     after_break_ = true;
     break_energy_ = energy;
@@ -24,7 +24,7 @@ class Losses {
 
   [[nodiscard]] double dissipated() const { return dissipated_; }      // [J]
   [[nodiscard]] double dragged() const { return dragged_; }            // [J]
-  [[nodiscard]] double broken_bonds() const { return broken_bonds_; }  // with their weights [-]
+  [[nodiscard]] double broken_bonds() const { return broken_bonds_; }  // weighted [-]
 
  private:
   double dissipated_ = 0, dragged_ = 0, broken_bonds_ = 0;

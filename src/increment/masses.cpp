@@ -60,8 +60,9 @@ void Masses<D>::take_out_averages(const BoundarySpace<D>& space,
   }
 }
 
-// A contact's stretch (w_j - w_i + dF L) is shared by two particles and by the found components of
-// a row of F; masses 0.8 sum kn L^2 times their number keep the unit step stable.
+// Finds the masses of found components of F. Two particles and the components of a row share the
+// stretch (w_j - w_i + dF L) of a contact. Masses 0.8 sum kn L^2 times their number keep the unit
+// step stable.
 template <int D>
 void Masses<D>::find_rows(const Problem<D>& problem, const Motion<D>& motion,
                           const ContactList<D>& contacts) {

@@ -1,4 +1,4 @@
-// Pseudo-masses of the unknowns, by which relaxation steps and what residuals are weighed with.
+// Pseudo-masses of the unknowns, for relaxation steps and as weights of residuals.
 #pragma once
 
 #include "contact/contact_forces.hpp"
@@ -10,25 +10,25 @@
 
 namespace grainlaw::core {
 
-// tuned::mass_factor x the stiffness of the touching contacts, never below one contact's worth
-// (mechanics of the relaxation: unit pseudo-time step).
+// Masses are tuned::mass_factor x the stiffness of the touching contacts, at least that of one
+// contact [N/m]. @formula relaxation
 template <int D>
 class Masses {
  public:
   void begin(const Problem<D>& problem, const Motion<D>& motion);
-  // Of the motion's records and for records alone: the mass of the roll R theta is I / R^2.
+  // Sums masses from the motion's records, for records alone; rotations R theta have I / R^2.
   ContactTotals sum(const Problem<D>& problem, const Motion<D>& motion, ContactList<D>& contacts);
-  // From the records to unknowns: that of a rotation is I [N m].
+  // Copies masses from records to unknowns; rotations have I [N m].
   void put(const Problem<D>& problem, const Motion<D>& motion);
 
-  // Of nodes, and behind them of the rows of F that are found.
+  // Masses of nodes, then of the rows of F that are found.
   [[nodiscard]] std::span<const MassRecord<D>> records() const { return records_; }
   [[nodiscard]] std::span<const double> of_unknowns() const { return of_unknowns_; }
-  // One contact's worth.
+  // Stiffness of one contact, per node.
   [[nodiscard]] std::span<const LeastMass<D>> least() const { return least_; }
-  // kn between equal particles, mean over the nodes [N/m].
+  // Mean over the nodes of kn between equal particles [N/m].
   [[nodiscard]] double mean_stiffness() const;
-  // Nothing is left that the average constraint carries.
+  // Projects out the part of the residual that the average constraint supports.
   void take_out_averages(const BoundarySpace<D>& space, std::span<ForceRecord<D>> residual) const;
 
  private:
@@ -39,7 +39,7 @@ class Masses {
   std::vector<MassRecord<D>> records_;
   std::vector<double> of_unknowns_;  // component-major
   std::vector<LeastMass<D>> least_;
-  std::vector<StiffnessRecord<D>> stiffness_;  // summed over the contacts of nodes
+  std::vector<StiffnessRecord<D>> stiffness_;  // sums over the contacts of nodes
   AverageMasses averages_;
 };
 

@@ -10,7 +10,7 @@ namespace grainlaw::core {
 
 namespace {
 
-// Affine motion of reference positions, added to x.
+// Adds the affine displacement of reference positions to x.
 template <int D>
 void move_with(const double* reference, const Tensor<D>& change, std::size_t n, double* x) {
   for (std::size_t p = 0; p < n; ++p) {
@@ -66,8 +66,8 @@ void Motion<D>::deform(const Tensor<D>& target) {
   if (!space.identity) place_fixed();
 }
 
-// Moves positions affinely from one F to another; where the space is bound to axes, fluctuations keep
-// their components.
+// Moves positions affinely from one F to another. In a space bound to axes, fluctuations keep their
+// components.
 template <int D>
 void Motion<D>::carry_affinely(const Tensor<D>& from, const Tensor<D>& to,
                                double* positions) const {
@@ -81,7 +81,7 @@ void Motion<D>::carry_affinely(const Tensor<D>& from, const Tensor<D>& to,
   map_positions<D>(product<D>(to, inverse<D>(from)), n, positions);
 }
 
-// Where F has a particle that does not fluctuate.
+// Position of a particle without fluctuation.
 template <int D>
 double Motion<D>::affine_place(std::size_t p, std::size_t direction) const {
   const auto& space = *problem_->space;
@@ -104,8 +104,8 @@ Vec<D> Motion<D>::drift() const {
   return result;
 }
 
-// No rounding adds up from increment to increment: prescribed particles are where F puts them,
-// boundary particles average to F, and what may move as a whole goes back.
+// Corrects rounding that would add up over increments: prescribed particles go where F maps them,
+// and rigid translation is removed.
 template <int D>
 void Motion<D>::place_fixed() {
   const auto& space = *problem_->space;
@@ -186,7 +186,7 @@ void Motion<D>::start_here() {
   start_deformation_ = deformation_;
 }
 
-// Turns stay as they are: a particle is the same however far it has turned.
+// Rotations stay: the history of a particle does not depend on its orientation.
 template <int D>
 void Motion<D>::start_here(std::span<const unsigned char> held) {
   const auto n = problem_->particles();

@@ -1,5 +1,4 @@
-// Where the particles are on the way of an increment: F, their coordinates, and where the history of
-// contacts starts.
+// Motion of the particles in an increment: F, coordinates, and the start of the contact history.
 #pragma once
 
 #include "contact/records.hpp"
@@ -15,18 +14,19 @@
 
 namespace grainlaw::core {
 
-// Coordinates are component-major: positions [m], and rotations since the increment began. The same as
-// records is what loops over contacts read: who moves the one loads or stores the other.
+// Coordinates are component-major: positions [m], then rotations since the increment began. Loops
+// over contacts read records of them; code that changes the one loads or stores the other.
 template <int D>
 class Motion {
  public:
-  // At rest where `from` is; the history starts there.
+  // Begins at rest in configuration `from`, where the history starts.
   void begin(const Problem<D>& problem, const Configuration<D>& from);
-  // To another F: affinely, and what is prescribed to its place.
+  // Moves particles affinely to another F, and prescribed ones to their positions.
   void deform(const Tensor<D>& target);
-  // Every particle by factor x its node's step (component-major over nodes), and found components of F.
+  // Adds factor x the step of its node (component-major) to every particle, and to found components
+  // of F.
   void move(std::span<const double> step, double factor = 1);
-  // To where it was, or may be.
+  // Sets coordinates and F.
   void go_to(std::span<const double> coordinates, const Tensor<D>& deformation);
   [[nodiscard]] double& coordinate(std::size_t component, std::size_t particle) {
     return coordinates_[component * problem_->particles() + particle];
@@ -36,28 +36,30 @@ class Motion {
   void store_records();
   [[nodiscard]] std::span<ParticleRecord<D>> records() { return records_; }
   [[nodiscard]] std::span<const ParticleRecord<D>> records() const { return records_; }
-  // Change F by a record for every row, times scale(), and the records of particles with it.
+  // Adds rows, scaled by deformation_scale(), to F and moves the particles' records with it.
   void change_deformation(const double* rows);
 
-  // The history starts here; or it does but for nodes that nothing holds (fixed_bit() of each direction):
-  // they start where F carries their last start, and the mean fluctuation of those that are held.
+  // Starts the history here.
   void start_here();
+  // Starts the history here for supported nodes (fixed_bit() of each direction). Others start at
+  // the affine image of their last start, plus the mean fluctuation of the supported ones.
   void start_here(std::span<const unsigned char> held);
-  // Spheres count their rotations from here.
+  // Sets the present rotations of spheres as the reference.
   void restart_turns();
 
-  // Forces of the contacts on the nodes where the increment begins, which drag held there.
+  // Takes contact forces on the nodes at the start of the increment as the drag there.
   void find_first_drag(std::span<const ForceRecord<D>> forces) { drag_.go_on_from(forces); }
-  // From the start of the history to the present F fluctuations meet a drag, after a part in which they
-  // moved by `last_move` (coordinates; empty: not at all); `contact_stiffness` is one contact's, by nodes.
-  // Where `as_expected`, particles go where the drag expects them.
+  // Begins drag from the start of the history to the present F. `last_move` is the displacement of
+  // the fluctuations in the part before (empty: none). `contact_stiffness` is that of one contact,
+  // per node. With `as_expected`, particles go to their expected positions.
   void begin_drag(const DragStart<D>& how, std::span<const LeastMass<D>> contact_stiffness,
                   std::span<const double> last_move, bool as_expected);
-  // Where the part ends: the move of the fluctuations goes to `move`; returns what the drag took [J].
+  // Ends the part: writes the displacement of the fluctuations to `move` and returns the work of
+  // the drag [J].
   double end_drag(std::vector<double>& move);
   [[nodiscard]] const Drag<D>& drag() const { return drag_; }
 
-  // Without what has moved as a whole; rotations added to those of `from`.
+  // Writes coordinates without rigid translation, with rotations since F = I.
   void export_to(const Configuration<D>& from, Configuration<D>& to) const;
 
   [[nodiscard]] const std::vector<double>& coordinates() const { return coordinates_; }
@@ -66,15 +68,15 @@ class Motion {
   [[nodiscard]] std::span<const double> start() const { return start_; }
   [[nodiscard]] const Tensor<D>& start_deformation() const { return start_deformation_; }
   [[nodiscard]] Tensor<D> start_cell() const { return cell_at(start_deformation_); }
-  // Where the increment began.
+  // F at the start of the increment.
   [[nodiscard]] const Tensor<D>& committed_deformation() const { return committed_deformation_; }
 
-  // Components of F that are found count as lengths: F times this [m], so that their residual is a
-  // force, the missing stress on the cross section of one particle.
+  // Length by which found components of F are scaled [m]. Their residual is then a force: the
+  // missing stress on the cross section of one particle.
   [[nodiscard]] double deformation_scale() const { return deformation_scale_; }
   [[nodiscard]] double mean_branch() const { return mean_branch_; }                   // 2 R [m]
   [[nodiscard]] std::span<const double> node_radius() const { return node_radius_; }  // [m]
-  // Reference branch for a space bound to axes: X'_j - X'_i [m].
+  // Reference branch X'_j - X'_i for a space bound to axes [m].
   [[nodiscard]] Vec<D> fixed_branch(std::int32_t i, std::int32_t j) const;
 
  private:
@@ -84,16 +86,16 @@ class Motion {
   void carry_affinely(const Tensor<D>& from, const Tensor<D>& to, double* positions) const;
   [[nodiscard]] double affine_place(std::size_t p, std::size_t direction) const;
   void place_fixed();
-  // How far a packing that nothing holds has moved as a whole [m].
+  // Rigid translation of a packing without fixed particles [m].
   [[nodiscard]] Vec<D> drift() const;
 
   const Problem<D>* problem_ = nullptr;
-  Tensor<D> deformation_{};  // free of the increment's rotation
+  Tensor<D> deformation_{};  // without the increment's rotation
   Tensor<D> start_deformation_{};
   Tensor<D> committed_deformation_{};
   Tensor<D> cell_{};
   std::vector<double> coordinates_;
-  std::vector<double> start_;  // coordinates where the history starts
+  std::vector<double> start_;  // coordinates at the start of the history
   std::vector<ParticleRecord<D>> records_;
   Turned<D> turned_;
   std::vector<double> carried_start_;

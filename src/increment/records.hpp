@@ -1,5 +1,4 @@
-// Particles between their coordinates and the records that the loops over contacts read, by overloads
-// for the records' dimension.
+// Conversion of particles between coordinates and records, overloaded by dimension.
 #pragma once
 
 #include "increment/disc_records.hpp"

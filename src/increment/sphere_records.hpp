@@ -1,4 +1,4 @@
-// Spheres between their coordinates and the records that the loops over contacts read.
+// Conversion of spheres between coordinates and the records that loops over contacts read.
 #pragma once
 
 #include "contact/law.hpp"
@@ -12,7 +12,7 @@
 
 namespace grainlaw::core {
 
-// Coordinates are component-major: places, and Gibbs vectors of rotations where there are any.
+// Loads component-major coordinates: positions and, if `rotating`, Gibbs vectors of rotations.
 inline void load_records(const double* coordinates, bool rotating,
                          std::span<ParticleRecord<3>> records) {
   const std::size_t n = records.size();
@@ -43,7 +43,7 @@ inline void store_records(std::span<const ParticleRecord<3>> records, bool rotat
   }
 }
 
-// Forces and moments of nodes, component-major [N, N m].
+// Writes forces and moments of nodes, component-major [N, N m].
 inline void put_residual(const ForceRecord<3>* forces, std::span<const double> radius,
                          bool rotating, double* residual) {
   const std::size_t m = radius.size();
@@ -76,7 +76,8 @@ inline MassRecord<3> mass_of(const StiffnessRecord<3>& sum, const LeastMass<3>& 
   return {mass, mass, mass, spin, spin, spin, {1, 1}};
 }
 
-// Component-major; that of a rotation is I [N m].
+// Writes masses component-major; that of a rotation is I, in the dimension of a stiffness times
+// length squared [N m].
 inline void put_masses(const MassRecord<3>* records, std::span<const double> radius,
                        bool /*rotating*/, double* mass) {
   const std::size_t m = radius.size();

@@ -1,4 +1,4 @@
-// What contacts that touch bring along from where the history starts.
+// History of the touching contacts since its start.
 #pragma once
 
 #include "contact/contact_list.hpp"
@@ -10,15 +10,16 @@
 
 namespace grainlaw::core {
 
-// Ordered as the pairs of the neighbour search are.
+// Contacts in the order of the neighbour search.
 template <int D>
 class TouchingHistory {
  public:
-  // As `from` left it.
+  // Begins with the history of configuration `from`.
   void begin(const Configuration<D>& from);
-  // Anew, of no more contacts than there are pairs, with room for as many as they have.
+  // Clears the history and reserves memory for the number of pairs.
   void clear(const std::vector<NeighbourPair<D>>& pairs, const ContactLaw& law);
-  // The next contact of the list with its depth of overlap [m], from forces that differ by chance so much [N].
+  // Adds contact c of the list with its overlap `depth` [m] and the random scatter of forces
+  // `chance` [N].
   void add(const ContactList<D>& contacts, std::size_t c, const NeighbourPair<D>& pair,
            double depth, double chance, const ContactLaw& law);
   void break_bond(std::size_t h) { contacts_[h].bonded = false; }
@@ -31,7 +32,7 @@ class TouchingHistory {
 
  private:
   std::vector<ContactHistory<D>> contacts_;
-  std::vector<double> moments_, gaps_;  // as in Configuration
+  std::vector<double> moments_, gaps_;  // see Configuration
   bool spans_gaps_ = false;
 };
 

@@ -1,4 +1,4 @@
-// Rotations of particles: how steps add to them, and where a history starts anew.
+// Rotations of particles: how steps add to them, and how a restarted history refers to them.
 #pragma once
 
 #include "contact/records.hpp"
@@ -10,20 +10,20 @@
 
 namespace grainlaw::core {
 
-// Rotations of particles p by factor x the spin of their node, both component-major.
+// Rotates particles by factor x the spin of their node; both arrays are component-major.
 template <int D>
 void add_spins(const double* spin, std::size_t nodes, std::span<const int> node, double factor,
                double* rotation);
 
-// Discs: angles add up, and the history keeps them.
+// Adds angles of discs, which the history keeps.
 template <>
 inline void add_spins<2>(const double* spin, std::size_t /*nodes*/, std::span<const int> node,
                          double factor, double* rotation) {
   for (std::size_t p = 0; p < node.size(); ++p) rotation[p] += factor * spin[node[p]];
 }
 
-// Spheres: one after the other, of Gibbs vectors w and theta (w + theta + w x theta / 2) /
-// (1 - w.theta / 4).
+// Composes Gibbs vectors of spheres: (w + theta + w x theta / 2) / (1 - w.theta / 4), with spin w
+// after theta.
 template <>
 inline void add_spins<3>(const double* spin, std::size_t nodes, std::span<const int> node,
                          double factor, double* rotation) {
@@ -38,8 +38,7 @@ inline void add_spins<3>(const double* spin, std::size_t nodes, std::span<const 
   }
 }
 
-// What particles have turned since the increment began, where a history that starts anew takes their
-// present orientation as the one to count from.
+// Rotation of particles between the start of the increment and the last restart of the history.
 template <int D>
 class Turned;
 
@@ -48,14 +47,14 @@ class Turned<2> {
  public:
   void reset(std::size_t /*particles*/, bool /*rotating*/) {}
   void restart(std::span<ParticleRecord<2>> /*records*/, double* /*rotation*/) {}
-  // Rotations since F = I: those of `from`, and since.
+  // Adds the rotations of `from`, which makes them rotations since F = I.
   void export_to(std::size_t particles, const std::vector<double>& from,
                  std::vector<double>& coordinates) const {
     for (std::size_t k = 2 * particles; k < coordinates.size(); ++k) coordinates[k] += from[k];
   }
 };
 
-// A unit quaternion a sphere.
+// Stores one unit quaternion per sphere.
 template <>
 class Turned<3> {
  public:

@@ -22,7 +22,7 @@ GRAINLAW_CLONES void dot(const double* a, const double* b, std::size_t count, do
   store(result, sum);
 }
 
-// a b and a a.
+// Computes a b and a a.
 GRAINLAW_CLONES void dot_and_square(const double* a, const double* b, std::size_t count,
                                     double* product, double* square) {
   V by{};
@@ -36,7 +36,7 @@ GRAINLAW_CLONES void dot_and_square(const double* a, const double* b, std::size_
   store(square, own);
 }
 
-// p <- r + beta (p - omega v)
+// Computes p <- r + beta (p - omega v).
 GRAINLAW_CLONES void turn(const double* r, const double* v, std::size_t count, const double* beta,
                           const double* omega, double* p) {
   const V turned = load<width>(beta);
@@ -47,7 +47,7 @@ GRAINLAW_CLONES void turn(const double* r, const double* v, std::size_t count, c
   }
 }
 
-// r -= alpha v
+// Computes r -= alpha v.
 GRAINLAW_CLONES void subtract(const double* v, std::size_t count, const double* alpha, double* r) {
   const V by = load<width>(alpha);
   for (std::size_t k = 0; k < count; ++k) {
@@ -61,7 +61,7 @@ struct Step {
   const double *alpha, *omega;
 };
 
-// y += alpha p + omega r and r -= omega t; shadow r and r r of it.
+// Computes y += alpha p + omega r and r -= omega t, then shadow r and r r.
 GRAINLAW_CLONES void finish(const Step& step, std::size_t count, double* y, double* r,
                             double* product, double* square) {
   const V alpha = load<width>(step.alpha);
@@ -111,7 +111,7 @@ void Krylov<Entry>::start(Dilu& dilu, std::span<const Entry> b, const Scalars& t
   see_residual(square);
 }
 
-// Lanes are done that are small enough, or no number.
+// Ends lanes whose residual is small enough or not a number.
 template <class Entry>
 void Krylov<Entry>::see_residual(const Scalars& square) {
   for (std::size_t l = 0; l < width; ++l) {

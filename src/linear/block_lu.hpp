@@ -1,4 +1,4 @@
-// LU factorisation of a block matrix with the blocks on its diagonal as pivots, front by front.
+// LU factorisation of a block matrix, front by front, with diagonal blocks as pivots.
 #pragma once
 
 #include "linear/block_matrix.hpp"
@@ -15,17 +15,18 @@ class BlockLU {
  public:
   using Column = BlockColumn<width>;
 
-  // As Elimination::analyse().
+  // Analyses the graph; see Elimination::analyse().
   void analyse(const BlockMatrix<width>& matrix, bool keep_order = false) {
     elimination_.analyse(matrix.nodes, matrix.components, matrix.edges, keep_order);
     nodes_ = matrix.nodes;
     components_ = static_cast<std::size_t>(matrix.components);
   }
-  // Numeric factorisation of the matrix plus diag(added), one column per node or none. False when a
-  // pivot block is singular.
+  // Factorises the matrix plus diag(added), with one column of `added` per node or none. Returns
+  // false if a pivot block is singular.
   bool factorise(const BlockMatrix<width>& matrix, std::span<const Column> added = {});
-  // x = A^-1 x, of one vector, and of several together.
+  // Replaces x by A^-1 x, for one vector.
   void solve(std::span<Column> x);
+  // Replaces x by A^-1 x, for several vectors.
   void solve_together(std::span<Together<width>> x);
 
   [[nodiscard]] std::size_t factor_blocks() const { return elimination_.factor_blocks(); }
@@ -33,7 +34,7 @@ class BlockLU {
  private:
   Elimination elimination_;
   std::size_t nodes_ = 0, components_ = 0;
-  std::vector<Column> work_;  // of the solves
+  std::vector<Column> work_;  // for the solves
   std::vector<Together<width>> work_together_;
 };
 

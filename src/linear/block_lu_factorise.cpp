@@ -1,4 +1,4 @@
-// The numeric factorisation, front by front.
+// Numeric factorisation, front by front.
 #include "linear/block_lu.hpp"
 #include "linear/dense_pivots.hpp"
 
@@ -12,7 +12,7 @@ using View = Elimination::View;
 using Front = Elimination::Front;
 using Run = Elimination::Run;
 
-// The matrix and what is added to its diagonal, which may be null.
+// Matrix, and what is added to its diagonal; null: nothing.
 struct Values {
   const double* blocks;
   const double* added;
@@ -54,7 +54,7 @@ GRAINLAW_INLINE void add_matrix(const View& f, const Front& front, const Shape& 
   }
 }
 
-// to += from; lanes beyond the last row get zeros.
+// Adds `from` to `to`; lanes beyond the last row get zeros.
 template <std::size_t width>
 GRAINLAW_INLINE void add(const Matrix& to, const Matrix& from, std::size_t rows,
                          std::size_t columns) {
@@ -74,7 +74,8 @@ GRAINLAW_INLINE void add(const Matrix& to, const Matrix& from, std::size_t rows,
   }
 }
 
-// The nodes of a front from `begin` to `end`, in runs of which each is one in the parent too.
+// Finds runs of nodes in [begin, end) that are consecutive in the parent too, and returns their
+// number.
 template <std::size_t b>
 GRAINLAW_INLINE std::size_t find_runs(const std::int32_t* within, std::size_t begin,
                                       std::size_t end, Run* runs) {
@@ -89,7 +90,7 @@ GRAINLAW_INLINE std::size_t find_runs(const std::int32_t* within, std::size_t be
   return count;
 }
 
-// What a front leaves, to the panels of its parent.
+// Adds the Schur complement of a front to the panels of its parent.
 template <std::size_t width, std::size_t b>
 GRAINLAW_INLINE void add_to_parent(const View& f, const Front& front, const Shape& shape) {
   const Front& parent = f.fronts[static_cast<std::size_t>(front.parent)];

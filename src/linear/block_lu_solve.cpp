@@ -1,4 +1,4 @@
-// The solves: forward and backward substitution, front by front.
+// Solves by forward and backward substitution, front by front.
 #include "linear/block_lu.hpp"
 #include "linear/dense_panels.hpp"
 
@@ -16,12 +16,12 @@ namespace {
 using View = Elimination::View;
 using Front = Elimination::Front;
 
-// A node's unknowns: of one vector, in the lanes; what lanes beyond hold is never read.
+// Unknowns of a node for one vector, one per lane; padding lanes are never read.
 template <std::size_t b>
 struct OneVector {
   static constexpr std::size_t width = rows_of(b);
   static constexpr std::size_t size = width;
-  static constexpr std::size_t backward_pivots = 4;  // at once: sixteen registers hold their sums
+  static constexpr std::size_t backward_pivots = 4;  // at a time: sixteen registers hold their sums
   simd::Lanes<width> value;
 
   struct Spread {
@@ -36,12 +36,12 @@ struct OneVector {
     return result;
   }
   GRAINLAW_INLINE void add(const OneVector& other) { value += other.value; }
-  // -= a x and = a x; a is a block by columns, `stride` apart.
+  // Subtracts a x; a is a block by columns, `stride` apart.
   GRAINLAW_INLINE void subtract(const double* a, std::size_t stride, const Spread& x) {
 #pragma GCC unroll 6
     for (std::size_t c = 0; c < b; ++c) value -= simd::load<width>(a + c * stride) * x.by[c];
   }
-  // The entries of a^-1 x, of a pivot; x lies at `from`.
+  // Entries of a^-1 x for a pivot a, with x at `from`.
   GRAINLAW_INLINE static OneVector divide(const double* from, const double* a, std::size_t stride,
                                           const Pivot& pivot) {
     OneVector result{};
@@ -60,7 +60,7 @@ struct OneVector {
   }
 };
 
-// Of several vectors, one in every lane, a register for every unknown.
+// Unknowns of a node for several vectors, one vector per lane and one register per unknown.
 template <std::size_t b>
 struct Several {
   static constexpr std::size_t width = rows_of(b);
@@ -110,7 +110,7 @@ struct Several {
   }
 };
 
-// Visits as many pivots at a time as may be, at most four or two.
+// Visits pivots in groups of at most four or two.
 template <std::size_t most, class Visit>
 GRAINLAW_INLINE void by_pivots(std::size_t pivots, const Visit& visit) {
   std::size_t k = 0;
@@ -121,7 +121,7 @@ GRAINLAW_INLINE void by_pivots(std::size_t pivots, const Visit& visit) {
   if (k < pivots) visit.template operator()<1>(k);
 }
 
-// The front's pivots, and from them what they take from the others.
+// Subtracts the front's pivots from the others.
 template <std::size_t b, class Unknowns>
 GRAINLAW_INLINE void forward(const View& f, const Front& front, double* y) {
   const Shape shape(front.pivots, front.others, b);
@@ -164,7 +164,7 @@ GRAINLAW_INLINE void backward(const View& f, const Front& front, double* y) {
   const double* const values = f.values + front.values;
   const std::int32_t* const rows = f.rows + front.rows;
   double* const own = y + front.first * Unknowns::size;
-  // From two of the others at a time: sums that do not wait for each other.
+  // Two of the others at a time give sums that do not wait for each other.
   const auto give = [&]<std::size_t count>(std::size_t k) GRAINLAW_INLINED {
     Unknowns to[count];
     Unknowns second[count]{};
@@ -204,7 +204,7 @@ GRAINLAW_INLINE void backward(const View& f, const Front& front, double* y) {
   }
 }
 
-// y in the elimination's order.
+// Substitutes in y, which is in the order of the elimination.
 template <std::size_t b, class Unknowns>
 GRAINLAW_INLINE void substitute(const View& f, double* y) {
   for (std::size_t k = 0; k < f.fronts.size(); ++k) forward<b, Unknowns>(f, f.fronts[k], y);

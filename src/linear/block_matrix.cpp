@@ -10,7 +10,7 @@ using namespace simd;
 
 namespace {
 
-// r = b - A x by blocks of b columns; `add` is told the block and its row and column.
+// Calls add(block, row, column) for each block of b columns.
 template <std::size_t b, class Add>
 GRAINLAW_INLINE void for_each_block(const BlockMatrix<rows_of(b)>& a, const Add& add) {
   constexpr std::size_t size = b * rows_of(b);

@@ -1,4 +1,5 @@
-// A diagonal block of a front: factorised, and divided by. Its columns are rows_of(b) apart here, anything in a panel.
+// Diagonal block of a front: factorisation and division. Columns are rows_of(b) apart in a block,
+// further in a panel.
 #pragma once
 
 #include "linear/columns.hpp"
@@ -12,18 +13,18 @@
 
 namespace grainlaw::core::dense {
 
-// How a block is kept: as its inverse or, where that would lose digits, as triangular factors of its
-// rows in this order, with the upper one's diagonal inverted.
+// Form of a factorised block: its inverse or, where that would lose digits, triangular factors of
+// its rows in this order. The diagonal of the upper factor is inverted.
 struct Pivot {
   bool triangular = false;
   std::int8_t row[6] = {0, 1, 2, 3, 4, 5};
 };
 
-// Determinants that are this much smaller than the products they are made of have lost digits, and the
-// inverse has with them: there are particles that move in one direction without that a force changes.
+// Least ratio of a determinant to the products in it for a safe inverse [-]. Particles that move in
+// one direction at constant forces fall below it.
 constexpr double safe_determinant = 1e-2;
 
-// By cofactors; false where that is not safe, and nothing is changed.
+// Inverts by cofactors. Returns false and changes nothing where that would lose digits.
 GRAINLAW_INLINE bool invert(double* a, std::integral_constant<std::size_t, 3>) {
   constexpr std::size_t s = rows_of(3);
   const double a00 = a[0], a10 = a[1], a20 = a[2];
@@ -60,8 +61,8 @@ GRAINLAW_INLINE bool invert(double* a, std::integral_constant<std::size_t, 2>) {
   return true;
 }
 
-// Into triangular factors, with row pivoting relative to the rows: translations and rotations have
-// different units. False when singular.
+// Factorises into triangles with row pivoting relative to the rows, since translations and
+// rotations differ in unit. Returns false if singular.
 template <std::size_t b>
 inline bool triangulate(double* a, Pivot& pivot) {
   constexpr std::size_t s = rows_of(b);
@@ -90,7 +91,7 @@ inline bool triangulate(double* a, Pivot& pivot) {
   return true;
 }
 
-// In place. False when singular.
+// Factorises in place. Returns false if singular.
 template <std::size_t b>
 GRAINLAW_INLINE bool factorise(double* a, Pivot& pivot) {
   if constexpr (b <= 3) {
@@ -101,7 +102,7 @@ GRAINLAW_INLINE bool factorise(double* a, Pivot& pivot) {
   return !pivot.triangular || triangulate<b>(a, pivot);
 }
 
-// x A^-1 of rows x, a component in every entry; put(c, value) takes the results.
+// Computes x A^-1 of rows x, one component per entry; put(c, value) takes the results.
 template <std::size_t b, class Value, class Put>
 GRAINLAW_INLINE void divide_rows(Value (&x)[b], const double* a, std::size_t stride,
                                  const Pivot& pivot, const Put& put) {
@@ -130,7 +131,7 @@ GRAINLAW_INLINE void divide_rows(Value (&x)[b], const double* a, std::size_t str
   }
 }
 
-// A^-1 x of triangular factors; take(c) gives the components of x.
+// Computes A^-1 x with triangular factors; take(c) gives the components of x.
 template <std::size_t b, class Value, class Take>
 GRAINLAW_INLINE void divide_column(Value (&x)[b], const double* a, std::size_t stride,
                                    const Pivot& pivot, const Take& take) {

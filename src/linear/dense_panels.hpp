@@ -1,4 +1,4 @@
-// Dense panels of a front, by columns: their shape, and what is done to them in registers.
+// Dense panels of a front, column-major: their shape, and products in registers.
 #pragma once
 
 #include "base/simd.hpp"
@@ -8,15 +8,15 @@
 
 namespace grainlaw::core::dense {
 
-// Rows come in groups of as many as the widest registers have lanes, the last filled up with zeros:
-// results do not depend on how many lanes there are.
+// Rows per group, the lanes of the widest registers. The last group is padded with zeros, so that
+// results do not depend on the lanes.
 constexpr std::size_t group = 8;
-constexpr std::size_t block = 24;  // pivots at a time: a whole number of nodes, and of groups
+constexpr std::size_t block = 24;  // pivots at a time: whole nodes and whole groups
 
 constexpr std::size_t whole_groups(std::size_t rows) { return (rows + group - 1) / group * group; }
 
-// A front of so many nodes, pivots first: a panel of the pivots' rows, all columns wide, and one of
-// the others' rows, as wide as the pivots; what is left of the others is a third.
+// Shape of a front with pivots first. Panels: the pivots' rows with all columns; the other rows
+// with the pivots' columns; the Schur complement of the others.
 struct Shape {
   std::size_t components, pivots;      // unknowns of a node; nodes
   std::size_t eliminated, others;      // unknowns
@@ -33,7 +33,7 @@ struct Shape {
   [[nodiscard]] std::size_t other_panel() const { return pivot_rows * (eliminated + others); }
   [[nodiscard]] std::size_t panel_size() const { return other_panel() + other_rows * eliminated; }
   [[nodiscard]] std::size_t left_size() const { return other_rows * others; }
-  // About what a front of this shape costs [cycles], measured where registers have eight lanes.
+  // Approximate cost of a front of this shape [cycles], measured with registers of eight lanes.
   [[nodiscard]] double cost() const {
     constexpr double front = 250, panel_entry = 0.4, left_entry = 0.6, product = 1.0 / 16;
     const auto panel = static_cast<double>(panel_size());
@@ -41,7 +41,7 @@ struct Shape {
     return front + panel_entry * panel + left_entry * left +
            product * static_cast<double>(eliminated) * (panel + left);
   }
-  // Of the block (row, column), by nodes, one of them a pivot.
+  // Position of block (row, column), counted in nodes, one of which is a pivot.
   [[nodiscard]] std::size_t place(std::size_t row, std::size_t column) const {
     const std::size_t to = components * column;
     return row < pivots ? pivot_rows * to + components * row
@@ -62,7 +62,7 @@ struct Matrix {
   }
 };
 
-// c -= a x, of vectors x columns registers of c; a has `inner` columns.
+// Subtracts a x from c, in tiles of vectors x columns registers; a has `inner` columns.
 template <std::size_t width, std::size_t vectors, std::size_t columns>
 GRAINLAW_INLINE void subtract_tile(const Matrix& c, const Matrix& a, const Matrix& x,
                                    std::size_t inner) {
@@ -107,7 +107,7 @@ GRAINLAW_INLINE void subtract_columns(const Matrix& c, const Matrix& a, const Ma
   }
 }
 
-// Of the columns from j on, `count` at a time while they last.
+// Subtracts from columns j on, `count` at a time while that many remain.
 template <std::size_t width, std::size_t count>
 GRAINLAW_INLINE void subtract_by(const Matrix& c, const Matrix& a, const Matrix& x,
                                  std::size_t inner, std::size_t rows, std::size_t columns,
@@ -117,7 +117,7 @@ GRAINLAW_INLINE void subtract_by(const Matrix& c, const Matrix& a, const Matrix&
   }
 }
 
-// c -= a x: whole groups of rows.
+// Subtracts a x from c, for whole groups of rows.
 template <std::size_t width>
 GRAINLAW_INLINE void subtract_product(const Matrix& c, const Matrix& a, const Matrix& x,
                                       std::size_t inner, std::size_t rows, std::size_t columns) {

@@ -1,4 +1,4 @@
-// The dense factorisation of a front's pivots, a diagonal block at a time, and solves with it.
+// Dense factorisation of a front's pivots by diagonal blocks, and solves with it.
 #pragma once
 
 #include "linear/columns.hpp"
@@ -12,7 +12,7 @@ namespace grainlaw::core::dense {
 template <std::size_t width>
 using Bits = typename simd::Vector<width>::bits;
 
-// All bits of the first `count` lanes.
+// Mask of the first `count` lanes.
 template <std::size_t width>
 GRAINLAW_INLINE Bits<width> first_lanes(std::size_t count) {
   static constexpr long long bits[2 * group] = {-1, -1, -1, -1, -1, -1, -1, -1};
@@ -21,8 +21,9 @@ GRAINLAW_INLINE Bits<width> first_lanes(std::size_t count) {
   return result;
 }
 
-// The pivots of a part of `rows` (whole groups) on the diagonal, in place: upper factor, factorised pivots, and below them the lower factor,
-// which `lower` has too, with zeros elsewhere. False when a pivot is singular.
+// Factorises the pivots of a diagonal part of `rows` (whole groups) in place: upper factor,
+// factorised pivots, lower factor. `lower` gets the lower factor too, zeros elsewhere. Returns
+// false if a pivot is singular.
 template <std::size_t width, std::size_t b>
 GRAINLAW_INLINE bool factorise_diagonal(const Matrix& a, std::size_t nodes, std::size_t rows,
                                         Pivot* kept, const Matrix& lower) {
@@ -68,7 +69,7 @@ GRAINLAW_INLINE bool factorise_diagonal(const Matrix& a, std::size_t nodes, std:
   return true;
 }
 
-// x <- L^-1 x, of `count` columns with `groups` groups of rows; L is `lower` and ones.
+// Replaces x by L^-1 x, for `count` columns of `groups` groups; L is `lower` plus the identity.
 template <std::size_t width, std::size_t b, std::size_t groups, std::size_t count>
 GRAINLAW_INLINE void solve_lower_tile(const Matrix& x, const Matrix& lower, std::size_t pivots) {
   using V = simd::Lanes<width>;
@@ -81,7 +82,7 @@ GRAINLAW_INLINE void solve_lower_tile(const Matrix& x, const Matrix& lower, std:
   }
 #pragma GCC unroll 12
   for (std::size_t p = 0; p + b <= groups * group; p += b) {
-    // These are found: what is below them takes them from memory.
+    // These rows are final; the rows below read them from memory.
 #pragma GCC unroll 4
     for (std::size_t j = 0; j < count; ++j) {
 #pragma GCC unroll 12
@@ -125,7 +126,7 @@ GRAINLAW_INLINE void solve_lower(const Matrix& x, const Matrix& lower, std::size
   solve_lower_columns<width, b, 3>(x, lower, pivots, columns);
 }
 
-// x <- x U^-1 of whole groups of rows; U has its pivots factorised.
+// Replaces x by x U^-1, for whole groups of rows; the pivots of U are factorised.
 template <std::size_t width, std::size_t b>
 GRAINLAW_INLINE void solve_upper(const Matrix& x, const Matrix& upper, const Pivot* kept,
                                  std::size_t pivots, std::size_t rows) {

@@ -1,4 +1,4 @@
-// The factorisation.
+// Factorisation.
 #include "linear/dilu.hpp"
 
 #include "base/room.hpp"
@@ -45,7 +45,7 @@ GRAINLAW_INLINE Block scaled(const BlockColumn<width>* a, const BlockColumn<widt
   return result;
 }
 
-// factor x f y, added to `to`.
+// Adds factor x y to `to`.
 GRAINLAW_INLINE void add_product(Block& to, double factor, const Block& x, const Block& y) {
 #pragma GCC unroll 6
   for (std::size_t c = 0; c < b; ++c) {
@@ -58,7 +58,7 @@ GRAINLAW_INLINE void add_product(Block& to, double factor, const Block& x, const
   }
 }
 
-// Of a singular block the identity: scaled blocks are of that size.
+// Inverse of a block; the identity for a singular one, since scaled blocks are of that size.
 Block inverse_of(const Block& given) {
   Block block = given;
   Block result{};
@@ -123,7 +123,7 @@ GRAINLAW_CLONES void factorise_rows(const Values& v) {
 
 }  // namespace
 
-// Edges as the rows of both triangles, each row by the node it was reached from.
+// Lists edges as rows of both triangles, each row in the level order.
 void Dilu::list_rows() {
   order_.find(nodes_, edges_);
   const auto place = order_.place();

@@ -1,4 +1,4 @@
-// The sweeps through the factors.
+// Sweeps through the factors.
 #include "base/room.hpp"
 #include "linear/dilu.hpp"
 
@@ -17,7 +17,7 @@ using V = Lanes<width>;
 using Column = BlockColumn<width>;
 using Several = Together<width>;
 
-// A node's unknowns: of one vector, in the lanes.
+// Unknowns of a node for one vector, one per lane.
 struct OfOne {
   static constexpr std::size_t stride = width;
   V value;
@@ -32,7 +32,7 @@ struct OfOne {
   }
 };
 
-// Of several, one in every lane.
+// Unknowns of a node for several vectors, one vector per lane.
 struct OfSeveral {
   static constexpr std::size_t stride = b * width;
   V value[b];
@@ -72,7 +72,7 @@ GRAINLAW_INLINE void add_row(Unknowns& sum, const Triangle& triangle, std::size_
   }
 }
 
-// x <- (1 + D^-1 U)^-1 y
+// Computes x <- (1 + D^-1 U)^-1 y.
 template <class Unknowns>
 GRAINLAW_INLINE void sweep_back(const Factors& f, const double* y, double* x) {
   for (std::size_t q = f.nodes; q-- > 0;) {
@@ -82,7 +82,7 @@ GRAINLAW_INLINE void sweep_back(const Factors& f, const double* y, double* x) {
   }
 }
 
-// Where a row's node is in vectors by nodes.
+// Position of a row's node in vectors by nodes.
 template <class Unknowns>
 GRAINLAW_INLINE std::size_t place_of(const Factors& f, std::size_t row) {
   return static_cast<std::size_t>(f.node[row]) * Unknowns::stride;
@@ -113,7 +113,8 @@ GRAINLAW_INLINE void forward_of(const Factors& f, const double* right, double* c
   }
 }
 
-// (1 + D^-1 L)^-1 D^-1 A (1 + D^-1 U)^-1 y = x + (1 + D^-1 L)^-1 (y + (D^-1 A_qq - 2) x).
+// Computes c = (1 + D^-1 L)^-1 D^-1 A (1 + D^-1 U)^-1 y
+// = x + (1 + D^-1 L)^-1 (y + (D^-1 A_qq - 2) x).
 template <class Unknowns>
 GRAINLAW_INLINE void apply_of(const Factors& f, const double* y, double* x, double* rest,
                               double* c) {

@@ -1,4 +1,4 @@
-// The fronts of the elimination: which they are, where they lie, and where the matrix goes.
+// Fronts of the elimination, their memory, and the positions of the matrix blocks in them.
 #include "linear/dense_panels.hpp"
 #include "linear/elimination.hpp"
 
@@ -15,14 +15,14 @@ std::size_t at(std::int32_t place) { return static_cast<std::size_t>(place); }
 
 }  // namespace
 
-// Columns of one list make a front; so do those of a front and of the one right after it that it is
-// left to, where the zeros that this brings cost less than two fronts do.
+// Finds the fronts: columns of one list. A front and its parent right after it merge where the
+// zeros that this adds cost less than a second front.
 void Elimination::find_fronts() {
   const auto goes_on = [&](std::size_t j) {
     return parent_[j - 1] == static_cast<std::int32_t>(j) && below_[j - 1] == below_[j] + 1;
   };
   fronts_.clear();
-  // From the last: what comes after a front has been merged as far as it may be.
+  // The last front comes first, so that the next one is already merged.
   for (std::size_t end = nodes_, first = end; end > 0; end = first) {
     --first;
     while (first > 0 && goes_on(first)) --first;
@@ -53,7 +53,7 @@ void Elimination::find_fronts() {
   std::reverse(fronts_.begin(), fronts_.end());
 }
 
-// The others of every front, sorted, and where they are in the front they are left to.
+// Sorts the others of every front and finds their indices in the parent.
 void Elimination::link_fronts() {
   resize_with_room(front_of_, nodes_);
   rows_.clear();
@@ -90,8 +90,8 @@ void Elimination::link_fronts() {
   }
 }
 
-// In memory. What fronts leave lies on two stacks, by their depth in the tree: while a parent takes
-// over what its child leaves, it is on top of the one, the child on top of the other.
+// Places the fronts in memory. Schur complements lie on two stacks by their depth in the tree: that
+// of a child and that of its parent are each on top.
 void Elimination::place_fronts() {
   const auto b = static_cast<std::size_t>(components_);
   resize_with_room(mark_, std::max(nodes_, fronts_.size()));
@@ -122,13 +122,13 @@ void Elimination::place_fronts() {
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     fronts_[f].left += slot + (mark_[f] == 1 ? highest[0] : 0);
   }
-  // Registers are filled beyond the last block.
+  // Registers reach beyond the last block.
   resize_with_room(runs_, most);
   resize_with_room(pivots_, nodes_);
   resize_with_room(values_, slot + highest[0] + highest[1] + dense::group);
 }
 
-// Where the blocks of the matrix go, front by front.
+// Finds the positions of the matrix blocks, front by front.
 void Elimination::find_sources() {
   const auto b = static_cast<std::size_t>(components_);
   const auto for_each = [&](auto&& visit) {

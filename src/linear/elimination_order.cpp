@@ -1,4 +1,4 @@
-// The symbolic analysis: elimination order, tree, and what every column of the factor reaches.
+// Symbolic analysis: elimination order, tree, and the rows that every column of the factor reaches.
 #include "linear/elimination.hpp"
 
 #include "base/room.hpp"
@@ -64,7 +64,7 @@ void Elimination::order() {
   for (std::size_t q = 0; q < nodes_; ++q) node_[at(position_[q])] = static_cast<std::int32_t>(q);
 }
 
-// The elimination tree (Liu 1986): parent_ of every place, -1 at a root.
+// Finds the elimination tree [liu1986]: the parent of every index, -1 at a root.
 void Elimination::find_tree() {
   resize_with_room(parent_, nodes_);
   resize_with_room(ancestor_, nodes_);
@@ -83,7 +83,8 @@ void Elimination::find_tree() {
   }
 }
 
-// Children right before their parents, the order of siblings kept: the same elimination otherwise.
+// Sorts children right before their parents and keeps the order of siblings, which leaves the
+// elimination equivalent.
 void Elimination::sort_by_tree() {
   resize_with_room(child_, nodes_);
   resize_with_room(sibling_, nodes_);
@@ -98,7 +99,7 @@ void Elimination::sort_by_tree() {
   std::int32_t place = 0;
   for (std::int32_t root = roots; root != -1; root = sibling_[at(root)]) {
     for (std::int32_t j = root;;) {
-      while (child_[at(j)] != -1) {  // down, forgetting the way
+      while (child_[at(j)] != -1) {  // down, and clear the links
         const std::int32_t child = child_[at(j)];
         child_[at(j)] = -1;
         j = child;
@@ -117,8 +118,8 @@ void Elimination::sort_by_tree() {
   parent_.swap(ancestor_);
 }
 
-// For every place the later ones that its column of the factor reaches, in any order; a column that has those
-// of the one before it but for itself shares its list. below_ counts them.
+// Finds the later rows that each column of the factor reaches, in any order; below_ counts them. A
+// column shares the list of the one before it if the two differ by the column itself alone.
 void Elimination::find_structure() {
   find_tree();
   sort_by_tree();
@@ -168,7 +169,7 @@ std::size_t Elimination::factor_blocks() const {
 
 void Elimination::analyse(std::size_t nodes, int components, std::span<const Edge> edges,
                           bool keep_order) {
-  constexpr double more_fill = 1.1;  // that a kept order may leave
+  constexpr double more_fill = 1.1;  // that a kept order may cause
   keep_order = keep_order && analysed_ && nodes_ == nodes;
   if (analysed_ && nodes_ == nodes && components_ == components &&
       std::equal(edges.begin(), edges.end(), edges_.begin(), edges_.end()) &&

@@ -31,7 +31,7 @@ double length_of(std::span<const BlockColumn<width>> a) {
   return std::sqrt(dot(a, a));
 }
 
-// to += factor x values.
+// Adds factor x values to `to`.
 template <std::size_t width>
 GRAINLAW_INLINE void add_multiple_of(std::span<BlockColumn<width>> to, double factor,
                                      std::span<const BlockColumn<width>> values) {
@@ -64,7 +64,7 @@ void Gmres<width>::reserve(std::size_t nodes) {
 template <std::size_t width>
 void Gmres<width>::solve(const BlockMatrix<width>& matrix, BlockLU<width>& lu, double tolerance,
                          std::span<const Column> b, std::span<Column> x) {
-  constexpr double helps = 0.5;  // a cycle that leaves less of the residual
+  constexpr double helps = 0.5;  // least reduction of the residual by a useful cycle
   nodes_ = matrix.nodes;
   basis_.resize((directions + 1) * nodes_);
   work_.resize(nodes_);
@@ -82,12 +82,12 @@ void Gmres<width>::solve(const BlockMatrix<width>& matrix, BlockLU<width>& lu, d
   }
 }
 
-// The Arnoldi process with Givens rotations, from the residual's direction on. Returns how many
-// directions are of use.
+// Arnoldi process with Givens rotations, from the direction of the residual on. Returns the number
+// of useful directions.
 template <std::size_t width>
 std::size_t Gmres<width>::find_directions(const BlockMatrix<width>& matrix, BlockLU<width>& lu,
                                           double length, double enough) {
-  constexpr double independent = 1e-12;  // of a direction: what A makes of it that is new
+  constexpr double independent = 1e-12;  // least new part of A times a direction
   right_ = {};
   right_[0] = length;
   for (std::size_t k = 0; k < directions; ++k) {
@@ -124,7 +124,7 @@ void Gmres<width>::rotate(std::size_t k, double& upper, double& lower) const {
   upper = turned;
 }
 
-// The combination of directions that leaves the least residual.
+// Adds the combination of directions with the least residual.
 template <std::size_t width>
 void Gmres<width>::add_correction(BlockLU<width>& lu, std::size_t count, std::span<Column> x) {
   std::fill(work_.begin(), work_.end(), Column{});

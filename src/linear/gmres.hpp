@@ -1,4 +1,4 @@
-// GMRES with restarts, for the rare matrix of which the factors are too far from its own.
+// GMRES with restarts, for the rare matrix whose factors are too far from it.
 #pragma once
 
 #include "linear/block_lu.hpp"
@@ -16,17 +16,17 @@ class Gmres {
  public:
   using Column = BlockColumn<width>;
 
-  // x of A x = b (Saad & Schultz 1986), right-preconditioned by the factors of a matrix near A, until
+  // Solves A x = b [saad1986], right-preconditioned by the factors of a matrix near A. Stops when
   // the Euclidean norm of the residual is below tolerance x that of b, or a cycle no longer halves
-  // it: the caller checks what was reached. A may be singular where b is in its range.
+  // it. The caller checks the residual. A may be singular if b is in its range.
   void solve(const BlockMatrix<width>& matrix, BlockLU<width>& lu, double tolerance,
              std::span<const Column> b, std::span<Column> x);
 
-  // Room for so many nodes, so that solve() allocates nothing; untouched until then.
+  // Reserves memory for so many nodes, untouched until then, so that solve() allocates nothing.
   void reserve(std::size_t nodes);
 
  private:
-  static constexpr std::size_t directions = 12;  // of a cycle
+  static constexpr std::size_t directions = 12;  // per cycle
   static constexpr int cycles = 5;
 
   std::size_t find_directions(const BlockMatrix<width>& matrix, BlockLU<width>& lu, double length,
@@ -37,7 +37,7 @@ class Gmres {
 
   std::size_t nodes_ = 0;
   std::vector<Column> basis_, work_;
-  std::array<std::array<double, directions + 1>, directions> hessenberg_{};  // by column
+  std::array<std::array<double, directions + 1>, directions> hessenberg_{};  // column-major
   std::array<double, directions> cosine_{}, sine_{};
   std::array<double, directions + 1> right_{};  // of the least squares
 };

@@ -12,14 +12,15 @@ using namespace simd;
 namespace {
 
 constexpr std::size_t width = Dilu::width;
-constexpr std::size_t most = 4;  // of shadows
+constexpr std::size_t most = 4;  // number of shadows
 using V = Lanes<width>;
 
 struct Shadows {
   std::array<const double*, most> of;
 };
 
-// Products with the shadows, and with itself. `each`: numbers of a shadow for a register.
+// Products with the shadows, and with itself; `each` is the count of a shadow's numbers per
+// register.
 template <std::size_t each>
 GRAINLAW_INLINE void project(const Shadows& shadows, const double* a, std::size_t count,
                              double* const* result, double* square) {
@@ -54,7 +55,7 @@ struct Space {
   const double* factor[most];
 };
 
-// The next move: omega (r - sum c_i image_i) + sum c_i move_i, of i from k on.
+// Finds the next direction omega (r - sum c_i image_i) + sum c_i move_i, with i from k on.
 GRAINLAW_CLONES void find_move(const Space& space, std::size_t k, const double* omega,
                                const double* r, std::size_t count) {
   V c[most];
@@ -72,7 +73,7 @@ GRAINLAW_CLONES void find_move(const Space& space, std::size_t k, const double* 
   }
 }
 
-// Takes the earlier ones out of move k and of its image; then a step along it: y and r.
+// Projects the earlier directions out of move k and its image, then steps along it: y and r.
 GRAINLAW_CLONES void take_move(const Space& space, std::size_t k, const double* beta, double* y,
                                double* r, std::size_t count, double* square) {
   V c[most];
@@ -97,7 +98,7 @@ GRAINLAW_CLONES void take_move(const Space& space, std::size_t k, const double* 
   store(square, own);
 }
 
-// t r and t t.
+// Computes t r, t t and r r.
 GRAINLAW_CLONES void compare(const double* t, const double* r, std::size_t count, double* product,
                              double* image_square, double* square) {
   V by{};
@@ -115,7 +116,7 @@ GRAINLAW_CLONES void compare(const double* t, const double* r, std::size_t count
   store(square, own);
 }
 
-// y += omega r, r -= omega t.
+// Computes y += omega r and r -= omega t.
 GRAINLAW_CLONES void smooth(const double* t, const double* omega, std::size_t count, double* y,
                             double* r) {
   const V by = load<width>(omega);
@@ -129,7 +130,7 @@ GRAINLAW_CLONES void smooth(const double* t, const double* omega, std::size_t co
 
 }  // namespace
 
-// Whatever is not special: the same for all matrices.
+// Starts random shadows, equal for all matrices.
 template <class Entry>
 void Krylov<Entry>::start_shadows() {
   const std::size_t count = residual_.size() * lanes_of<Entry>::shadows;
@@ -160,7 +161,7 @@ void Krylov<Entry>::project_on_shadows(const Vector& a, Four& result, Scalars& s
   lanes_of<Entry>::reduce(square.lane);
 }
 
-// A step in the present space, along its k-th move.
+// Steps in the present space along its k-th direction.
 template <class Entry>
 void Krylov<Entry>::step_in_space(Dilu& dilu, std::size_t k) {
   Four factor;
@@ -204,8 +205,8 @@ void Krylov<Entry>::step_in_space(Dilu& dilu, std::size_t k) {
   see_residual(square);
 }
 
-// Into the next, smaller space. Where the residual and its image are nearly orthogonal the step is
-// longer than what reduces it most (Sleijpen & van der Vorst 1995).
+// Enters the next, smaller space. Where residual and image are nearly orthogonal, the step exceeds
+// the one of least residual [sleijpen1995].
 template <class Entry>
 void Krylov<Entry>::enter_next_space(Dilu& dilu) {
   constexpr double least_cosine = 0.7;

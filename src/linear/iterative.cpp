@@ -21,7 +21,7 @@ GRAINLAW_CLONES void add(const double* a, const double* b, std::size_t count, do
   }
 }
 
-// In lanes that are not better there are numbers that may be none.
+// Copies better lanes; the others may contain NaN.
 void take_lanes(const double* from, std::size_t count, const bool* better, double* to) {
   for (std::size_t k = 0; k < count * width; k += width) {
     for (std::size_t l = 0; l < width; ++l) {
@@ -64,7 +64,7 @@ template <class Entry>
 double Iterative::solve(const BlockMatrix<width>& matrix, std::span<const Entry> b,
                         std::span<Entry> x, const IterativeOptions& options) {
   constexpr double margin = 0.3;  // between the norm of the factors and the largest entry
-  constexpr int attempts = 4;     // of which the first is BiCGStab
+  constexpr int attempts = 4;     // the first one is BiCGStab
   using Scalars = typename Krylov<Entry>::Scalars;
   auto& [krylov, rest, step, tried] = memory<Entry>();
   const std::size_t count = b.size();

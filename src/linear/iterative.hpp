@@ -1,4 +1,4 @@
-// Linear solves by Krylov methods to a residual that is asked for.
+// Linear solves by Krylov methods to a given residual.
 #pragma once
 
 #include "linear/krylov.hpp"
@@ -12,21 +12,21 @@ namespace grainlaw::core {
 
 struct IterativeOptions {
   double tolerance;  // largest entry of the residual, relative to that of b [-]
-  double floor;      // b of smaller entries counts as one of these
-  int products;      // of one method before another goes on
+  double floor;      // lower bound of the largest entry of b
+  int products;      // most products of one method before the next one
 };
 
-// BiCGStab, and IDR from where that stalls.
+// BiCGStab, followed by IDR where that stalls.
 class Iterative {
  public:
   static constexpr std::size_t width = Dilu::width;
   using Column = BlockColumn<width>;
 
-  // As Dilu::factorise(); for the solves that follow.
+  // Prepares the solves that follow; see Dilu::factorise().
   void prepare(const BlockMatrix<width>& matrix, std::span<const Column> ground);
 
-  // x of A x = b, of one vector or of several together. Returns the largest residual as the tolerance is meant,
-  // of the worst lane.
+  // Solves A x = b for one vector or several. Returns the largest residual over the lanes, in the
+  // measure of the tolerance.
   template <class Entry>
   double solve(const BlockMatrix<width>& matrix, std::span<const Entry> b, std::span<Entry> x,
                const IterativeOptions& options);

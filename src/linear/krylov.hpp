@@ -1,4 +1,4 @@
-// Krylov methods with DILU factors, for one right-hand side or one in every lane.
+// Krylov methods with DILU factors, for one right-hand side or one per lane.
 #pragma once
 
 #include "base/simd.hpp"
@@ -11,26 +11,26 @@
 
 namespace grainlaw::core {
 
-// Entry: BlockColumn<8>, or Together<8> for several. x of A x = b, until the norm of the residual that
-// the factors make of it is below tolerance x that of b, or so many products were spent (by IDR up to
-// four more): the caller checks what was reached. Where a method breaks down x stays what it was last.
-// A may be singular where b is in its range. Returns the products.
+// Solver of A x = b. Entry is BlockColumn<8> for one vector, Together<8> for several. It stops when
+// the norm of the preconditioned residual is below tolerance x that of b, or after most_products
+// (IDR up to four more). It returns the number of products, and the caller checks the residual.
+// After a breakdown x is the last iterate. A may be singular if b is in its range.
 template <class Entry>
 class Krylov {
  public:
-  // A number for every lane; of one vector all are the same.
+  // Number per lane; for one vector all lanes agree.
   struct alignas(64) Scalars {
     double lane[Dilu::width] = {};
   };
 
-  // BiCGStab (van der Vorst 1992): little to do beside the products, but it may stall.
+  // BiCGStab [vandervorst1992]: little work besides the products, but it may stall.
   int bicgstab(Dilu& dilu, std::span<const Entry> b, std::span<Entry> x, const Scalars& tolerance,
                int most_products);
-  // IDR(4) (van Gijzen & Sonneveld 2011): more of that, and steadier.
+  // IDR(4) [vangijzen2011]: more work besides the products, but steadier.
   int idr(Dilu& dilu, std::span<const Entry> b, std::span<Entry> x, const Scalars& tolerance,
           int most_products);
 
-  // Room for so many nodes, untouched until it is needed.
+  // Reserves memory for so many nodes, untouched until it is needed.
   void reserve(std::size_t nodes);
 
  private:
@@ -41,7 +41,7 @@ class Krylov {
   void start(Dilu& dilu, std::span<const Entry> b, const Scalars& tolerance);
   [[nodiscard]] bool any_left() const;
   void see_residual(const Scalars& square);
-  // Nothing in lanes that are done, or where the method breaks down.
+  // Quotient; 0 in converged lanes and where the method breaks down.
   [[nodiscard]] double quotient(double over, double under, std::size_t lane) const {
     return left_[lane] && under != 0 ? over / under : 0.0;
   }
@@ -51,15 +51,15 @@ class Krylov {
   void enter_next_space(Dilu& dilu);
 
   Vector residual_, solution_;
-  Vector shadow_, direction_, image_, second_;  // of BiCGStab
-  std::array<Vector, shadows> moves_, images_;  // of IDR
-  // Of an entry of the residual one number for all lanes, or one for each.
+  Vector shadow_, direction_, image_, second_;  // for BiCGStab
+  std::array<Vector, shadows> moves_, images_;  // for IDR
+  // Numbers per entry of the residual: one for all lanes, or one per lane.
   std::array<simd::Column<double>, shadows> shadows_;
   std::array<Four, shadows> matrix_{};  // of shadows by images
   Four right_{};                        // of shadows by the residual
   Scalars omega_{};
-  Scalars enough_{};                      // square of the residual
-  std::array<bool, Dilu::width> left_{};  // lanes that are not done
+  Scalars enough_{};                      // square of the target residual
+  std::array<bool, Dilu::width> left_{};  // lanes that have not converged
 };
 
 }  // namespace grainlaw::core

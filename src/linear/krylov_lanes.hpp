@@ -1,4 +1,4 @@
-// What one vector and several together differ by.
+// Differences between one vector and several.
 #pragma once
 
 #include "linear/dilu.hpp"
@@ -12,8 +12,8 @@ struct lanes_of;
 
 template <>
 struct lanes_of<BlockColumn<8>> {
-  static constexpr std::size_t entries = 1;  // of a node
-  static constexpr std::size_t shadows = 8;  // numbers of a shadow for an entry
+  static constexpr std::size_t entries = 1;  // per node
+  static constexpr std::size_t shadows = 8;  // numbers of a shadow per entry
   static void reduce(double* sums) {
     double total = 0;
     for (std::size_t l = 0; l < Dilu::width; ++l) total += sums[l];

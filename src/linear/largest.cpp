@@ -21,7 +21,7 @@ GRAINLAW_INLINE void find_largest(const double* values, std::size_t count, doubl
     result[k] = poison[k] == 0 ? most[k] : std::numeric_limits<double>::infinity();
   }
 }
-// By overloads: a template has no clones.
+// Overloads by width, because templates have no clones per instruction set.
 GRAINLAW_CLONES void largest_of_4(const double* values, std::size_t count, double* result) {
   find_largest<4>(values, count, result);
 }

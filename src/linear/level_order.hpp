@@ -1,4 +1,4 @@
-// An order of the nodes of a graph in which neighbours are near each other (Cuthill & McKee 1969).
+// Order of the nodes of a graph with neighbours near each other [cuthill1969].
 #pragma once
 
 #include "linear/block_matrix.hpp"
@@ -10,14 +10,14 @@
 
 namespace grainlaw::core {
 
-// Each connected part starts with its first node and goes on level by level. Within a level, nodes follow
-// the order of those they were reached from.
+// Order by levels. Each connected part starts with its first node. Nodes of a level follow the
+// order of the nodes they were reached from.
 class LevelOrder {
  public:
-  // Edges are unique, each with first < second.
+  // Finds the order; edges are unique, each with first < second.
   void find(std::size_t nodes, std::span<const Edge> edges);
 
-  // Which node has a place, and the place of each node.
+  // Node at each index of the order, and index of each node.
   [[nodiscard]] std::span<const std::int32_t> node() const { return node_; }
   [[nodiscard]] std::span<const std::int32_t> place() const { return place_; }
 

@@ -135,8 +135,8 @@ Tensor4<D> tangent_of(const Workspace<D>& w, const Outcome& outcome, TangentKind
     describe(report, "the stiffness is singular; the elastic tangent was returned");
     return elastic;
   }
-  // Friction and lost contacts only soften: what is stiffer would come of a stiffness that is close
-  // to singular, as it may be away from equilibrium.
+  // Sliding and lost contacts only reduce stiffness. A tangent above the elastic one comes from a
+  // nearly singular matrix, which is possible away from equilibrium.
   if (outcome.sensitivities) {
     const auto tangent = condensed_tangent(w.increment, w.sensitivity);
     if (norm(tangent) <= norm(elastic)) {

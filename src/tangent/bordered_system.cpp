@@ -21,7 +21,7 @@ void BorderedSystem::find_columns(const BoundarySpace<2>& space) {
   }
 }
 
-// The columns of a group, and the residual behind the last of them.
+// Sets the columns of a group as right-hand sides, and the residual after the last of them.
 void BorderedSystem::set_right_side(const Increment<2>& increment, const Stiffness<2>& stiffness,
                                     std::size_t group, std::span<const double> residual) {
   const auto& space = *increment.problem().space;
@@ -126,7 +126,7 @@ bool BorderedSystem::respond(Increment<2>& increment, Stiffness<2>& stiffness, d
     }
   }
   for (std::size_t f = 0; f < size_; ++f) {
-    // The load on the anchors is what kn makes of their average.
+    // Columns of anchors apply the load that kn times their average gives.
     if (columns_[f].kind == Kind::anchors) matrix_[f][f] -= 1 / increment.masses().mean_stiffness();
     if (columns_[f].kind != Kind::deformation) continue;
     const std::size_t row = increment.problem().node_unknowns() + columns_[f].direction;
@@ -135,7 +135,7 @@ bool BorderedSystem::respond(Increment<2>& increment, Stiffness<2>& stiffness, d
   return true;
 }
 
-// values <- -matrix^-1 values, by elimination with row pivots.
+// Replaces values by -matrix^-1 values, by elimination with row pivots.
 bool BorderedSystem::eliminate(Values& values) const {
   auto m = matrix_;
   for (std::size_t c = 0; c < size_; ++c) {

@@ -1,5 +1,5 @@
-// The bordered system (Keller 1977) of frames. What borders the stiffness of the nodes: average constraints with their multipliers, and found
-// components of F with the stresses that are prescribed for them.
+// Bordered system [keller1977] of frames. The border of the nodes' stiffness: average constraints
+// with their multipliers, and found components of F with their prescribed stresses.
 #pragma once
 
 #include "increment/increment.hpp"
@@ -18,32 +18,32 @@ class BorderedSystem {
     return space.averages() || space.finds_deformation;
   }
 
-  // Newton's step from a residual over all unknowns: K of the last assemble() with its shift,
-  // factorised. Under the step the averages stay and the missing stresses (with the shift's share)
-  // vanish. False when the matrix is singular.
+  // Solves a Newton step for a residual over all unknowns, with the K and shift of the last
+  // assemble(), factorised. The step keeps the averages and cancels the missing stresses. Returns
+  // false if the matrix is singular.
   bool solve(Increment<2>& increment, Stiffness<2>& stiffness, double shift,
              std::span<const double> residual, std::span<double> step);
 
-  // Responses to the border itself, of K just assembled without shift.
+  // Computes the responses to the border, for a K just assembled without shift.
   bool prepare(Increment<2>& increment, Stiffness<2>& stiffness);
 
-  // Four motions with changes of F and of contacts, completed by what the border adds: averages
-  // stay, prescribed stresses do not change. False when it is singular.
+  // Completes four motions, with changes of F and of contacts, by the border: averages and
+  // prescribed stresses stay. Returns false if the border's matrix is singular.
   bool complete(const Increment<2>& increment, std::span<const TouchingContact<2>> touching,
                 std::span<const ContactChange<2>> changes, std::span<ByDeformation<2>> motion,
                 DeformationChange<2>& change);
 
  private:
-  static constexpr std::size_t most = 12;  // four averages, of anchors too, four components of F
+  static constexpr std::size_t most = 12;  // four averages, four of anchors, four of F
   static constexpr std::size_t lanes = 4;
   using Values = std::array<ByDeformation<2>, most>;  // per row of the border
 
   enum class Kind { average, anchors, deformation };
   struct Column {
     Kind kind;
-    std::size_t direction;  // of the average, or the component of F
+    std::size_t direction;  // of the average; or the component of F
     std::size_t row;        // of the average
-    // Places in the average: all, or those of the anchors.
+    // Step between nodes of the average: all nodes, or the anchors alone.
     [[nodiscard]] std::size_t stride(const AverageConstraint& average) const {
       return kind == Kind::anchors ? anchor_stride(average) : 1;
     }

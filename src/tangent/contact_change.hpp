@@ -1,4 +1,4 @@
-// First-order changes of contacts under motions of the nodes and changes of F, several at once.
+// First-order changes of contacts with motions of the nodes and changes of F, several per register.
 #pragma once
 
 #include "increment/increment.hpp"
@@ -11,14 +11,15 @@
 
 namespace grainlaw::core {
 
-// Add the changes of the residual with F and history, nodes fixed in their affine place, to
-// `residual` (per node and component).
+// Adds the changes of the residual with F and history to `residual` (per node and component), for
+// affine motion of the nodes.
 template <int D>
 void add_residual_changes(const Increment<D>& increment, const Stiffness<D>& stiffness,
                           const DeformationChange<D>& change, const HistoryChange<D>& history,
                           std::span<ByDeformation<D>> residual);
 
-// Changes of all touching contacts, with `motion` of the nodes (per node and component) beside.
+// Computes the changes of all touching contacts, including `motion` of the nodes (per node and
+// component).
 template <int D>
 void find_contact_changes(const Increment<D>& increment,
                           std::span<const TouchingContact<D>> touching,
@@ -26,7 +27,8 @@ void find_contact_changes(const Increment<D>& increment,
                           std::span<const ByDeformation<D>> motion,
                           std::span<ContactChange<D>> changes);
 
-// Changes of the moments on j of all touching contacts, of laws that have moments: spins per contact.
+// Computes the changes of the moments on j of all touching contacts, for laws with moments: `spins`
+// per contact.
 template <int D>
 void find_moment_changes(const Increment<D>& increment, const Stiffness<D>& stiffness,
                          const DeformationChange<D>& change, const HistoryChange<D>& history,

@@ -1,4 +1,4 @@
-// Derivatives by the components of F, several in one register.
+// Derivatives by the components of F, several per register.
 #pragma once
 
 #include "linear/columns.hpp"
@@ -10,16 +10,17 @@
 
 namespace grainlaw::core {
 
-// The derivatives of one number by the components of F, one in every lane.
+// Derivatives of one number by the components of F, one per lane.
 template <int D>
 using ByDeformation = Together<Dimension<D>::lanes>;
 
-// Of F.
+// Derivatives of F itself.
 template <int D>
 using DeformationChange = std::array<ByDeformation<D>, squared<D>>;
 
-// The changes of F that the lanes stand for: in the plane its components (row-major); in space the six
-// of U in F = U F_n, of the committed F_n (11, 22, 33, 23, 13, 12), since a rotation changes nothing.
+// Changes of F that the lanes stand for. In the plane: its components, row-major. In space: the six
+// components of U in F = U F_n (11, 22, 33, 23, 13, 12), with committed F_n, since a rotation
+// changes nothing.
 template <int D>
 DeformationChange<D> directions(const Tensor<D>& committed);
 template <>
@@ -44,18 +45,19 @@ inline DeformationChange<3> directions<3>(const Tensor<3>& committed) {
   return change;
 }
 
-// Of a contact that touches: force on j, branch, and the spring's force.
+// Change of a touching contact: force on j, branch, and force of the tangential spring.
 template <int D>
 struct ContactChange {
   std::array<ByDeformation<D>, static_cast<std::size_t>(D)> force, branch;
   std::array<ByDeformation<D>, Dimension<D>::tangents> tangential_force;
 };
 
-// Of what the history of listed contacts starts from: null, none.
+// Change of the start of the history, for the listed contacts; null: no change.
 template <int D>
 struct HistoryChange;
 
-// What the history of contacts starts from, kept from one sub-increment to the next.
+// Derivatives of the start of the history, carried from one sub-increment to the next.
+// @formula sensitivity
 template <int D>
 class HistoryDerivatives;
 

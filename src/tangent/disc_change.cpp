@@ -11,12 +11,12 @@ using Lanes = simd::Lanes<4>;
 constexpr std::size_t width = 4;
 GRAINLAW_INLINE Lanes load(const double* from) { return simd::load<4>(from); }
 
-// What all contacts share, and the arrays they write to.
+// Data that all contacts share, and the arrays they write to.
 struct ContactLoop {
   std::span<const TouchingContact<2>> touching;
   Tensor<2> inverse;        // F^-1
   const Quad* deformation;  // change of F
-  const Quad* start_turn;   // per listed contact, null before the first history
+  const Quad* start_turn;   // per listed contact; null before the first history
   const Quad* start_force;
   const double* tangential_stiffness;
   const Increment<2>* bound_to_axes;  // null: branches are pulled back
@@ -34,15 +34,15 @@ ContactLoop contact_loop(const Increment<2>& increment,
           increment.problem().space->bound_to_axes() ? &increment : nullptr};
 }
 
-// The branch that F deforms [m].
+// Branch that F deforms [m].
 GRAINLAW_INLINE Vec<2> reference_branch(const ContactLoop& loop,
                                         const TouchingContact<2>& contact) {
   return loop.bound_to_axes == nullptr ? product<2>(loop.inverse, contact.point.branch)
                                        : loop.bound_to_axes->fixed_branch(contact.index);
 }
 
-// The change of one contact; `motion` null: under the affine motion and the history alone. Returns
-// that of the couple d ft.
+// Computes the change of one contact and returns that of the couple d ft. With `motion` null only
+// affine motion and history count.
 template <bool rotating>
 GRAINLAW_INLINE Lanes change_of(const ContactLoop& loop, const TouchingContact<2>& contact,
                                 const double* motion, Lanes& force_x, Lanes& force_y,
@@ -127,7 +127,7 @@ GRAINLAW_CLONES void all_changes(const ContactLoop& loop, bool rotating, const d
                                  ContactChange<2>* changes) {
   rotating ? find_changes<true>(loop, motion, changes) : find_changes<false>(loop, motion, changes);
 }
-// The change of the moment on j; `motion` null: under the affine motion and the history alone.
+// Computes the change of the moment on j. With `motion` null only affine motion and history count.
 Lanes moment_change_of(const Increment<2>& increment, const ContactLoop& loop,
                        const TouchingContact<2>& contact, const ContactMoment<2>& moment,
                        const HistoryChange<2>& history, const double* motion) {

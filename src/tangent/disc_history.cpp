@@ -1,4 +1,4 @@
-// Derivatives of the history of contacts of discs.
+// Derivatives of the contact history of discs.
 #include "tangent/disc_history.hpp"
 #include "base/room.hpp"
 #include "contact/contact_point.hpp"
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t width = 4;
 
-// Branches where the history starts, and in the reference that F deforms.
+// Branches at the start of the history, and in the reference that F deforms.
 struct StartBranches {
   static Tensor<2> cell_of(const Packing& packing) {
     return packing.frame ? Tensor<2>{} : tensor_of<2>(packing.cell);
@@ -117,8 +117,8 @@ void HistoryDerivatives<2>::start(const Increment<2>& increment,
   if (hertzian) rescale(increment);
 }
 
-// The list starts from force / overlap^(1/4); here that change, and the one of the turn, become those
-// of a linear spring with the stiffness that the list names.
+// Converts the changes of force / overlap^(1/4) and of rotation to those of a linear spring with
+// the list's stiffness.
 void HistoryDerivatives<2>::rescale(const Increment<2>& increment) {
   const auto& list = increment.contacts();
   const auto& law = *increment.problem().law;

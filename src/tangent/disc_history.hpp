@@ -1,4 +1,4 @@
-// What the history of contacts of discs starts from, differentiated by the components of F.
+// Derivatives of the contact history of discs by the components of F. @formula sensitivity
 #pragma once
 
 #include "increment/increment.hpp"
@@ -11,7 +11,8 @@
 
 namespace grainlaw::core {
 
-// Turn and tangential force; moment and difference of the rotations, of laws that have moments.
+// Changes of rotation and tangential force; for laws with moments, of the moment and of theta_j -
+// theta_i.
 template <>
 struct HistoryChange<2> {
   const ByDeformation<2>* turn = nullptr;
@@ -23,10 +24,12 @@ struct HistoryChange<2> {
 template <>
 class HistoryDerivatives<2> {
  public:
-  // Keep those of the contacts that carry; place[c] is where listed contact c is among the changes.
+  // Carries the derivatives of load-bearing contacts. place[c] is the index of listed contact c
+  // among the changes.
   void carry(const Increment<2>& increment, std::span<const ContactChange<2>> changes,
              std::span<const ByDeformation<2>> moment_changes, std::span<const std::int32_t> place);
-  // Those of the listed contacts, with the motion of the nodes and the change of F at the start.
+  // Starts the derivatives of the listed contacts, with the motion of the nodes and the change of F
+  // at the start.
   void start(const Increment<2>& increment, std::span<const ByDeformation<2>> motion,
              const DeformationChange<2>& change);
   [[nodiscard]] HistoryChange<2> of_list(bool moments) const {
@@ -39,12 +42,12 @@ class HistoryDerivatives<2> {
   }
 
  private:
-  // Hertz-Mindlin: the springs follow the overlap.
+  // Rescales the springs of Hertz-Mindlin contacts, which depend on the overlap.
   void rescale(const Increment<2>& increment);
 
   std::vector<ByDeformation<2>> carried_force_, carried_moment_;  // per contact of the history
   std::vector<ByDeformation<2>> turn_, force_, moment_, spin_;    // per listed contact
-  std::vector<ByDeformation<2>> overlap_;                         // of Hertz-Mindlin
+  std::vector<ByDeformation<2>> overlap_;                         // for Hertz-Mindlin
 };
 
 }  // namespace grainlaw::core

@@ -1,4 +1,4 @@
-// The stiffness of contacts of discs, as blocks of the nodes they join.
+// Stiffness of contacts of discs, as blocks of the nodes they join.
 #include "tangent/stiffness.hpp"
 
 namespace grainlaw::core {
@@ -12,7 +12,7 @@ GRAINLAW_INLINE Lanes load(const double* from) { return simd::load<4>(from); }
 
 GRAINLAW_INLINE void add(double* block, const Lanes& value) { store(block, load(block) + value); }
 
-// The blocks of (i, i), (i, j), (j, i), (j, j), which may be one.
+// Adds a contact to the blocks (i, i), (i, j), (j, i) and (j, j), which may coincide.
 template <std::size_t b>
 GRAINLAW_INLINE void add_contact(const TouchingContact<2>& contact, double* ii, double* ij,
                                  double* ji, double* jj) {
@@ -21,14 +21,14 @@ GRAINLAW_INLINE void add_contact(const TouchingContact<2>& contact, double* ii, 
   const double li = contact.lever_i;
   const double lj = 1 - li;
   const auto& s = contact.stiffness;
-  // Force and d ft on j by the motion of the branch along n and t, by that along x and y, and by
-  // the weighted rotation.
+  // Force and d ft on j: by motion of the branch along n and t, along x and y, and by weighted
+  // rotation.
   const Lanes by_normal{s[0] * nx - s[3] * ny, s[0] * ny + s[3] * nx, s[6], 0};
   const Lanes by_tangential{s[1] * nx - s[4] * ny, s[1] * ny + s[4] * nx, s[7], 0};
   const Lanes by_rotation{s[2] * nx - s[5] * ny, s[2] * ny + s[5] * nx, s[8], 0};
   const Lanes by_x = nx * by_normal - ny * by_tangential;
   const Lanes by_y = ny * by_normal + nx * by_tangential;
-  // -dr: minus the force on i is the one on j; both take their share of minus the moment.
+  // The force on i is minus the one on j, and both nodes take their share of minus the moment.
   const Lanes row_i{1, 1, b == 3 ? li : 0, 0};
   const Lanes row_j{-1, -1, b == 3 ? lj : 0, 0};
   add(ii, -by_x * row_i);
@@ -87,7 +87,8 @@ void Stiffness<2>::add_contacts() {
   }
 }
 
-// -dr by the moments: m on j and -m on i, changed by the normal displacement and by theta_j - theta_i.
+// Adds -dr of the moments: m on j and -m on i, changed by normal displacement and by theta_j -
+// theta_i.
 template <>
 void Stiffness<2>::add_moments() {
   const std::size_t edges = matrix_.edges.size();

@@ -1,4 +1,4 @@
-// The parts of the stiffness that discs and frames alone have. Included by stiffness.hpp.
+// Stiffness of discs and frames; included by stiffness.hpp.
 #pragma once
 
 #include "tangent/stiffness.hpp"
@@ -21,13 +21,14 @@ template <>
 bool Stiffness<2>::solve_step(Increment<2>& increment, std::span<const double> b, double forcing,
                               std::span<double> x);
 
-// Every so many nodes of an average is an anchor: enough to hold the frame, few enough to link.
+// Distance between anchors among the nodes of an average: enough anchors to regularise the frame,
+// few enough to link.
 inline std::size_t anchor_stride(const AverageConstraint& average) {
   constexpr std::size_t anchors = 8;
   return std::max<std::size_t>(1, average.node.size() / anchors);
 }
 
-// Mean of the anchors' rows: without it they do not feel a translation, which nothing may hold.
+// Mean of the anchors' rows, which is subtracted so that anchors do not resist a translation.
 inline std::array<double, 2> anchor_mean(const AverageConstraint& average) {
   std::array<double, 2> mean{};
   double count = 0;

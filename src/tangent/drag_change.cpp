@@ -16,7 +16,7 @@ Lanes<D> load(const ByDeformation<D>& value) {
   return simd::load<Dimension<D>::lanes>(value.lane);
 }
 
-// Of rho, by the change of F.
+// Change of rho with the change of F. @formula inertia
 template <int D>
 Lanes<D> follow_change(const Drag<D>& drag, const DeformationChange<D>& change) {
   const Tensor<D> back = inverse<D>(drag.from());
@@ -45,7 +45,7 @@ std::array<double, 1> rotation_by_spin<2>(const Increment<2>& /*increment*/, std
   return {1};
 }
 
-// Of a Gibbs vector, as spins are added to it.
+// Derivative of a Gibbs vector by a spin that is added to it.
 template <>
 std::array<double, 9> rotation_by_spin<3>(const Increment<3>& increment, std::size_t q) {
   const std::size_t n = increment.problem().particles();
@@ -70,7 +70,7 @@ void DragDerivatives<D>::add_to(const Increment<D>& increment, const Deformation
   const Lanes<D> follow = follow_change(drag, change);
   for (std::size_t q = 0; q < increment.problem().nodes(); ++q) {
     const auto distance = drag.excess(q, increment.motion().records());
-    std::array<Lanes<D>, Dimension<D>::unknowns> expected{};  // beyond the affine motion
+    std::array<Lanes<D>, Dimension<D>::unknowns> expected{};  // beyond affine motion
     if (carried_) {
       std::array<Lanes<D>, Dimension<D>::unknowns> start{};
       for (std::size_t k = 0; k < b; ++k) {
@@ -133,7 +133,7 @@ void DragDerivatives<D>::carry(const Increment<D>& increment,
       simd::store(move_[at + D + k].lane, rotation - load<D>(start_[at + D + k]));
     }
     for (std::size_t k = 0; k < b; ++k) {
-      // Rotations of spheres are counted from where the part starts.
+      // Rotations of spheres count from the start of the part.
       const bool anew = D == 3 && k >= D;
       start_[at + k] = anew ? ByDeformation<D>{} : motion[at + k];
     }

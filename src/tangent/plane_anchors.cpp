@@ -1,4 +1,4 @@
-// Anchors of the average constraints of a frame: stiffness that holds what only they would hold.
+// Anchors of the average constraints of a frame: stiffness that regularises the matrix.
 #include "base/room.hpp"
 #include "tangent/stiffness.hpp"
 
@@ -8,8 +8,8 @@ namespace grainlaw::core {
 
 namespace {
 
-// Calls visit(number of the link, direction, place of the one node, of the other) for all pairs of
-// anchors.
+// Calls visit(number of the link, direction, index of the first node, of the second) for all pairs
+// of anchors.
 template <class Visit>
 void for_each_link(const BoundarySpace<2>& space, Visit&& visit) {
   std::size_t link = 0;
@@ -24,7 +24,7 @@ void for_each_link(const BoundarySpace<2>& space, Visit&& visit) {
 
 }  // namespace
 
-// A negative number stands for a link where others have that of a contact.
+// Links enter the pairs with negative numbers, contacts with their index.
 template <>
 void Stiffness<2>::link_anchors(const Increment<2>& increment) {
   const auto& space = *increment.problem().space;

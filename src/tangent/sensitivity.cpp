@@ -8,7 +8,7 @@ namespace grainlaw::core {
 
 namespace {
 
-// Change of F at a share of the way; found components are those of `found`.
+// Change of F at a share of the increment, with the found components of `found`.
 template <int D>
 DeformationChange<D> change_at(double share, const Increment<D>& increment,
                                const DeformationChange<D>& found) {
@@ -24,7 +24,7 @@ DeformationChange<D> change_at(double share, const Increment<D>& increment,
   return change;
 }
 
-// F F0^-1 of the translations, `b` components a node.
+// Applies F F0^-1 to the translations in `motion`, `b` components per node.
 template <int D>
 void push_forward(const Tensor<D>& f, const Tensor<D>& f0, std::size_t b,
                   std::span<ByDeformation<D>> motion) {
@@ -91,7 +91,7 @@ bool Sensitivity<D>::solve(Increment<D>& increment, double share, double start_s
   return true;
 }
 
-// What the border adds.
+// Completes the motions by the bordered system.
 template <>
 bool Sensitivity<2>::complete(Increment<2>& increment, const HistoryChange<2>& history,
                               Stiffness<2>& stiffness) {
@@ -118,8 +118,8 @@ void Sensitivity<D>::carry_free(const Increment<D>& increment, double share) {
   carry(increment);
 }
 
-// As Motion::start_here moves it: what is not held goes on from its last start, with the mean of
-// the others.
+// Carries the motion like Motion::start_here: unsupported nodes go on from their last start, with
+// the mean of the supported ones.
 template <int D>
 void Sensitivity<D>::carry_motion(const Increment<D>& increment) {
   constexpr std::size_t width = Dimension<D>::lanes;

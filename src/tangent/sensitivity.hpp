@@ -1,4 +1,4 @@
-// Derivatives of the equilibrium by the deformation gradient, carried through sub-increments.
+// Derivatives of the equilibrium by F, carried through sub-increments. @formula sensitivity
 #pragma once
 
 #include "increment/increment.hpp"
@@ -11,8 +11,8 @@
 
 namespace grainlaw::core {
 
-// Lane k of every register is the derivative by the k-th component (row-major) of the F to be reached
-// at the end of the increment; a sub-increment ends at a share of the way, linear in F.
+// Lane k is the derivative by the k-th component (row-major) of F at the end of the increment. F of
+// a sub-increment is linear in its share.
 template <int D>
 class Sensitivity {
  public:
@@ -22,24 +22,25 @@ class Sensitivity {
     drag_.reset();
   }
 
-  // Solve K dz = dr/dF at a converged sub-increment that ends at `share` and began at
-  // `start_share`. False when the stiffness is singular.
+  // Solves K dz = dr/dF at a converged sub-increment from `start_share` to `share`. Returns false
+  // if the stiffness is singular.
   bool solve(Increment<D>& increment, double share, double start_share, Stiffness<D>& stiffness);
 
-  // Keep what the next sub-increment's history depends on; call before
+  // Carries what the history of the next sub-increment depends on; comes before
   // Increment::continue_history().
   void carry(const Increment<D>& increment);
-  // Where a part with drag ends.
+  // Carries the derivatives of the drag at the end of a part.
   void carry_drag(const Increment<D>& increment) { drag_.carry(increment, motion_); }
-  // The same where no contact carries, at a share of the way.
+  // Carries the derivatives through a sub-increment without load-bearing contacts that ends at
+  // `share`.
   void carry_free(const Increment<D>& increment, double share);
 
-  // Whether since reset() a place hung on one that is left to chance, which has no derivative.
+  // True if a position depended on an arbitrary one since reset(), so that no derivative exists.
   [[nodiscard]] bool by_chance() const { return by_chance_; }
 
-  // Of F, at the end.
+  // Change of F at the end.
   [[nodiscard]] const DeformationChange<D>& deformation_change() const { return change_; }
-  // Of a contact that touches.
+  // Change of a touching contact.
   [[nodiscard]] const ContactChange<D>& changes(std::size_t c) const {
     return changes_[static_cast<std::size_t>(place_[c])];
   }
@@ -55,9 +56,9 @@ class Sensitivity {
   std::vector<ByDeformation<D>> motion_, right_;  // per node and component
   std::vector<ByDeformation<D>> carried_motion_;  // at the start of the history
   std::vector<ContactChange<D>> changes_;         // per touching contact
-  std::vector<ByDeformation<D>> moment_changes_;  // of laws with moments
-  std::vector<std::int32_t> place_;  // of a listed contact among the touching, -1 when open
-  std::vector<unsigned char> held_;  // as Increment::find_held tells
+  std::vector<ByDeformation<D>> moment_changes_;  // for laws with moments
+  std::vector<std::int32_t> place_;  // index of a listed contact among the touching; -1: open
+  std::vector<unsigned char> held_;  // see Increment::find_held
   bool carried_ = false;
   bool by_chance_ = false;
 };

@@ -27,7 +27,7 @@ struct Change {
   Triple force, spin, branch, spring;
 };
 
-// Of both particles.
+// Spins of both particles of a contact.
 struct Spins {
   Triple i, j;
 };
@@ -48,7 +48,7 @@ struct Loop {
   const HistoryChange<3>& history;
 };
 
-// `motion` null: under the affine motion and the history alone.
+// Computes the change of a contact. With `motion` null only affine motion and history count.
 Change change_of(const Loop& loop, const TouchingContact<3>& contact,
                  const ByDeformation<3>* motion) {
   constexpr std::size_t b = Dimension<3>::unknowns;
@@ -101,7 +101,7 @@ Change change_of(const Loop& loop, const TouchingContact<3>& contact,
       add(result.spin, product(lever, by_history));
     }
   }
-  // The spring's own: what the force has beside the normal part kn, fn.
+  // The change of the tangential force is that of the force less the normal part by kn and fn.
   const auto& n = contact.point.normal;
   Lanes along{};
   for (std::size_t k = 0; k < 3; ++k) along += n[k] * result.branch[k];
@@ -115,7 +115,7 @@ Change change_of(const Loop& loop, const TouchingContact<3>& contact,
   return result;
 }
 
-// Of the moment on j, which belongs to `change` of the contact.
+// Change of the moment on j that belongs to the change of the contact.
 Triple moment_change_of(const Loop& loop, const TouchingContact<3>& contact,
                         const ContactMoment<3>& moment, const Triple& branch,
                         const ByDeformation<3>* motion) {
@@ -161,7 +161,7 @@ Triple cross(const Vec<3>& a, const Triple& b) {
 
 Lanes dot(const Vec<3>& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// Of the excess of a free spin over its rule.
+// Change of the excess of a two-contact sphere over its rule.
 Lanes excess_change(const Loop& loop, const FreeSpins::Held& held) {
   const auto& motion = loop.increment.motion();
   if (held.stopped()) {
@@ -177,7 +177,7 @@ Lanes excess_change(const Loop& loop, const FreeSpins::Held& held) {
   const double* rotation = motion.coordinates().data() + 3 * n + held.node;
   const Vec<3> turned{rotation[0], rotation[n], rotation[2 * n]};
   std::array<Triple, 2> outward;
-  Triple departure{};  // of the carried start
+  Triple departure{};  // of the affinely moved start
   Vec<3> point{};
   const auto carried =
       grainlaw::core::product<3>(motion.deformation(), inverse<3>(motion.start_deformation()));

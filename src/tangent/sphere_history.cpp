@@ -1,4 +1,4 @@
-// Derivatives of the history of contacts of spheres.
+// Derivatives of the contact history of spheres.
 #include "tangent/sphere_history.hpp"
 
 #include "base/room.hpp"
@@ -63,7 +63,7 @@ void HistoryDerivatives<3>::start(const Increment<3>& increment,
     while (h < history.size() && key_of(history[h]) < key) ++h;
     const bool known = h < history.size() && key_of(history[h]) == key;
     const double overlap = list.reach[c] - d;
-    // Of Hertz-Mindlin contacts the list has force / overlap^(1/4).
+    // The list starts Hertz-Mindlin contacts from force / overlap^(1/4).
     const double scale = law.hertzian() ? (overlap > 0 ? 1 / start_scale(overlap, law) : 0) : 1;
     for (std::size_t lane = 0; lane < width; ++lane) {
       Vec<3> dl{};

@@ -1,4 +1,4 @@
-// What the history of contacts of spheres starts from, differentiated by the components of F.
+// Derivatives of the contact history of spheres by the components of F. @formula sensitivity
 #pragma once
 
 #include "increment/increment.hpp"
@@ -13,19 +13,19 @@ namespace grainlaw::core {
 
 using TripleByDeformation = std::array<ByDeformation<3>, 3>;
 
-// Of n_c, ft_c and, of laws with moments, m_c.
+// Changes of n_c, ft_c and, for laws with moments, m_c.
 template <>
 struct HistoryChange<3> {
   const TripleByDeformation* normal = nullptr;
   const TripleByDeformation* force = nullptr;
   const TripleByDeformation* moment = nullptr;
-  const ByDeformation<3>* motion = nullptr;  // of the nodes there, component by component
+  const ByDeformation<3>* motion = nullptr;  // of the nodes at the start, by component
 };
 
 template <>
 class HistoryDerivatives<3> {
  public:
-  // As those of discs.
+  // Carries and starts the derivatives; see HistoryDerivatives<2>.
   void carry(const Increment<3>& increment, std::span<const ContactChange<3>> changes,
              std::span<const ByDeformation<3>> moment_changes, std::span<const std::int32_t> place);
   void start(const Increment<3>& increment, std::span<const ByDeformation<3>> motion,

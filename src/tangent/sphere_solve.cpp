@@ -1,4 +1,5 @@
-// Linear solves with the stiffness of many spheres: by Krylov methods, and by factors where those stall.
+// Linear solves with the stiffness of many spheres by Krylov methods; factors replace them where
+// they stall.
 #include "base/constants.hpp"
 #include "tangent/stiffness.hpp"
 
@@ -6,7 +7,7 @@
 
 namespace grainlaw::core {
 
-// Counts as a factorisation: an iteration of Newton's method has one.
+// Prepares the Krylov methods. It counts as a factorisation, since each Newton iteration has one.
 template <>
 void Stiffness<3>::prepare_iteration(Increment<3>& increment) {
   ++increment.cost.factorisations;
@@ -15,7 +16,8 @@ void Stiffness<3>::prepare_iteration(Increment<3>& increment) {
   iterative_.prepare(matrix_, ground_);
 }
 
-// Where it stalls a shift helps, which the caller has, and costs less than factors.
+// Solves a Newton step. Where the method stalls the caller's shift helps and costs less than
+// factors.
 template <>
 bool Stiffness<3>::solve_step(Increment<3>& increment, std::span<const double> b, double forcing,
                               std::span<double> x) {
@@ -35,7 +37,7 @@ template <>
 bool Stiffness<3>::iterate_together(Increment<3>& increment, std::span<const Together<width>> b,
                                     std::span<Together<width>> x) {
   const double tolerance = increment.problem().tolerance;
-  // Soft modes magnify what is left: who asks for a closer equilibrium gets closer derivatives.
+  // Soft modes amplify the residual, so derivatives are as accurate as the equilibrium asks for.
   const double fine = std::min(tuned::derivative_residual, tuned::share_of_tolerance * tolerance);
   const double enough =
       std::clamp(tuned::derivative_share * tolerance, fine, tuned::loose_derivative_residual);

@@ -1,4 +1,4 @@
-// The stiffness of contacts of spheres, as blocks of the nodes they join.
+// Stiffness of contacts of spheres, as blocks of the nodes they join.
 #include "base/constants.hpp"
 #include "base/room.hpp"
 #include "tangent/stiffness.hpp"
@@ -9,8 +9,8 @@ namespace grainlaw::core {
 
 namespace {
 
-// What the columns of a node's unknowns do to force and spin moment of a contact: three for its place
-// (on j, minus on i), three for its spin.
+// Derivatives of a contact's force and spin moment by the spin of one node. Those by its position
+// are +- by_branch.
 struct Columns {
   Matrix3 force_by_spin, spin_by_spin;
 };
@@ -22,7 +22,7 @@ Columns by_spin(const TouchingContact<3>& contact, const Matrix3& mean_spin, dou
           product<3>(contact.stiffness.spin_by_turn, share)};
 }
 
-// -dr of a row node, of which the residual has sign x force and radius x spin moment.
+// Adds -dr of a row node, whose residual has sign x force and radius x spin moment.
 void add_block(BlockColumn<8>* block, double force_sign, double radius, double place_sign,
                const SphereStiffness& s, const Columns& turn) {
   for (std::size_t c = 0; c < 3; ++c) {
@@ -60,7 +60,7 @@ void Stiffness<3>::add_contacts() {
   }
 }
 
-// -dr by the moments: m on j and -m on i.
+// Adds -dr of the moments: m on j and -m on i.
 template <>
 void Stiffness<3>::add_moments() {
   const std::size_t edges = matrix_.edges.size();
@@ -87,7 +87,7 @@ void Stiffness<3>::add_moments() {
   }
 }
 
-// Rows of spins, by the places of the sphere and its neighbours as well.
+// Adds the springs to the rows of spins, in the columns of the sphere and its neighbours too.
 template <>
 void Stiffness<3>::hold_free_spins(const Increment<3>& increment) {
   const std::size_t edges = matrix_.edges.size();

@@ -1,4 +1,4 @@
-// The parts of the stiffness that spheres alone have. Included by stiffness.hpp.
+// Stiffness of spheres; included by stiffness.hpp.
 #pragma once
 
 #include "tangent/stiffness.hpp"
@@ -9,8 +9,8 @@ template <>
 void Stiffness<3>::add_contacts();
 template <>
 void Stiffness<3>::add_moments();
-// A sphere with exactly two contacts spins freely about the chord through its two contact points: held
-// with next to nothing, since the stress depends on it by the springs, and is determined only so.
+// Adds the springs about the chords of two-contact spheres. Their small stiffness decides a
+// rotation that equilibrium leaves open but P depends on. @formula free-spin
 template <>
 void Stiffness<3>::hold_free_spins(const Increment<3>& increment);
 

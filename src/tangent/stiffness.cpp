@@ -49,7 +49,7 @@ void Stiffness<D>::find_touching(const Increment<D>& increment) {
   keep_room(moments_);
 }
 
-// Whether the graph was made in this increment, from these contacts, and holds all that touch.
+// True if the graph was made in this increment from these contacts and contains all touching ones.
 template <int D>
 bool Stiffness<D>::graph_serves(const Increment<D>& increment) const {
   const auto& list = increment.contacts();
@@ -188,7 +188,7 @@ void Stiffness<D>::add_drag(const Increment<D>& increment) {
   }
 }
 
-// Of particles that do not turn.
+// Regularises the rotations of particles that do not rotate.
 template <int D>
 void Stiffness<D>::hold_rotations(const Increment<D>& increment) {
   for (std::size_t q = 0; q < matrix_.nodes; ++q) hold_rotation(increment, q);

@@ -1,4 +1,4 @@
-// The exact stiffness -dr/dz of the reduced residual, and linear solves with it.
+// Exact stiffness -dr/dz of the reduced residual, and linear solves with it.
 #pragma once
 
 #include "base/constants.hpp"
@@ -18,81 +18,81 @@
 
 namespace grainlaw::core {
 
-// The derivatives of a contact's forces: of discs in the contact's own frame.
+// Derivatives of a contact's forces; those of discs in the frame of the contact.
 template <int D>
 using ContactStiffness = std::conditional_t<D == 2, std::array<double, 9>, SphereStiffness>;
 
-// A contact that touches, at the coordinates of the last assemble().
+// Touching contact at the coordinates of the last assemble().
 template <int D>
 struct TouchingContact {
-  TouchingContact() {}  // filled at once: zeros would take as long as a contact's forces
+  TouchingContact() {}  // left uninitialised: zeros would cost as much as the forces
 
   std::size_t index;  // in the increment's list
   std::size_t node_i, node_j;
   double lever_i, reach;  // R_i / (R_i + R_j) [-], R_i + R_j [m]
   ContactPoint<D> point;
-  ContactStiffness<D> stiffness;  // contact_stiffness() of it
+  ContactStiffness<D> stiffness;  // see contact_stiffness()
 };
 
-// What one increment of deformation left here serves the rest of it: the graph while all contacts
-// that touch are in it, the factors for solve_together(). Nothing is carried from one increment to the
-// next that could change a bit there: the epoch tells them apart.
+// Stiffness with what later solves of an increment reuse: the matrix graph while it contains all
+// touching contacts, and the factors for solve_together(). A new increment, told by its
+// epoch, reuses neither, so that its bits depend on nothing before it.
 template <int D>
 class Stiffness {
  public:
   static constexpr std::size_t width = Dimension<D>::lanes;
   using Column = BlockColumn<width>;
 
-  // K of the present coordinates plus shift x mass on the diagonal; rows of what is prescribed are
-  // the identity. Where fluctuations are constrained on average, kn row row^T over the anchors is
-  // added for every row of the constraint: it holds what only the constraint would hold, in the
-  // factors, and BorderedSystem takes it out of the solutions. The factors are no longer those of K.
+  // Assembles K at the present coordinates plus shift x mass on the diagonal. Rows of prescribed
+  // components are the identity. Average constraints add kn row row^T over the anchors, which
+  // regularises the factors; BorderedSystem removes its effect from the solutions. Old factors then
+  // no longer belong to K.
   void assemble(const Increment<D>& increment, double shift);
 
-  // Add to what was assembled, against the rotation of a node, as much as its mass.
+  // Regularises the rotation of a node by adding its mass to the diagonal.
   void hold_rotation(const Increment<D>& increment, std::size_t node) {
     for (std::size_t k = D; k < Dimension<D>::unknowns; ++k) {
       matrix_.block(node)[k].lane[k] += increment.masses().of_unknowns()[k * matrix_.nodes + node];
     }
   }
 
-  // Factorise what was assembled.
+  // Factorises the assembled matrix.
   void factorise(Increment<D>& increment);
 
-  // x = K^-1 b of what was factorised, refined until the residual is below the tolerance (largest entry,
-  // relative to b) or while that helps; by GMRES where that ends far from it. False when b is not in the
-  // range of K to working precision, or the factors are of no use.
+  // Solves x = K^-1 b with the factors. Refinement runs until the residual (largest entry, relative
+  // to b) is below the tolerance or falls no more; GMRES follows if it is far off. Returns false if
+  // b is outside the range of K to working precision or the factors are unusable.
   bool solve(const Increment<D>& increment, std::span<const double> b, std::span<double> x,
              double tolerance = 1e-8);
 
-  // A step of Newton's method. Of many spheres it leaves up to `forcing` of b, else as little as
-  // solve().
+  // Solves a Newton step. For many spheres the residual may reach `forcing` x b, otherwise it is
+  // that of solve().
   bool solve_step(Increment<D>& increment, std::span<const double> b, double forcing,
                   std::span<double> x);
 
-  // The same of several vectors together. Of K just assembled, without factorise() before: old factors
-  // do when refinement with them converges quickly, else K is factorised here.
+  // Solves for several vectors with a K just assembled. Old factors serve if refinement with them
+  // converges fast, otherwise K is factorised here.
   bool solve_together(Increment<D>& increment, std::span<const Together<width>> b,
                       std::span<Together<width>> x);
 
-  // Of spheres, from so many nodes on: by Krylov methods, and by factors where those do not get there
-  // with so many products each.
+  // Sets the number of spheres from which Krylov methods solve, and their most products each before
+  // factors take over.
   void iterate_from(std::size_t nodes, int most_products = tuned::most_products) {
     iterative_from_ = nodes;
     most_products_ = most_products;
   }
-  // Products that these took so far.
+  // Number of products of the Krylov methods so far.
   [[nodiscard]] int products() const {
     if constexpr (D == 3) return iterative_.products;
     return 0;
   }
 
-  // K x of what was assembled, component-major.
+  // Product of the assembled K and x, component-major.
   [[nodiscard]] std::vector<double> product(std::span<const double> x) const;
 
-  // Of the last assemble(), ordered by index.
+  // Touching contacts of the last assemble(), ordered by index.
   [[nodiscard]] std::span<const TouchingContact<D>> touching() const { return touching_; }
-  // The moments of these contacts; empty for laws without.
+  // Moments of these contacts; empty for laws without moments.
   [[nodiscard]] std::span<const ContactMoment<D>> moments() const { return moments_; }
 
  private:
@@ -119,7 +119,7 @@ class Stiffness {
   bool iterate_together(Increment<D>& increment, std::span<const Together<width>> b,
                         std::span<Together<width>> x);
 
-  // Of contacts, instead of an edge.
+  // Values of edge_of_contact_ for contacts without an edge.
   static constexpr std::int32_t not_in_graph = -2;
   static constexpr std::int32_t on_the_diagonal = -1;
 
@@ -138,8 +138,8 @@ class Stiffness {
   std::vector<ContactMoment<D>> moments_;
   std::vector<Edge> graph_;
   std::vector<std::int32_t> edge_of_contact_;
-  std::vector<std::int32_t> edge_of_link_;         // between anchors, as add_anchors() goes
-  std::vector<std::int32_t> listed_i_, listed_j_;  // the contacts that the graph was made from
+  std::vector<std::int32_t> edge_of_link_;         // between anchors, in the order of add_anchors()
+  std::vector<std::int32_t> listed_i_, listed_j_;  // contacts that the graph was made from
   std::vector<std::pair<Edge, std::int32_t>> pairs_;
   std::vector<Column> ground_, right_, solution_, check_;
   std::vector<Together<width>> check_together_, kept_;

@@ -1,4 +1,4 @@
-// Linear solves with the stiffness: factors, their refinement, and GMRES where that does not do.
+// Linear solves with the stiffness: factors with refinement, and GMRES where these fail.
 #include "base/constants.hpp"
 #include "base/room.hpp"
 #include "linear/largest.hpp"
@@ -40,7 +40,7 @@ void add_to(std::span<Register> to, const std::vector<Register>& values) {
 
 }  // namespace
 
-// What is added to the diagonal for the factors alone.
+// Sets the regularisation of the diagonal, for the factors alone.
 template <int D>
 void Stiffness<D>::ground(const Increment<D>& increment, double share) {
   const auto b = static_cast<std::size_t>(matrix_.components);
@@ -91,7 +91,8 @@ bool Stiffness<D>::solve(const Increment<D>& increment, std::span<const double> 
   set_right(b);
   resize_with_room(check_, nodes);
   const double scale = std::max(largest_of(right_, nodes), std::numeric_limits<double>::min());
-  // Of a right-hand side that is rounding alone nothing can be solved for.
+  // Right-hand sides below rounding have no meaningful solution: a residual within rounding is
+  // accepted.
   const double enough = std::max(tuned::usable_solution, increment.scale().rounding() / scale);
   const auto defect = [&] {
     matrix_.residual(right_, solution_, check_);
@@ -118,7 +119,7 @@ bool Stiffness<2>::solve_step(Increment<2>& increment, std::span<const double> b
   return solve(increment, b, x);
 }
 
-// From right_ to solution_.
+// Solves from right_ to solution_ by GMRES.
 template <int D>
 bool Stiffness<D>::solve_by_gmres(const Increment<D>& increment) {
   gmres_.solve(matrix_, lu_, tuned::good_solution, right_, solution_);
@@ -129,7 +130,7 @@ bool Stiffness<D>::solve_by_gmres(const Increment<D>& increment) {
                   increment.scale().rounding());
 }
 
-// The worst of the residuals counts.
+// Solves for all lanes with the factors; the largest residual decides.
 template <int D>
 bool Stiffness<D>::solve_together_by_factors(const Increment<D>& increment,
                                              std::span<const Together<width>> b,
@@ -161,8 +162,7 @@ bool Stiffness<D>::solve_together_by_factors(const Increment<D>& increment,
     last = error;
     error = defect();
   }
-  if (last <= tuned::usable_solution &&
-      error > last) {  // of a nearly singular matrix it rises again
+  if (last <= tuned::usable_solution && error > last) {  // nearly singular matrix
     std::copy(kept_.begin(), kept_.end(), x.begin());
     error = last;
   }
