@@ -130,7 +130,7 @@ class Imports(unittest.TestCase):
                 body = "".join(separator.join((d["id"], repr(1e3 * float(d["r"])), repr(1e3 * float(d["x"])),
                                                repr(1e3 * float(d["y"])))) + "\n" for d in self.discs)
                 path = self.place.write("table.txt", names + "\n" + body)
-                out = self.run_import(path, "--columns", "id=nr,x=3,y=cy", "--length", "1e-3", "--cell",
+                out = self.run_import(path, "--columns", "id=nr,x=3,y=cy", "--length-unit", "1e-3", "--cell",
                                       "198.08721074789126,196.61172131892471", "--thickness", "0.1", *CONTACT)
                 self.assertAlmostEqual(printed(out, "mean pressure") / 1e5, 1, places=4)
 
@@ -158,7 +158,7 @@ class Imports(unittest.TestCase):
 
     def test_options_are_finite_numbers(self):
         path = self.place.write("good.txt", "x,y,r\n0.1,0.1,0.05\n0.2,0.1,0.05\n")
-        for option in ("--length", "--thickness", "--density", "--young", "--kn", "--pressure", "--ratio", "--friction"):
+        for option in ("--length-unit", "--force-unit", "--thickness", "--density", "--young", "--kn", "--pressure", "--ratio", "--friction"):
             for value in ("nan", "inf", "-1"):
                 self.assertIn(f"found {value}, expected a number >", self.run_import(path, option, value, status=2))
 
