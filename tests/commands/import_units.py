@@ -202,10 +202,30 @@ class Imports(unittest.TestCase):
                 self.refused("c.csv:2: found a contact of 0 and 1, which touch through 2 images", particles, "--contacts",
                              contacts, *cell)
 
+    def test_particles_at_the_walls_of_a_box_need_no_balance(self):
+        """Three rows of three discs that walls press together: the middle one balances, the outer ones do not."""
+        discs = [(k, 0.01 + 0.0199 * (k % 3), 0.01 + 0.02 * (k // 3)) for k in range(9)]
+        particles = self.place.write("p.csv", "id,x,y,r\n" + "".join(f"{k},{x},{y},0.01\n" for k, x, y in discs))
+        for pushed, told in ((100, None), (300, "on a particle 1 of the force of a contact")):
+            contacts = self.place.write("c.csv", "i,j,fn\n" + "".join(
+                f"{row},{row + 1},100\n{row + 1},{row + 2},{pushed}\n" for row in (0, 3, 6)))
+            box = [particles, "--contacts", contacts, "--cell", "box", "--thickness", "0.1", *STIFFNESS]
+            if told:
+                self.refused(told, *box)
+            else:
+                self.run_import(*box)
+                box[box.index("box")] = "0.0598,0.06"
+                self.refused("that leave on a particle 0.667", *box)
+
     def test_bonds_and_clumps_are_read_or_refused_by_name(self):
         clump = self.place.write("pack.txt", "##PERIODIC:: 0.05 0.05 0.1\n0.01 0.01 0.05 0.01 -1\n0.03 0.03 0.05 0.01 4\n"
                                              "0.04 0.03 0.05 0.01 4\n")
         self.refused("pack.txt:4: found another particle of clump 4", clump, *STIFFNESS)
+        clump = self.place.write("clumps.txt", "#format x_y_z_r_clumpId\n" + "0.01 0.01 0.05 0.01 0\n" * 2)
+        self.refused("clumps.txt:3: found another particle of clump 0", clump, "--cell", "0.05,0.05,0.1", *STIFFNESS)
+        self.dump()
+        dump = (self.place.path / "d.dump").read_text().replace("id type", "id mol")
+        self.assertIn("note: particles share molecules", self.run_import(self.place.write("m.dump", dump), *STIFFNESS))
         bonded = [DATA / "string_particles.csv"]
         self.refused("found bonds, expected --material with law = \"bonded\"", *bonded, *STIFFNESS)
         self.run_import(*bonded, "--material", DATA / "string.toml")
