@@ -16,6 +16,8 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace grainlaw::core {
@@ -24,10 +26,13 @@ namespace grainlaw::core {
 template <std::size_t columns>
 class CsvTable {
  public:
-  // path is the file's name in messages.
+  // path is the file's name in messages. A name may have a unit, "x[m]": headers may have it too, and
+  // no other.
   CsvTable(const std::string& path, std::string_view text,
-           const std::array<const char*, columns>& names)
-      : path_(path), names_(names), text_(text), records_(text_) {
+           const std::array<std::string_view, columns>& names)
+      : path_(path), text_(text), records_(text_) {
+    for (std::size_t column = 0; column < columns; ++column)
+      std::tie(names_[column], units_[column]) = parted(names[column]);
     if (text_.find('\0') != std::string::npos)
       throw Error(GRAINLAW_BAD_PACKING, fmt::format("{}: not a text file", path));
     if (!read_record()) fail("the file is empty, expected a header line");
@@ -35,11 +40,17 @@ class CsvTable {
     width_ = fields_.size();
     place_.fill(none);
     for (std::size_t k = 0; k < width_; ++k)
-      for (std::size_t column = 0; column < columns; ++column)
-        if (fields_[k] == names_[column]) {
-          if (place_[column] != none) fail(fmt::format("column '{}' stands twice", fields_[k]));
-          place_[column] = k;
-        }
+      for (std::size_t column = 0; column < columns; ++column) {
+        const auto [name, unit] = parted(fields_[k]);
+        if (name != names_[column]) continue;
+        if (place_[column] != none) fail(fmt::format("column '{}' stands twice", name));
+        if (!unit.empty() && unit != units_[column])
+          fail(
+              fmt::format("column '{}': found the unit [{}], expected {}; grainlaw import brings "
+                          "others to SI",
+                          name, unit, units_[column].empty() ? "none" : units_[column]));
+        place_[column] = k;
+      }
   }
 
   CsvTable(const CsvTable&) = delete;
@@ -100,6 +111,14 @@ class CsvTable {
  private:
   static constexpr auto none = static_cast<std::size_t>(-1);
 
+  // "x [m]": its name and its unit.
+  static std::pair<std::string_view, std::string_view> parted(std::string_view name) {
+    const auto bracket = name.find('[');
+    if (bracket == std::string_view::npos || !name.ends_with(']')) return {name, {}};
+    const std::string_view unit = name.substr(bracket + 1, name.size() - bracket - 2);
+    return {name.substr(0, name.find_last_not_of(" \t", bracket - 1) + 1), unit};
+  }
+
   // As much of it as a message has room for.
   static std::string shortened(std::string line) {
     constexpr std::size_t longest = 120;
@@ -131,7 +150,7 @@ class CsvTable {
   }
 
   std::string path_;
-  std::array<const char*, columns> names_;
+  std::array<std::string_view, columns> names_, units_;
   std::string text_;
   CsvRecords records_;
   std::vector<std::string> fields_;

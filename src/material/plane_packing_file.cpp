@@ -57,7 +57,8 @@ CellFile read_cell(const Source& source, Packing& packing) {
   constexpr double furthest_sheared =
       1e6;  // beyond, sums with shifts lose the digits of an overlap
   CsvTable<10> table(source.path, source.text,
-                     {"H00", "H01", "H10", "H11", "thickness", "rho", "F00", "F01", "F10", "F11"});
+                     {"H00[m]", "H01[m]", "H10[m]", "H11[m]", "thickness[m]", "rho[kg/m3]",
+                      "F00[-]", "F01[-]", "F10[-]", "F11[-]"});
   table.require(h00, rho);
   if (!table.next()) table.fail("expected one line of numbers after the header");
   const Lattice h{table.real(h00), table.real(h01), table.real(h10), table.real(h11)};
@@ -133,9 +134,9 @@ void check_place(const Table& table, const Packing& packing, double y_first, dou
 }
 
 Ids read_particles(const Source& source, CellFile& cell, Packing& packing) {
-  CsvTable<9> table(
-      source.path, source.text,
-      {"id", "x", "y", "r", "role", "partner", "frame_order", "reference_x", "reference_y"});
+  CsvTable<9> table(source.path, source.text,
+                    {"id", "x[m]", "y[m]", "r[m]", "role", "partner", "frame_order",
+                     "reference_x[m]", "reference_y[m]"});
   const bool framed = table.has(role) || table.has(partner) || table.has(frame_order);
   table.require(id, framed ? frame_order + 1 : role);
   const bool deformed = framed && table.has(reference_x);
@@ -174,8 +175,8 @@ Ids read_particles(const Source& source, CellFile& cell, Packing& packing) {
 std::vector<unsigned> read_contacts(const Source& source, const Ids& ids, const Basis& basis,
                                     Packing& packing) {
   CsvTable<10> table(source.path, source.text,
-                     {"i", "j", "shift_x", "shift_y", "fn", "ftx_on_j", "fty_on_j", "moment",
-                      "bonded", "bond_gap"});
+                     {"i", "j", "shift_x[-]", "shift_y[-]", "fn[N]", "ftx_on_j[N]", "fty_on_j[N]",
+                      "moment[N m]", "bonded[-]", "bond_gap[m]"});
   table.require(i, fty + 1);
   packing.names_bonds = table.has(bonded);
   const auto particle = [&](std::size_t column) { return read_particle(table, column, ids); };

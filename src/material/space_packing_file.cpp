@@ -40,9 +40,9 @@ enum ContactColumn : std::size_t {
 enum CellColumn : std::size_t { h00, rho = 9, thickness };
 
 void read_cell(const PackingText& source, Packing& packing) {
-  CsvTable<11> table(
-      source.path, source.text,
-      {"H00", "H01", "H02", "H10", "H11", "H12", "H20", "H21", "H22", "rho", "thickness"});
+  CsvTable<11> table(source.path, source.text,
+                     {"H00[m]", "H01[m]", "H02[m]", "H10[m]", "H11[m]", "H12[m]", "H20[m]",
+                      "H21[m]", "H22[m]", "rho[kg/m3]", "thickness[m]"});
   table.require(h00, rho);
   if (table.has(thickness))
     table.fail("found a column 'thickness', expected none: spheres have their own");
@@ -74,7 +74,7 @@ void check_place(const Table& table, const Tensor<3>& to_cells, const Vec<3>& fi
 }
 
 ParticleIds read_particles(const PackingText& source, Packing& packing) {
-  CsvTable<5> table(source.path, source.text, {"id", "x", "y", "z", "r"});
+  CsvTable<5> table(source.path, source.text, {"id", "x[m]", "y[m]", "z[m]", "r[m]"});
   table.require(id, r + 1);
   const Tensor<3> to_cells = inverse<3>(tensor_of<3>(packing.cell));
   ParticleIds ids;
@@ -101,8 +101,9 @@ ParticleIds read_particles(const PackingText& source, Packing& packing) {
 std::vector<unsigned> read_contacts(const PackingText& source, const ParticleIds& ids,
                                     Packing& packing) {
   CsvTable<14> table(source.path, source.text,
-                     {"i", "j", "shift_x", "shift_y", "shift_z", "fn", "ftx_on_j", "fty_on_j",
-                      "ftz_on_j", "moment_x", "moment_y", "moment_z", "bonded", "bond_gap"});
+                     {"i", "j", "shift_x[-]", "shift_y[-]", "shift_z[-]", "fn[N]", "ftx_on_j[N]",
+                      "fty_on_j[N]", "ftz_on_j[N]", "moment_x[N m]", "moment_y[N m]",
+                      "moment_z[N m]", "bonded[-]", "bond_gap[m]"});
   table.require(i, ftz + 1);
   if (table.has(moment_x) || table.has(moment_y) || table.has(moment_z))
     table.require(moment_x, moment_z + 1);

@@ -57,5 +57,26 @@ TEST(csv_table, wrong_files_are_refused_with_their_line) {
   EXPECT_EQ(refusal(std::string("x,y\n1\0,2\n", 9)), "t.csv: not a text file");
 }
 
+TEST(csv_table, headers_may_name_the_unit_of_a_column_and_no_other) {
+  const auto refusal = [](const std::string& text) {
+    try {
+      CsvTable<2> table("t.csv", text, {"x[m]", "n"});
+      table.require(0, 2);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal("x,n\n"), "");
+  EXPECT_EQ(refusal("x [m],n\n"), "");
+  EXPECT_EQ(
+      refusal("x[mm],n\n"),
+      "t.csv:1: column 'x': found the unit [mm], expected m; grainlaw import brings others to SI");
+  EXPECT_EQ(refusal("x,n[1]\n"),
+            "t.csv:1: column 'n': found the unit [1], expected none; grainlaw import brings others "
+            "to SI");
+  EXPECT_EQ(refusal("x[m],n,x\n"), "t.csv:1: column 'x' stands twice");
+}
+
 }  // namespace
 }  // namespace grainlaw::core

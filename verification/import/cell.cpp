@@ -46,7 +46,7 @@ Lattice cell_of_numbers(const std::string& text, int dimension) {
 }
 
 Lattice cell_of_file(const ForeignFiles& files, ForeignPacking& packing) {
-  const SourceTable table = read_source(files.cell, files.separator);
+  const SourceTable table = read_source(files.cell, files.separator, files.units);
   Columns columns(table, {});
   const auto dimension = static_cast<std::size_t>(packing.dimension);
   Lattice h{};
@@ -54,10 +54,10 @@ Lattice cell_of_file(const ForeignFiles& files, ForeignPacking& packing) {
   for (std::size_t i = 0; i < dimension; ++i)
     for (std::size_t j = 0; j < dimension; ++j) {
       needed.push_back(fmt::format("H{}{}", i, j));
-      columns.find(needed.back(), {fmt::format("h{}{}", i, j)});
+      columns.find(needed.back(), {fmt::format("h{}{}", i, j)}, Quantity::length);
     }
-  columns.find("thickness", {"thickness"});
-  columns.find("rho", {"rho", "density"});
+  columns.find("thickness", {"thickness"}, Quantity::length);
+  if (!packing.density) columns.find("rho", {"rho", "density"}, Quantity::density);
   columns.require(needed);
   if (table.rows.size() != 1)
     table.fail(table.lines[1], "found another line of numbers, expected one cell");
@@ -65,12 +65,14 @@ Lattice cell_of_file(const ForeignFiles& files, ForeignPacking& packing) {
     for (std::size_t j = 0; j < dimension; ++j)
       h[3 * i + j] = columns.real(0, fmt::format("H{}{}", i, j));
   if (dimension == 2 && columns.has("thickness")) h[8] = columns.positive(0, "thickness");
-  if (columns.has("rho") && !packing.density) packing.density = columns.positive(0, "rho");
+  if (columns.has("rho")) packing.density = columns.positive(0, "rho");
   return h;
 }
 
 // The walls of a box that holds the particles, whose sides become periodic.
-Lattice box_around(const ForeignPacking& packing) {
+Lattice box_around(ForeignPacking& packing) {
+  constexpr double near = 0.1;  // of a radius: more than grains overlap with a wall
+  packing.at_wall.assign(packing.radius.size(), false);
   Lattice h{};
   for (std::size_t k = 0; k < static_cast<std::size_t>(packing.dimension); ++k) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -79,6 +81,10 @@ Lattice box_around(const ForeignPacking& packing) {
       high = std::max(high, packing.centre[p][k] + packing.radius[p]);
     }
     h[4 * k] = high - low;
+    for (std::size_t p = 0; p < packing.radius.size(); ++p) {
+      const double x = packing.centre[p][k], reach = (1 + near) * packing.radius[p];
+      if (x - reach < low || x + reach > high) packing.at_wall[p] = true;
+    }
   }
   return h;
 }
@@ -97,14 +103,13 @@ void check(const ForeignPacking& packing, const SourceTable& particles) {
     throw InputError(
         fmt::format("{}: found particles that fill {:.3g} of the cell ({}), expected 0.1 to 1: is "
                     "the cell theirs, "
-                    "and in the same unit (--length)?",
+                    "and in the same unit (--length-unit)?",
                     particles.path, fraction, packing.cell_source));
 }
 
 }  // namespace
 
 void read_cell(const SourceTable& particles, const ForeignFiles& files, ForeignPacking& packing) {
-  const bool scaled_by_length = files.cell != "box";
   if (files.cell == "box") {
     packing.cell = box_around(packing);
     packing.cell_source = "the box around the particles";
@@ -113,15 +118,15 @@ void read_cell(const SourceTable& particles, const ForeignFiles& files, ForeignP
     packing.cell_source = "of " + files.cell;
   } else if (!files.cell.empty()) {
     packing.cell = cell_of_numbers(files.cell, packing.dimension);
+    for (double& h : packing.cell) h *= files.units.of(Quantity::length).value();
     packing.cell_source = "as told";
   } else if (particles.cell) {
     packing.cell = *particles.cell;
+    for (double& h : packing.cell) h *= particles.unit(Quantity::length);
     packing.cell_source = "of the same file";
   } else {
     particles.fail(fmt::format("found no periodic cell in it, expected --cell: {}", forms));
   }
-  if (scaled_by_length)
-    for (double& h : packing.cell) h *= files.length;
   if (packing.dimension == 2) {
     Lattice& h = packing.cell;
     h[2] = h[5] = h[6] = h[7] = 0;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <unordered_set>
 
 namespace verification {
@@ -31,10 +32,30 @@ bool find_axis(Columns& columns, const std::string& axis, std::size_t place) {
   columns.find(axis,
                {axis, "pos_" + axis, "p" + axis, axis + "u", "position_" + axis, "c" + axis,
                 axis + "_pos", axis + "pos", "coord_" + axis},
-               place);
+               Quantity::length, place);
   if (columns.has(axis)) return false;
   columns.find(axis, {axis + "s", axis + "su"});
   return columns.has(axis);
+}
+
+// Particles that are one body.
+void refuse_clumps(const SourceTable& table, const Columns& columns, ForeignPacking& packing) {
+  const auto shared = [&](const std::string& name) -> std::optional<std::size_t> {
+    std::unordered_set<long> seen;
+    for (std::size_t p = 0; columns.has(name) && p < table.rows.size(); ++p)
+      if (const long body = columns.integer(p, name);
+          body >= (name == "clump" ? 0 : 1) && !seen.insert(body).second)
+        return p;
+    return std::nullopt;
+  };
+  if (const auto p = shared("clump"))
+    table.fail(table.lines[*p],
+               fmt::format("found another particle of clump {}, expected particles that are alone: "
+                           "clumps are not read",
+                           columns.integer(*p, "clump")));
+  if (shared("mol"))
+    packing.notes.emplace_back(
+        "particles share molecules, whose bonds or rigid bodies are not read");
 }
 
 }  // namespace
@@ -47,9 +68,11 @@ void read_centres(const SourceTable& table, const ForeignFiles& files, ForeignPa
   const bool scaled = find_axis(columns, "x", places[0]);
   find_axis(columns, "y", places[1]);
   find_axis(columns, "z", places[2]);
-  columns.find("r", {"r", "radius", "rad"}, places[3]);
-  if (!columns.has("r")) columns.find("d", {"d", "diameter", "diam"});
-  columns.find("density", {"density", "rho"});
+  columns.find("r", {"r", "radius", "rad"}, Quantity::length, places[3]);
+  if (!columns.has("r")) columns.find("d", {"d", "diameter", "diam"}, Quantity::length);
+  if (!(files.density > 0)) columns.find("density", {"density", "rho"}, Quantity::density);
+  columns.find("clump", {"clump", "clumpid", "clump_id"});
+  columns.find("mol", {"mol", "molecule"});
   columns.require({"x", "y"});
   if (!columns.has("d")) columns.require({"r"});
   columns.close("--columns");
@@ -57,6 +80,7 @@ void read_centres(const SourceTable& table, const ForeignFiles& files, ForeignPa
     table.fail(table.lines.front(),
                "found centres as shares of a box and no box, expected ITEM: BOX BOUNDS");
 
+  refuse_clumps(table, columns, packing);
   std::unordered_set<long> ids;
   bool one_density = columns.has("density");
   for (std::size_t p = 0; p < table.rows.size(); ++p) {
@@ -71,13 +95,13 @@ void read_centres(const SourceTable& table, const ForeignFiles& files, ForeignPa
       for (std::size_t k = 0; k < 3; ++k) {
         centre[k] = table.origin[k];
         for (std::size_t m = 0; m < 3; ++m) centre[k] += (*table.cell)[3 * k + m] * s[m];
+        centre[k] *= table.unit(Quantity::length);
       }
     }
-    for (double& x : centre) x *= files.length;
     packing.id.push_back(id);
     packing.centre.push_back(centre);
-    packing.radius.push_back(files.length * (columns.has("d") ? 0.5 * columns.positive(p, "d")
-                                                              : columns.positive(p, "r")));
+    packing.radius.push_back(columns.has("d") ? 0.5 * columns.positive(p, "d")
+                                              : columns.positive(p, "r"));
     if (one_density) {
       const double density = columns.positive(p, "density");
       one_density = p == 0 || density == packing.density;

@@ -28,12 +28,29 @@ ColumnChoice read_choice(const std::string& option, const std::string& text) {
 Columns::Columns(const SourceTable& table, ColumnChoice choice)
     : table_(table), choice_(std::move(choice)) {}
 
+double Columns::unit(const std::string& name, std::size_t place, Quantity quantity) const {
+  const std::vector<std::string>& units = table_.column_units;
+  if (quantity == Quantity::number || place >= units.size() || units[place].empty())
+    return table_.unit(quantity);
+  const auto fail = [&](const std::string& expected) {
+    table_.fail(table_.lines.front(),
+                fmt::format("column {} ({}): found the unit [{}], expected {}", place + 1, name,
+                            units[place], expected));
+  };
+  const auto unit = in_si(units[place], quantity);
+  if (!unit) fail(expected_unit(quantity));
+  if ((quantity == Quantity::length && table_.units.length > 0 && table_.units.length != *unit) ||
+      (quantity == Quantity::force && table_.units.force > 0 && table_.units.force != *unit))
+    fail("that of --length-unit and --force-unit, or none there");
+  return *unit;
+}
+
 void Columns::find(const std::string& name, const std::vector<std::string>& others,
-                   std::size_t place) {
+                   Quantity quantity, std::size_t place) {
   const std::vector<std::string>& names = table_.names;
   const std::size_t width = table_.rows.front().size();
   const auto take = [&](std::size_t k) {
-    places_[name] = k;
+    found_[name] = {k, unit(name, k, quantity)};
     order_.push_back(name);
   };
   wanted_.push_back(name);
@@ -78,25 +95,25 @@ void Columns::close(const std::string& option) const {
 }
 
 std::string_view Columns::field(std::size_t row, const std::string& name) const {
-  return table_.rows[row][places_.at(name)];
+  return table_.rows[row][found_.at(name).place];
 }
 
 void Columns::complain(std::size_t row, const std::string& name, std::string_view expected) const {
   table_.fail(table_.lines[row],
-              fmt::format("column {} ({}): found '{}', expected {}", places_.at(name) + 1, name,
-                          field(row, name), expected));
+              fmt::format("column {} ({}): found '{}', expected {}", found_.at(name).place + 1,
+                          name, field(row, name), expected));
 }
 
 double Columns::real(std::size_t row, const std::string& name) const {
   const auto value = number_in(field(row, name));
   if (!value) complain(row, name, "a finite number");
-  return *value;
+  return *value * found_.at(name).unit;
 }
 
 double Columns::positive(std::size_t row, const std::string& name) const {
   const auto value = number_in(field(row, name));
   if (!value || !(*value > 0)) complain(row, name, "a number > 0");
-  return *value;
+  return *value * found_.at(name).unit;
 }
 
 long Columns::integer(std::size_t row, const std::string& name) const {
@@ -108,9 +125,14 @@ long Columns::integer(std::size_t row, const std::string& name) const {
 }
 
 std::string Columns::text() const {
-  std::vector<std::string> numbers;
-  for (const std::string& name : order_) numbers.push_back(std::to_string(places_.at(name) + 1));
-  return fmt::format("{} (columns {})", fmt::join(order_, ", "), fmt::join(numbers, ", "));
+  std::vector<std::string> names, numbers;
+  for (const std::string& name : order_) {
+    const std::size_t place = found_.at(name).place;
+    const bool has_unit = place < table_.column_units.size() && !table_.column_units[place].empty();
+    names.push_back(has_unit ? fmt::format("{} [{}]", name, table_.column_units[place]) : name);
+    numbers.push_back(std::to_string(place + 1));
+  }
+  return fmt::format("{} (columns {})", fmt::join(names, ", "), fmt::join(numbers, ", "));
 }
 
 }  // namespace verification

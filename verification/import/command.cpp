@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -83,6 +84,12 @@ MaterialSource description(const ImportArguments& arguments, const ForeignPackin
     source.changes.insert("contact", contact_table(arguments, packing, notes));
     source.changes.insert("boundary", toml::table{{"type", "periodic-cell"}});
   }
+  const auto is_bonded = [](const ForeignContact& contact) { return contact.bonded; };
+  if (source.changes["contact"]["law"].value_or(std::string()) != "bonded" &&
+      std::any_of(packing.contacts.begin(), packing.contacts.end(), is_bonded))
+    throw InputError(fmt::format(
+        "{}: found bonds, expected --material with law = \"bonded\", which says what they bear",
+        arguments.files.contacts));
   return source;
 }
 
@@ -196,6 +203,21 @@ void run_import(ImportArguments arguments) {
   fmt::print("{}\n", written.text());
 }
 
+// A unit by its name or by what it is in SI.
+void add_unit(CLI::App& command, const char* name, const char* text, Quantity quantity,
+              double& unit) {
+  command.add_option_function<std::string>(
+      name,
+      [quantity, name, &unit](const std::string& told) {
+        const std::optional<double> named = in_si(told, quantity);
+        unit = named ? *named : number_in(told).value_or(0);
+        if (!(unit > 0))
+          throw InputError(fmt::format("{}: found {}, expected a number > 0 or {}", name, told,
+                                       expected_unit(quantity)));
+      },
+      text);
+}
+
 }  // namespace
 
 void add_import_command(CLI::App& app) {
@@ -221,10 +243,10 @@ void add_import_command(CLI::App& app) {
                       "between columns; default: ; , or blanks, as found");
   command->add_option("--dimension", a->files.dimension, "2 or 3; default: 2 where all z are one")
       ->check(CLI::IsMember({2, 3}));
-  command
-      ->add_option("--length", a->files.length, "m for a unit of length in the files: 1e-3 for mm")
-      ->check(above(0))
-      ->capture_default_str();
+  add_unit(*command, "--length-unit", "of columns without one in their header: mm, or 1e-3 [m]",
+           Quantity::length, a->files.units.length);
+  add_unit(*command, "--force-unit", "of such columns: kN, or 1e3 [N]", Quantity::force,
+           a->files.units.force);
   command->add_option("--thickness", a->files.thickness, "of discs [m]; default: of the cell")
       ->check(above(0));
   command->add_option("--density", a->files.density, "of the grains [kg/m3]; default: of the files")

@@ -73,7 +73,7 @@ void check_lammps(const Exported& packing) {
   if (h[3] != 0 || h[6] != 0 || h[7] != 0 || !(h[0] > 0) || !(h[4] > 0) || !(h[8] > 0))
     throw InputError(
         "--format: found a cell with H21, H31 or H32 other than 0, which LAMMPS has not; "
-        "expected yade or table");
+        "expected yade");
 }
 
 std::string lammps_data(const Exported& packing) {

@@ -1,6 +1,8 @@
 // Contacts with their forces.
 #include "app/library.hpp"
+#include "import/balance.hpp"
 #include "import/foreign_packing.hpp"
+#include "import/images.hpp"
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
@@ -15,6 +17,7 @@ namespace verification {
 namespace {
 
 using Vector = Eigen::Vector3d;
+using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 Vector vector_of(const Place& place) { return Vector::Map(place.data()); }
 Place place_of(const Vector& vector) { return {vector.x(), vector.y(), vector.z()}; }
@@ -24,13 +27,15 @@ std::array<std::string, 3> axes(const std::string& name) {
   return {name + "x", name + "y", name + "z"};
 }
 
-void find_vector(Columns& columns, const std::string& name, const std::vector<std::string>& before,
-                 const std::vector<std::string>& after = {""}) {
+void find_vector(Columns& columns, const std::string& name, Quantity quantity,
+                 const std::vector<std::string>& before,
+                 const std::vector<std::string>& after = {""}, const std::string& numbered = "") {
   for (const char axis : {'x', 'y', 'z'}) {
     std::vector<std::string> others;
     for (const std::string& first : before)
       for (const std::string& last : after) others.push_back(first + axis + last);
-    columns.find(name + axis, others);
+    if (!numbered.empty()) others.push_back(numbered + static_cast<char>('1' + axis - 'x'));
+    columns.find(name + axis, others, quantity);
   }
 }
 
@@ -46,166 +51,194 @@ Columns force_columns(const SourceTable& table, const ForeignFiles& files) {
   Columns columns(table, read_choice("--contact-columns", files.contact_columns));
   columns.find("i", {"i", "id1", "id_1", "patom1", "particle1", "i.id1"});
   columns.find("j", {"j", "id2", "id_2", "patom2", "particle2", "i.id2"});
-  find_vector(columns, "shift_", {"shift_", "celldist_", "cell_", "shift"});
-  columns.find("fn", {"fn", "normal_force", "f_n"});
-  find_vector(columns, "ft", {"ft", "fs", "shear_", "shearforce_"}, {"_on_j", ""});
-  find_vector(columns, "f", {"f", "force_"}, {"", "_on_j"});
-  columns.find("moment", {"moment"});
-  find_vector(columns, "moment_", {"moment_"});
-  columns.find("kn", {"kn"});
-  columns.find("kt", {"kt", "ks"});
+  find_vector(columns, "shift_", Quantity::number, {"shift_", "celldist_", "cell_", "shift"});
+  find_vector(columns, "d", Quantity::length, {"d"});
+  columns.find("fn", {"fn", "normal_force", "f_n", table.lammps ? "force" : "fn"}, Quantity::force);
+  find_vector(columns, "ft", Quantity::force, {"ft", "fs", "shear_", "shearforce_"}, {"_on_j", ""},
+              table.lammps ? "p" : "");
+  find_vector(columns, "f", Quantity::force, {"f", "force_"}, {"", "_on_j"});
+  columns.find("moment", {"moment"}, Quantity::moment);
+  find_vector(columns, "moment_", Quantity::moment, {"moment_"});
+  columns.find("kn", {"kn"}, Quantity::stiffness);
+  columns.find("kt", {"kt", "ks"}, Quantity::stiffness);
+  columns.find("bonded", {"bonded"});
+  columns.find("bond_gap", {"bond_gap"}, Quantity::length);
   columns.require({"i", "j"});
   if (!columns.has("fn") && !columns.has("fx")) columns.require({"fn"});
   columns.close("--contact-columns");
   return columns;
 }
 
-// The image of j that is nearest to i.
-std::array<int, 3> nearest_shift(const ForeignPacking& packing, std::size_t i, std::size_t j) {
-  const Eigen::Matrix3d h = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>::Map(packing.cell.data());
-  const Vector apart = h.inverse() * (vector_of(packing.centre[j]) - vector_of(packing.centre[i]));
-  std::array<int, 3> shift{};
-  for (int k = 0; k < packing.dimension; ++k)
-    shift[static_cast<std::size_t>(k)] = -static_cast<int>(std::lround(apart(k)));
-  return shift;
+// From the axes of this file to those of the particles: LAMMPS has pairs of a general triclinic box in
+// axes of its own.
+Matrix turn_between(const SourceTable& table, const SourceTable& particles) {
+  constexpr double alike = 1e-4;  // of what is printed with six digits
+  if (table.step && particles.step && *table.step != *particles.step)
+    table.fail(fmt::format("found contacts of step {}, expected those of step {} as in {}",
+                           *table.step, *particles.step, particles.path));
+  if (!table.cell || !particles.cell) return Matrix::Identity();
+  const Matrix here = table.unit(Quantity::length) * Matrix::Map(table.cell->data());
+  const Matrix there = particles.unit(Quantity::length) * Matrix::Map(particles.cell->data());
+  if ((here - there).norm() < alike * there.norm()) return Matrix::Identity();
+  const Matrix turn = there * here.inverse();
+  if (!((turn.transpose() * turn - Matrix::Identity()).norm() < alike))
+    table.fail(fmt::format("found another box than that of {}, expected the same", particles.path));
+  return turn;
 }
 
-using Key = std::tuple<std::size_t, std::size_t, std::array<int, 3>>;
+using Key = std::tuple<std::size_t, std::size_t, Shift>;
 Key key_of(const ForeignContact& c) {
-  const std::array<int, 3> turned{-c.shift[0], -c.shift[1], -c.shift[2]};
+  const Shift turned{-c.shift[0], -c.shift[1], -c.shift[2]};
   return c.i < c.j || (c.i == c.j && c.shift >= turned) ? Key{c.i, c.j, c.shift}
                                                         : Key{c.j, c.i, turned};
 }
 
-}  // namespace
+class ForceReader {
+ public:
+  ForceReader(const SourceTable& table, const SourceTable& particles, const ForeignFiles& files,
+              ForeignPacking& packing)
+      : table_(table),
+        particles_(particles),
+        packing_(packing),
+        columns_(force_columns(table, files)),
+        turn_(turn_between(table, particles)) {
+    for (std::size_t p = 0; p < packing.id.size(); ++p) number_[packing.id[p]] = p;
+    packing.has_contacts = true;
+    packing.has_moments = columns_.has("moment") || columns_.has("moment_x");
+    packing.names_bonds = columns_.has("bonded");
+  }
 
-void read_forces(const ForeignFiles& files, ForeignPacking& packing) {
-  const SourceTable table = read_source(files.contacts, files.separator);
-  const Columns columns = force_columns(table, files);
-  std::unordered_map<long, std::size_t> number;
-  for (std::size_t p = 0; p < packing.id.size(); ++p) number[packing.id[p]] = p;
-  const auto particle = [&](std::size_t row, const char* name) {
-    const long id = columns.integer(row, name);
-    const auto found = number.find(id);
-    if (found == number.end())
-      table.fail(table.lines[row],
-                 fmt::format("column {}: found {}, expected the id of a particle of {}", name, id,
-                             files.particles));
+  void read() {
+    std::set<Key> seen;
+    int twice = 0, open = 0;
+    for (std::size_t row = 0; row < table_.rows.size(); ++row) {
+      ForeignContact contact{.i = particle(row, "i"), .j = particle(row, "j")};
+      contact.shift = shift(row, contact.i, contact.j);
+      const double length = checked_length(row, contact);
+      if (!seen.insert(key_of(contact)).second) {
+        ++twice;
+        continue;
+      }
+      const Vector force = read_force(row, contact);
+      const bool loaded = force.norm() > 0 || contact.normal != 0;
+      if (!loaded && !contact.bonded &&
+          length >= packing_.radius[contact.i] + packing_.radius[contact.j]) {
+        ++open;  // a pair of a neighbour list
+        continue;
+      }
+      packing_.contacts.push_back(contact);
+      force_.push_back(force);
+    }
+    if (!columns_.has("fn")) part_forces();
+    settle_signs(table_, columns_.has("ftx") || columns_.has("fty"), packing_);
+    note(twice, "contacts stand twice in " + table_.path);
+    note(open, "pairs without force left out, which do not touch");
+    packing_.read.insert(packing_.read.end() - 1,
+                         fmt::format("{} contacts from {}, {}: {}", packing_.contacts.size(),
+                                     table_.path, table_.kind, columns_.text()));
+  }
+
+ private:
+  void note(int count, const std::string& text) {
+    if (count > 0) packing_.notes.push_back(fmt::format("{} {}", count, text));
+  }
+
+  std::size_t particle(std::size_t row, const char* name) const {
+    const long id = columns_.integer(row, name);
+    const auto found = number_.find(id);
+    if (found == number_.end())
+      table_.fail(table_.lines[row],
+                  fmt::format("column {}: found {}, expected the id of a particle of {}", name, id,
+                              particles_.path));
     return found->second;
-  };
-  const bool whole =
-      !columns.has("fn");  // one force, whose part along the branch is the normal one
-  std::vector<Vector> force;
-  double along = 0;
-  int twice = 0, open = 0;
-  std::set<Key> seen;
-  packing.has_contacts = true;
-  packing.has_moments = columns.has("moment") || columns.has("moment_x");
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    ForeignContact contact{.i = particle(row, "i"), .j = particle(row, "j")};
-    contact.shift = nearest_shift(packing, contact.i, contact.j);
-    if (columns.has("shift_x"))
-      for (std::size_t k = 0; k < 3; ++k)
-        if (const std::string name = axes("shift_")[k]; columns.has(name))
-          contact.shift[k] = static_cast<int>(std::clamp(columns.integer(row, name), -511L, 511L));
-    if (packing.dimension == 2) contact.shift[2] = 0;
-    const double length = vector_of(packing.branch(contact)).norm();
-    const double radii = packing.radius[contact.i] + packing.radius[contact.j];
+  }
+
+  Shift shift(std::size_t row, std::size_t i, std::size_t j) const {
+    Shift told{};
+    if (columns_.has("shift_x")) {
+      for (std::size_t k = 0; k < static_cast<std::size_t>(packing_.dimension); ++k)
+        if (const std::string name = axes("shift_")[k]; columns_.has(name))
+          told[k] = static_cast<int>(std::clamp(columns_.integer(row, name), -511L, 511L));
+      return told;
+    }
+    const std::vector<Shift> images = images_in_touch(packing_, i, j);
+    if (images.size() == 1) return images.front();
+    if (columns_.has("dx"))
+      if (const auto one = image_apart(packing_, i, j, images,
+                                       place_of(turn_ * vector_of(vector_at(columns_, row, "d")))))
+        return *one;
+    table_.fail(table_.lines[row],
+                fmt::format("found a contact of {} and {}, which touch through {} images of the "
+                            "cell, expected shift_x, shift_y, (shift_z,) or their distance dx, dy, "
+                            "dz, which tell them apart",
+                            packing_.id[i], packing_.id[j], images.size()));
+  }
+
+  double checked_length(std::size_t row, const ForeignContact& contact) const {
+    const double length = vector_of(packing_.branch(contact)).norm();
+    const double radii = packing_.radius[contact.i] + packing_.radius[contact.j];
     if (!(length > 0) || length > 2 * radii)
-      table.fail(
-          table.lines[row],
+      table_.fail(
+          table_.lines[row],
           fmt::format("found a contact of {} and {} whose centres are {:.6g} m apart, expected "
                       "about the sum of their radii, {:.6g} m",
-                      packing.id[contact.i], packing.id[contact.j], length, radii));
-    if (!seen.insert(key_of(contact)).second) {
-      ++twice;
-      continue;
-    }
-    if (whole) {
-      force.push_back(vector_of(vector_at(columns, row, "f")));
-      along += force.back().dot(vector_of(packing.branch(contact))) / length;
-    } else {
-      contact.normal = columns.real(row, "fn");
-      contact.tangential = vector_at(columns, row, "ft");
-    }
-    const bool loaded = whole ? force.back().norm() > 0 : contact.normal != 0;
-    if (!loaded && length >= radii) {  // a pair of a neighbour list
-      ++open;
-      if (whole) force.pop_back();
-      continue;
-    }
-    if (columns.has("kn")) contact.stiffness = columns.positive(row, "kn");
-    if (columns.has("kt")) contact.tangential_stiffness = columns.real(row, "kt");
-    contact.moment = vector_at(columns, row, "moment_");
-    if (columns.has("moment")) contact.moment[2] = columns.real(row, "moment");
-    packing.contacts.push_back(contact);
+                      packing_.id[contact.i], packing_.id[contact.j], length, radii));
+    return length;
   }
-  for (std::size_t c = 0; c < force.size(); ++c) {
-    ForeignContact& contact = packing.contacts[c];
-    const Vector on_j = along < 0 ? Vector(-force[c]) : force[c];
-    const Vector normal = vector_of(packing.branch(contact)).normalized();
-    contact.normal = on_j.dot(normal);
-    contact.tangential = place_of(on_j - contact.normal * normal);
+
+  // Returns what fx, fy, fz are, if not the normal part by its size.
+  Vector read_force(std::size_t row, ForeignContact& contact) const {
+    const auto vector = [&](const char* name) {
+      return Vector(turn_ * vector_of(vector_at(columns_, row, name)));
+    };
+    if (columns_.has("kn")) contact.stiffness = columns_.positive(row, "kn");
+    if (columns_.has("kt")) contact.tangential_stiffness = columns_.real(row, "kt");
+    contact.moment = place_of(vector("moment_"));
+    if (columns_.has("moment")) contact.moment[2] = columns_.real(row, "moment");
+    if (columns_.has("bonded")) contact.bonded = columns_.integer(row, "bonded") != 0;
+    if (columns_.has("bond_gap")) contact.bond_gap = columns_.real(row, "bond_gap");
+    contact.tangential = place_of(vector("ft"));
+    if (!columns_.has("fn")) return vector("f");
+    contact.normal = columns_.real(row, "fn");
+    return Vector::Zero();
   }
-  if (along < 0)
-    packing.notes.emplace_back("forces in the file act on the first particle of a contact");
-  if (twice > 0)
-    packing.notes.push_back(fmt::format("{} contacts stand twice in {}", twice, table.path));
-  if (open > 0)
-    packing.notes.push_back(
-        fmt::format("{} pairs without force left out, which do not touch", open));
-  packing.read.push_back(fmt::format("{} contacts from {}, {}: {}", packing.contacts.size(),
-                                     table.path, table.kind, columns.text()));
-}
 
-namespace {
+  // Forces that mostly press tell on which particle they act. Their part along the branch is the
+  // normal one; the rest is the tangential one, unless that has columns of its own.
+  void part_forces() {
+    const auto normal = [&](const ForeignContact& c) {
+      return vector_of(packing_.branch(c)).normalized();
+    };
+    double along = 0;
+    for (std::size_t c = 0; c < force_.size(); ++c)
+      along += force_[c].dot(normal(packing_.contacts[c]));
+    const double sign = along < 0 ? -1 : 1;
+    const bool whole = !columns_.has("ftx") && !columns_.has("fty");
+    for (std::size_t c = 0; c < force_.size(); ++c) {
+      ForeignContact& contact = packing_.contacts[c];
+      const Vector on_j = sign * force_[c], n = normal(contact);
+      contact.normal = on_j.dot(n);
+      if (whole) contact.tangential = place_of(on_j - contact.normal * n);
+    }
+    if (along < 0)
+      packing_.notes.emplace_back("forces in the file act on the first particle of a contact");
+  }
 
-// What a contact says of the stiffness: normal = kn of unit 1, or over an overlap.
-struct Pair {
-  double normal = 0, overlap = 0, radius = 0;  // kn, 1 or fn, overlap [m]; 2 Ri Rj / (Ri + Rj) [m]
+  const SourceTable& table_;
+  const SourceTable& particles_;
+  ForeignPacking& packing_;
+  Columns columns_;
+  Matrix turn_;
+  std::unordered_map<long, std::size_t> number_;
+  std::vector<Vector> force_;  // of each contact, where it is told as one vector
 };
-
-std::vector<Pair> pairs_of(const ForeignPacking& packing) {
-  std::vector<Pair> pairs;
-  for (const ForeignContact& c : packing.contacts) {
-    const double ri = packing.radius[c.i], rj = packing.radius[c.j];
-    const bool told = c.stiffness > 0;
-    const Pair pair{told ? c.stiffness : c.normal, told ? 1 : packing.overlap(c),
-                    2 * ri * rj / (ri + rj)};
-    if (pair.normal > 0 && pair.overlap > 0) pairs.push_back(pair);
-  }
-  return pairs;
-}
 
 }  // namespace
 
-FoundStiffness found_stiffness(const ForeignPacking& packing) {
-  // Of all contacts together, so that small overlaps of rounded centres weigh little.
-  const std::vector<Pair> pairs = pairs_of(packing);
-  double force = 0, overlap = 0, scaled = 0, kn = 0, kt = 0;
-  for (const Pair& pair : pairs) {
-    force += pair.normal;
-    overlap += pair.overlap;
-    scaled += pair.overlap * pair.radius;
-  }
-  for (const ForeignContact& c : packing.contacts) {
-    kn += c.stiffness;
-    kt += c.tangential_stiffness;
-  }
-  FoundStiffness found;
-  if (pairs.empty()) return found;
-  double off_young = 0, off_kn = 0;
-  for (const Pair& pair : pairs) {
-    off_young += std::abs(pair.normal / force - pair.overlap * pair.radius / scaled);
-    off_kn += std::abs(pair.normal / force - pair.overlap / overlap);
-  }
-  constexpr double alike = 0.02;  // of the forces: what centres of six digits leave
-  if (off_young < alike && off_young <= off_kn)
-    found.young = force / scaled;
-  else if (off_kn < alike)
-    found.kn = force / overlap;
-  if (kn > 0 && kt > 0) found.ratio = kt / kn;
-  return found;
+void read_forces(const SourceTable& particles, const ForeignFiles& files, ForeignPacking& packing) {
+  SourceTable table = read_source(files.contacts, files.separator, files.units);
+  if (table.lammps && table.units.name.empty()) table.units = particles.units;
+  ForceReader(table, particles, files, packing).read();
 }
 
 }  // namespace verification

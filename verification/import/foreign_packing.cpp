@@ -32,6 +32,7 @@ std::string contacts_text(const ForeignPacking& packing) {
   std::string text = spheres ? "i,j,shift_x,shift_y,shift_z,fn,ftx_on_j,fty_on_j,ftz_on_j"
                              : "i,j,shift_x,shift_y,fn,ftx_on_j,fty_on_j";
   if (packing.has_moments) text += spheres ? ",moment_x,moment_y,moment_z" : ",moment";
+  if (packing.names_bonds) text += ",bonded,bond_gap";
   text += "\n";
   for (const ForeignContact& c : packing.contacts) {
     const Place& t = c.tangential;
@@ -44,6 +45,7 @@ std::string contacts_text(const ForeignPacking& packing) {
       fmt::format_to(out(text), ",{},{},{}", c.moment[0], c.moment[1], c.moment[2]);
     else if (packing.has_moments)
       fmt::format_to(out(text), ",{}", c.moment[2]);
+    if (packing.names_bonds) fmt::format_to(out(text), ",{},{}", c.bonded ? 1 : 0, c.bond_gap);
     text += "\n";
   }
   return text;
@@ -102,12 +104,12 @@ Lattice ForeignPacking::stress() const {
 }
 
 ForeignPacking read_foreign(const ForeignFiles& files) {
-  const SourceTable table = read_source(files.particles, files.separator);
+  const SourceTable table = read_source(files.particles, files.separator, files.units);
   ForeignPacking packing;
   packing.notes = table.notes;
   read_centres(table, files, packing);
   read_cell(table, files, packing);
-  if (!files.contacts.empty()) read_forces(files, packing);
+  if (!files.contacts.empty()) read_forces(table, files, packing);
   return packing;
 }
 

@@ -17,6 +17,8 @@ struct ForeignContact {
   Place tangential{};                              // on j [N]
   Place moment{};                                  // on j [N m]
   double stiffness = 0, tangential_stiffness = 0;  // that the file has, or 0 [N/m]
+  bool bonded = false;
+  double bond_gap = 0;  // stress-free branch less R_i + R_j [m]
 };
 
 struct ForeignPacking {
@@ -27,7 +29,8 @@ struct ForeignPacking {
   Lattice cell{};                 // of discs with the thickness at 33
   std::string cell_source;        // where it comes from, for a person
   std::optional<double> density;  // [kg/m3]
-  bool has_contacts = false, has_moments = false;
+  std::vector<bool> at_wall;      // reaches a wall of a box that is taken as the cell; or empty
+  bool has_contacts = false, has_moments = false, names_bonds = false;
   std::vector<ForeignContact> contacts;
   std::vector<std::string> read;   // what was read, for a person
   std::vector<std::string> notes;  // what was assumed or is odd
@@ -46,7 +49,7 @@ struct ForeignFiles {
       cell;  // files; the last two may be "", the last a text of numbers
   std::string separator, columns, contact_columns;
   int dimension = 0;     // 0: 3 where centres differ in z
-  double length = 1;     // of the files [m]
+  FileUnits units;       // told, of columns without one in their header
   double thickness = 0;  // of discs [m]; 0: of the cell
   double density = 0;    // [kg/m3]; 0: of the files
 };
@@ -54,10 +57,10 @@ struct ForeignFiles {
 // Throws InputError: file, line, column, what was found and what was expected.
 ForeignPacking read_foreign(const ForeignFiles& files);
 
-// The parts of it. Lengths in units of the files.
+// The parts of it.
 void read_centres(const SourceTable& table, const ForeignFiles& files, ForeignPacking& packing);
 void read_cell(const SourceTable& particles, const ForeignFiles& files, ForeignPacking& packing);
-void read_forces(const ForeignFiles& files, ForeignPacking& packing);
+void read_forces(const SourceTable& particles, const ForeignFiles& files, ForeignPacking& packing);
 
 // The stiffness that contacts of a file share.
 struct FoundStiffness {

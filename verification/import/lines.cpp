@@ -22,6 +22,14 @@ std::string_view unquoted(std::string_view text) {
   return text;
 }
 
+// Of a unit in brackets at the end, but not of the places of LAMMPS' vectors: c_pair[1].
+std::size_t unit_begin(std::string_view name) {
+  const auto bracket = name.find_first_of("[(");
+  const bool numbered = bracket != std::string_view::npos && bracket + 1 < name.size() &&
+                        name[bracket + 1] >= '0' && name[bracket + 1] <= '9';
+  return bracket == 0 || numbered ? std::string_view::npos : bracket;
+}
+
 }  // namespace
 
 bool Lines::next() {
@@ -69,15 +77,34 @@ std::optional<double> number_in(std::string_view field) {
 }
 
 std::string plain_name(std::string_view field) {
-  std::string name(unquoted(field));
-  // A unit in brackets at the end, but not the places of LAMMPS' vectors: c_pair[1].
-  const auto bracket = name.find('[');
-  if (bracket != std::string::npos && bracket + 1 < name.size() &&
-      (name[bracket + 1] < '0' || name[bracket + 1] > '9'))
-    name = std::string(trimmed(std::string_view(name).substr(0, bracket)));
+  field = unquoted(field);
+  std::string name(trimmed(field.substr(0, unit_begin(field))));
   for (char& letter : name)
     if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
   return name;
+}
+
+std::string unit_of_name(std::string_view field) {
+  field = unquoted(field);
+  const auto begin = unit_begin(field);
+  if (begin == std::string_view::npos) return {};
+  const std::string_view unit = field.substr(begin + 1);
+  return std::string(trimmed(unit.substr(0, unit.find_first_of("])"))));
+}
+
+std::vector<std::string_view> names_in(const std::vector<std::string_view>& words) {
+  std::vector<std::string_view> names;
+  for (const std::string_view word : words) {
+    const bool begins = word.starts_with('[') || word.starts_with('(');
+    const bool open = !names.empty() && unit_begin(names.back()) != std::string_view::npos &&
+                      names.back().find_first_of("])") == std::string_view::npos;
+    if (!names.empty() && (begins || open))
+      names.back() = {names.back().data(),
+                      static_cast<std::size_t>(word.data() + word.size() - names.back().data())};
+    else
+      names.push_back(word);
+  }
+  return names;
 }
 
 }  // namespace verification

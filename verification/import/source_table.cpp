@@ -24,12 +24,6 @@ bool all_numbers(const std::vector<std::string_view>& row) {
                      [](std::string_view field) { return number_in(field).has_value(); });
 }
 
-std::vector<std::string> plain_names(const std::vector<std::string_view>& row) {
-  std::vector<std::string> names;
-  for (const std::string_view field : row) names.push_back(plain_name(field));
-  return names;
-}
-
 // What YADE says in its first line: "#format x_y_z_r_matId".
 std::vector<std::string> format_names(std::string_view format) {
   std::vector<std::string> names;
@@ -99,7 +93,7 @@ class PlainReader {
       std::copy(h.begin(), h.end(), table_.cell->begin());
     } else {
       line.remove_prefix(1);
-      comment_ = fields(line, found_separator(line));
+      comment_ = names_in(fields(line, found_separator(line)));
     }
   }
 
@@ -109,7 +103,7 @@ class PlainReader {
         return number_in(field).has_value();
       });
       if (!any) {
-        table_.names = plain_names(one);
+        table_.take_names(names_in(one));
         names_line_ = line;
         return;
       }
@@ -140,7 +134,7 @@ class PlainReader {
     } else if (pack_ && width == 5) {
       table_.names = {"x", "y", "z", "r", "clump"};
     } else if (comment_.size() == width && !all_numbers(comment_)) {
-      table_.names = plain_names(comment_);
+      table_.take_names(comment_);
     }
   }
 
@@ -152,6 +146,18 @@ class PlainReader {
   bool pack_ = false;
 };
 
+// Both the file and the command line may say what they are, but not two things.
+void take_units(SourceTable& table, const FileUnits& told) {
+  const auto take = [&](double& unit, double of_option, const char* option) {
+    if (of_option > 0 && unit > 0 && of_option != unit)
+      table.fail(fmt::format("found the units '{}' and another {}, expected one of them",
+                             table.units.name, option));
+    if (of_option > 0) unit = of_option;
+  };
+  take(table.units.length, told.length, "--length-unit");
+  take(table.units.force, told.force, "--force-unit");
+}
+
 }  // namespace
 
 void SourceTable::fail(std::size_t line, std::string_view message) const {
@@ -162,7 +168,25 @@ void SourceTable::fail(std::string_view message) const {
   throw InputError(fmt::format("{}: {}", path, message));
 }
 
-SourceTable read_source(const std::string& path, const std::string& separator) {
+void SourceTable::take_names(const std::vector<std::string_view>& fields) {
+  names.clear();
+  column_units.clear();
+  for (const std::string_view field : fields) {
+    names.push_back(plain_name(field));
+    column_units.push_back(unit_of_name(field));
+  }
+}
+
+double SourceTable::unit(Quantity quantity) const {
+  if (const auto in_si = units.of(quantity)) return *in_si;
+  fail(
+      fmt::format("found the units '{}', which are none of SI, expected --length-unit, and "
+                  "--force-unit and --density where there are such",
+                  units.name));
+}
+
+SourceTable read_source(const std::string& path, const std::string& separator,
+                        const FileUnits& told) {
   if (!std::filesystem::is_regular_file(path))
     throw InputError(fmt::format("{}: there is no such file", path));
   SourceTable table;
@@ -179,6 +203,7 @@ SourceTable read_source(const std::string& path, const std::string& separator) {
     read_lammps_data(table);
   else
     PlainReader(table, separator).read();
+  take_units(table, told);
   return table;
 }
 
