@@ -87,8 +87,7 @@ void check_given_forces(const Material<D>& material) {
             shear, given, most_shear));
 }
 
-// Mean normal force of the packing as given. Without it a boundary under uniform stress could start
-// without any.
+// Mean normal force as given; a boundary under uniform stress may have no other to start from.
 template <int D>
 double force_as_given(const Problem<D>& problem, const Configuration<D>& given,
                       Workspace<D>& workspace) {
@@ -227,8 +226,7 @@ std::shared_ptr<const Material<D>> make_material(MaterialDescription description
   const double unloaded_force = unloaded_force_scale(*material);
   const double least_force = material->law.bonds() ? unloaded_force : 0;
   const bool may_be_free = material->solver.contacts_lost == ContactsLost::stress_free;
-  // Every method starts from one equilibrium at F = I: it is found by the direct method, for servo
-  // and published relaxation too.
+  // Every method, servo and published relaxation too, starts from the direct equilibrium.
   constexpr double tightest_needed = 1e-8;
   BoundarySpace<D> direct = material->space;
   direct.options.method = BoundaryMethod::direct;
