@@ -180,8 +180,8 @@ GRAINLAW_API grainlaw_report grainlaw_report_default(void);
  * Recoverable: NOT_CONVERGED, CONTACTS_LOST, INVERTED; STEP_TOO_LARGE (a stretch of more than
  * 30 %); COLLAPSED (a boundary under uniform stress with almost no force left, or with a particle
  * without contact). After any error P and A are untouched, and the committed state keeps its bits.
- * An F that is refused or fails also drops the trial, so that a host that ignores the failure cannot
- * commit an earlier one.
+ * An F that is refused or fails also drops the trial, so that a host that ignores the failure
+ * cannot commit an earlier one.
  *
  * Contacts lost. With solver.contacts_lost = "stress_free" an F at which no contact bears is not an
  * error. P and A are zero, tangent_exact is 1, contacts 0, the message says so, and the state may

@@ -54,7 +54,6 @@ double cell_size(const Packing& packing) {
   return determinant<D>(packing.cell.data());
 }
 
-// Consolidation of loose particles.
 template <int D>
 class Consolidation {
  public:

@@ -29,7 +29,6 @@ inline std::string vtk_file(std::string_view type, std::string_view counts,
       type, counts, content);
 }
 
-// Counts of a PolyData piece.
 inline std::string vtk_counts(std::size_t points, std::size_t vertices, std::size_t lines) {
   return fmt::format(
       "NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "

@@ -36,7 +36,7 @@ class AnyState {
   // that no packing can follow. Found components do not count.
   void check_deformation(const double* F) const;
 
-  // State::evaluate().
+  // Evaluates as State::evaluate() does.
   grainlaw_status evaluate(const double* F, TangentKind kind, double* P, double* A,
                            grainlaw_report& report);
   void set_time_step(double step);

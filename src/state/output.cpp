@@ -11,7 +11,7 @@ namespace grainlaw::core {
 
 namespace {
 
-// Numbers padded with zeros to three components.
+// Returns numbers padded with zeros to three components.
 template <std::size_t size, class Numbers>
 auto filled(const Numbers& numbers) {
   std::array<typename Numbers::value_type, size> result{};

@@ -83,7 +83,7 @@ template <int D>
 TensorOf<D> deformation_gradient(const grainlaw_state* state);
 inline Tensor deformation_of(const grainlaw_state* state) { return deformation_gradient<2>(state); }
 
-// sigma = P F^T / det F [Pa].
+// Cauchy stress sigma = P F^T / det F, @formula stress [Pa].
 template <int D>
 TensorOf<D> cauchy_stress_of(const TensorOf<D>& stress, const TensorOf<D>& deformation) {
   return stress * deformation.transpose() / deformation.determinant();

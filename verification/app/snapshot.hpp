@@ -64,7 +64,6 @@ double normalised_overlap(const Snapshot& snapshot);
 // Mean over all particles, boundary included, of |rotation| (eq. 41) [rad].
 double mean_rotation_magnitude(const Snapshot& snapshot);
 
-// One panel of a row of pictures.
 struct SnapshotPanel {
   std::string title;
   Snapshot snapshot;

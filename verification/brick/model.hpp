@@ -60,7 +60,6 @@ struct BrickSystem {
   double scale = 1;                       // |internal force| [N]
 };
 
-// Integration points of a model.
 class BrickField {
  public:
   BrickField(const BrickModel& model, const Material& material, int threads);

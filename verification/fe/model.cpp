@@ -120,7 +120,7 @@ void PointField::add_stiffness(Triplets& triplets) const {
     const NodeRows& area = mean_volume_[p].by_node();
     const Tensor follow =
         MeanVolume::follow(tangent_[p], mesh_deformation_[p], mean_volume_[p].on_mesh(stress_[p]));
-    // Adds dN_a/dX_J A_iJkL dN_b/dX_L for every pair of nodes a, b and components i, k.
+    // Adds K of @formula host for every pair of nodes a, b and components i, k.
     for (int a = 0; a < gradient.rows(); ++a)
       for (int b = 0; b < gradient.rows(); ++b)
         for (int i = 0; i < 2; ++i)

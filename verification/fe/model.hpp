@@ -46,7 +46,7 @@ class PointField {
   // Largest change of F (Frobenius norm) at a point due to this change of displacement.
   [[nodiscard]] double largest_change(const Eigen::VectorXd& displacement) const;
 
-  // Nodal forces of the last evaluation's stresses [N/m], and their derivative.
+  // Nodal forces of the last evaluation's stresses, @formula host [N/m], and their derivative.
   [[nodiscard]] Eigen::VectorXd internal_force() const;
   void add_stiffness(Triplets& triplets) const;
 

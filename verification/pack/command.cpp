@@ -37,7 +37,6 @@ struct PackArguments {
   bool vtk = false;
 };
 
-// One generated packing.
 struct Made {
   State state;
   PackingStart start;
