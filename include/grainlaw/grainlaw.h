@@ -1,27 +1,26 @@
-/* grainlaw: a constitutive law made of grains. The C ABI; the only header a host needs (it includes
- * points.h, states by the set, and particles.h, what a state is made of).
+/* grainlaw: a constitutive law made of grains. This is the C ABI and the only header a host needs.
+ * It includes points.h (sets of states) and particles.h (particles and contacts).
  *
- * A finite element code owns one grainlaw_state per integration point, hands it a total deformation
- * gradient F, and gets the first Piola-Kirchhoff stress P and, when asked, the tangent dP/dF of a
- * granular representative volume (RVE) in equilibrium.
+ * A finite element code owns one grainlaw_state per integration point. It passes a total
+ * deformation gradient F, and receives the first Piola-Kirchhoff stress P and, on demand, the
+ * tangent dP/dF. They belong to a granular representative volume (RVE) in equilibrium.
  *
  * Conventions, for every function below:
  *   - dim is grainlaw_material_dimension: 2 (discs) or 3 (spheres). Tensors are row-major:
  *     F[i*dim+J] = dx_i/dX_J.
  *   - SI units throughout. Stress in Pa, tension positive. A 2D packing has an out-of-plane
  *     thickness; it is plane strain with F33 = 1 and P33 = 0.
- *   - Every function that can fail returns a grainlaw_status. 0: done. > 0: recoverable, the state
- *     is as it was committed, retry with a smaller step. < 0: caller error or internal fault, and
- *     what is committed has not changed.
+ *   - Every function that can fail returns a grainlaw_status. 0: done. > 0: recoverable, the
+ *     committed state is unchanged, retry with a smaller step. < 0: caller error or internal fault,
+ *     the committed state is unchanged.
  *   - No exception, exit, abort or print crosses this boundary, and no signal is raised.
- *   - A handle belongs to the copy of the library that made it: another one loaded into the same
- *     process refuses it (BAD_HANDLE).
- *   - A thread that is cancelled within a call (pthread_cancel, deferred) comes to its end first.
- *   - After OUT_OF_MEMORY the same call may be made again, and has the answer it would have had.
- *   - A handle may be used by one thread at a time; different states, also of one material, may be
- *     used by different threads at once. Results do not depend on the number of threads, bit for
- *     bit.
- */
+ *   - A handle belongs to the copy of the library that made it. Another copy in the process refuses
+ *     it (BAD_HANDLE).
+ *   - A thread that is cancelled during a call (pthread_cancel, deferred) completes the call first.
+ *   - After OUT_OF_MEMORY the call may be repeated, and its answer is unaffected.
+ *   - A handle may be used by one thread at a time. Different states, also of one material, may be
+ *     used by different threads simultaneously. Results do not depend on the number of threads, bit
+ *     for bit. */
 #ifndef GRAINLAW_GRAINLAW_H
 #define GRAINLAW_GRAINLAW_H
 
@@ -41,7 +40,7 @@ extern "C" {
 #define GRAINLAW_VERSION_MINOR 1
 #define GRAINLAW_VERSION_PATCH 0
 
-/* The one list of status codes and their texts: X(name, value, text). */
+/* Status codes and their texts: X(name, value, text). */
 #define GRAINLAW_STATUS_LIST(X)                                                                    \
   X(GRAINLAW_OK, 0, "done")                                                                        \
   X(GRAINLAW_NOT_CONVERGED, 1, "no equilibrium was found for this step; retry with a smaller one") \
@@ -65,7 +64,7 @@ extern "C" {
   X(GRAINLAW_OUT_OF_MEMORY, -14, "out of memory")                                                  \
   X(GRAINLAW_INTERNAL_FAULT, -15, "internal fault; please report it")
 
-/* A host may pass any int, also one that names nothing. */
+/* An enum with int as underlying type: a host may pass any int, known or not. */
 #ifdef __cplusplus
 #define GRAINLAW_ENUM(name) enum name : int
 #else
@@ -78,37 +77,37 @@ typedef GRAINLAW_ENUM(grainlaw_status){
 #undef GRAINLAW_X
 } grainlaw_status;
 
-/* English text of a status; never null, also for a value that is not in the list. */
+/* English text of a status; never null, also for an unknown value. */
 GRAINLAW_API const char* grainlaw_status_text(grainlaw_status);
 
 /* Version of the linked library, "major.minor.patch". */
 GRAINLAW_API const char* grainlaw_version(void);
 
-/* Immutable after creation; shared by any number of states and threads. */
+/* Immutable after creation; any number of states and threads share it. */
 typedef struct grainlaw_material grainlaw_material;
 /* One integration point: a committed state and a trial state. */
 typedef struct grainlaw_state grainlaw_state;
 
 /* ---- material ------------------------------------------------------------------------------- */
 
-/* Read a material file (TOML; keys in docs/material.md) and the packing it names, bring the
- * packing to equilibrium at F = I, and return a new material in *out. Paths in the file are
- * relative to it. message (may be NULL) gets a zero-terminated text that names file, line, key and
- * expectation when something is wrong, truncated to message_size bytes; it is set to "" on success.
- * Errors: NULL_POINTER, FILE_ERROR, BAD_MATERIAL, BAD_PACKING, NOT_CONVERGED (no equilibrium at
- * F = I, or under the prescribed stresses), CONTACTS_LOST (unless solver.contacts_lost =
- * "stress_free"), COLLAPSED, OUT_OF_MEMORY. On any error *out is NULL. */
+/* Read a material file (TOML; keys in docs/material.md) and the packing it names, and bring the
+ * packing to equilibrium at F = I. Returns a new material in *out. Paths in the file are relative
+ * to it. message (may be NULL) receives a zero-terminated text, truncated to message_size bytes. It
+ * names file, line, key and expectation when something is wrong, and is "" on success. Errors:
+ * NULL_POINTER, FILE_ERROR, BAD_MATERIAL, BAD_PACKING, NOT_CONVERGED (no equilibrium at F = I, or
+ * under the prescribed stresses), CONTACTS_LOST (unless solver.contacts_lost = "stress_free"),
+ * COLLAPSED, OUT_OF_MEMORY. On any error *out is NULL. */
 GRAINLAW_API grainlaw_status grainlaw_material_load(const char* path, grainlaw_material** out,
                                                     char* message, size_t message_size);
 
-/* The same from text in memory; base_directory (NULL: the working directory) is where relative
- * paths start, and stands for the file's name in messages. */
+/* grainlaw_material_load from text in memory. base_directory (NULL: the working directory) is the
+ * base of relative paths, and replaces the file's name in messages. */
 GRAINLAW_API grainlaw_status grainlaw_material_parse(const char* toml_text,
                                                      const char* base_directory,
                                                      grainlaw_material** out, char* message,
                                                      size_t message_size);
 
-/* 2 or 3; 0 for a null or dead handle. */
+/* Dimension 2 or 3; 0 for a null or dead handle. */
 GRAINLAW_API int grainlaw_material_dimension(const grainlaw_material*);
 
 /* Release the handle (NULL is allowed). States made from it stay valid. */
@@ -116,11 +115,11 @@ GRAINLAW_API void grainlaw_material_destroy(grainlaw_material*);
 
 /* ---- state ---------------------------------------------------------------------------------- */
 
-/* A new state at F = I (at the F found for it where stresses are prescribed), in equilibrium, with
- * no trial. Errors: NULL_POINTER, BAD_HANDLE, OUT_OF_MEMORY. */
+/* A new state at F = I, or at the F found for prescribed stresses, in equilibrium and without a
+ * trial. Errors: NULL_POINTER, BAD_HANDLE, OUT_OF_MEMORY. */
 GRAINLAW_API grainlaw_status grainlaw_state_create(const grainlaw_material*, grainlaw_state** out);
 
-/* An independent copy, committed and trial. Errors as for create. */
+/* An independent copy, committed and trial. Errors: those of grainlaw_state_create. */
 GRAINLAW_API grainlaw_status grainlaw_state_clone(const grainlaw_state*, grainlaw_state** out);
 
 /* Release the handle (NULL is allowed). */
@@ -128,87 +127,94 @@ GRAINLAW_API void grainlaw_state_destroy(grainlaw_state*);
 
 /* ---- evaluation ----------------------------------------------------------------------------- */
 
-/* Bits of `want`. Without one no tangent is computed. At most one bit may be set. */
+/* Bits of `want`. At most one may be set; 0: no tangent. */
 enum {
-  GRAINLAW_WANT_TANGENT_EXACT = 1,    /* condensed: derivative of P along the branch of solutions */
+  GRAINLAW_WANT_TANGENT_EXACT = 1,    /* derivative of P along the branch of equilibria */
   GRAINLAW_WANT_TANGENT_ELASTIC = 2,  /* affine estimate, Guo & Zhao (2014) eq. 9, as dP/dF: of all
-                                         contacts that overlap, and turning P with rotations */
+                                         contacts that overlap, with the rotation of P */
   GRAINLAW_WANT_TANGENT_PERTURBED = 4 /* forward differences, Guo & Zhao (2014) eq. 8 */
 };
 
-/* What an evaluation did. Starts with its own size; grows only at its end. */
+/* Report of an evaluation. It starts with its own size and grows only at its end. */
 typedef struct grainlaw_report {
-  size_t size;            /* bytes of this struct as the caller knows it */
+  size_t size;            /* bytes of this struct in the caller's header */
   double residual;        /* max(|fx|, |fy|, |M|/R) over particles / mean contact normal force, or
                             solver.force_floor where that is larger [-] */
-  double step_ratio;      /* suggested factor on the step, 1 after success; 0: the step is not what
-                            is wrong (status < 0) [-] */
+  double step_ratio;      /* suggested factor on the step, 1 after success; 0: a smaller step does
+                             not help (status < 0) [-] */
   long relaxation_steps;  /* pseudo-time steps [-] */
   long servo_corrections; /* outer corrections of the servo method, 0 for direct [-] */
   int factorisations;     /* sparse factorisations, tangent included [-] */
-  int subincrements;      /* parts that led here, each from the equilibrium before it; 0: the
+  int subincrements;      /* parts of the increment, each from the equilibrium before it; 0: the
                              increment was not begun [-] */
   int contacts;           /* touching contacts [-] */
   int sliding;            /* contacts at the friction limit [-] */
   int status_changes;     /* contacts that opened, closed, stuck, slid or lost their bond [-] */
-  int tangent_exact;      /* 1: the returned tangent is the derivative of the returned P */
-  int history_advanced;   /* 1: fallback that advances the friction history was used; approximate */
+  int tangent_exact;      /* 1: the tangent is the derivative of the returned P */
+  int history_advanced;   /* 1: a fallback advanced the friction history; approximate */
   char message[256];      /* one line of text, "" after plain success */
   int broken_bonds;       /* bonds that broke in this evaluation [-] */
   double unbalanced;      /* with solver.viscous_time: largest drag on a particle / mean contact
-                             normal force, 0 at an equilibrium [-] */
+                             normal force, 0 at equilibrium [-] */
   double viscous_work;    /* with solver.viscous_time: work done on the drag [J] */
 } grainlaw_report;
 
-/* A report with its size set and everything else zero. */
+/* A report with its size set and zeros elsewhere. */
 GRAINLAW_API grainlaw_report grainlaw_report_default(void);
 
-/* Deform the committed RVE to the total deformation gradient F, find its equilibrium, and return
+/* Deform the committed RVE to the total deformation gradient F, find its equilibrium, and return:
  *   P[dim*dim]  first Piola-Kirchhoff stress, Pa, P[i*dim+J], tension positive (may be NULL);
  *   A[dim^4]    tangent dP_iJ/dF_kL, Pa, A[((i*dim+J)*dim+k)*dim+L] (may be NULL; needs a bit of
- * want). The result becomes the trial state. With solver.start = "committed" it is a function of
- * (committed state, F) alone: same bits however often it is called. With solver.loose_tolerance > 0
- * an increment whose friction flutters may end at that residual instead of solver.tolerance: the
- * report's residual tells. Only an equilibrium has an exact tangent: A is then that of the
- * contacts as they stick, slide or are open there, or the elastic one where the history was
- * advanced or the former would be the larger; tangent_exact is 0, and the message tells which.
- * Of spheres it is 0 too where one with two contacts rests against one that nothing holds.
- * Errors: NULL_POINTER, BAD_HANDLE, NOT_FINITE, BAD_REPORT, BAD_ARGUMENT, OUT_OF_MEMORY;
- * recoverable: NOT_CONVERGED, CONTACTS_LOST, INVERTED, STEP_TOO_LARGE (a stretch of more than 30
- * %), COLLAPSED (a boundary under uniform stress: next to no force is left, or a particle of it
- * has no contact). On any of them P and A are untouched and the committed state keeps its bits.
- * With solver.contacts_lost = "stress_free" F at which no contact carries is no error: P and A are
- * zero, tangent_exact is 1, contacts 0, the message says so, and the state may be committed;
- * particles go where F carries them, and bear when they meet again. At F where they just touch A
- * is one of two derivatives, that of the free side. Forces that fade without settling count for
- * nothing from solver.tolerance of the mean one at F = I on (1e-6 of it at most); history_advanced
- * is 1 where that was how particles moved apart. Where stress components are prescribed (boundary
- * "mixed") the components of F that belong to them are ignored and found instead (measure
- * DEFORMATION_GRADIENT), P returns the prescribed ones to the tolerance, and A has zero rows and
- * columns there.
- * A rotation turns the answer, P(Q F) = Q P(F), unless the boundary is bound to the axes of space as
- * a test rig is: sides with different rules in x and y, rigid rows, prescribed stresses. There the
- * packing, the rules and the stresses have to turn too: then P(Q F Q^T) = Q P(F) Q^T.
- * F that is refused or leads nowhere also drops the trial, so that an ignored failure cannot commit
- * an older one. */
+ *               want).
+ * The result becomes the trial state. With solver.start = "committed" it depends on (committed
+ * state, F) alone: same bits in every call.
+ *
+ * Tangent. Only an equilibrium has an exact tangent. With solver.loose_tolerance > 0 an increment
+ * with alternating friction may end at that residual instead of solver.tolerance: see the report's
+ * residual. A is then the tangent of the contacts as they stick, slide or are open. It is the
+ * elastic tangent where the history was advanced, or where the former would be larger.
+ * tangent_exact is then 0, and the message tells the kind. tangent_exact is also 0 for a sphere
+ * with two contacts that rests against one without support.
+ *
+ * Errors: NULL_POINTER, BAD_HANDLE, NOT_FINITE, BAD_REPORT, BAD_ARGUMENT, OUT_OF_MEMORY.
+ * Recoverable: NOT_CONVERGED, CONTACTS_LOST, INVERTED; STEP_TOO_LARGE (a stretch of more than
+ * 30 %); COLLAPSED (a boundary under uniform stress with almost no force left, or with a particle
+ * without contact). After any error P and A are untouched, and the committed state keeps its bits.
+ * An F that is refused or fails also drops the trial, so that a host that ignores the failure
+ * cannot commit an earlier one.
+ *
+ * Contacts lost. With solver.contacts_lost = "stress_free" an F at which no contact bears is not an
+ * error. P and A are zero, tangent_exact is 1, contacts 0, the message says so, and the state may
+ * be committed. Particles follow F, and bear again when they meet. At an F where they just touch A
+ * is one of two derivatives, that of the free side. Forces that fade without an equilibrium count
+ * as zero below solver.tolerance times the mean force at F = I (1e-6 of it at most).
+ * history_advanced is 1 where particles separated in that way.
+ *
+ * Prescribed stresses (boundary "mixed"). The corresponding components of F are ignored and found
+ * instead (measure DEFORMATION_GRADIENT). P returns the prescribed ones to the tolerance, and A has
+ * zero rows and columns there.
+ *
+ * Rotations. P(Q F) = Q P(F), unless the boundary is bound to the axes of space like a test rig.
+ * Such boundaries are sides with different rules in x and y, rigid rows, and prescribed stresses.
+ * When packing, rules and stresses rotate too, P(Q F Q^T) = Q P(F) Q^T. */
 GRAINLAW_API grainlaw_status grainlaw_evaluate(grainlaw_state*, const double* F, unsigned want,
                                                double* P, double* A, grainlaw_report* report);
 
-/* n evaluations spread over `threads` threads, the caller's among them (<= 0: OMP_NUM_THREADS of the
- * environment where it is set, else as many as there are processors for this process), the most
- * expensive points first. The other threads are the library's own and stay for the next batch;
- * where some cannot be started, as under a limit, fewer do it all, the caller alone at worst. A
- * child of fork starts its own. F[n*dim*dim], P[n*dim*dim] or NULL, A[n*dim^4] or NULL, status[n],
- * reports[n] or NULL. All states must be distinct and of one dimension. Returns OK when all points
- * are OK, else the status of the first failed point, fatal before recoverable. */
+/* n evaluations in `threads` threads including the caller's, the most expensive points first.
+ * threads <= 0: OMP_NUM_THREADS of the environment if set, else the number of processors of this
+ * process. The library's own threads persist for the next batch. Where some cannot be started, e.g.
+ * under a limit, fewer do all the work, at worst the caller alone. A child of fork starts its own.
+ * F[n*dim*dim], P[n*dim*dim] or NULL, A[n*dim^4] or NULL, status[n], reports[n] or NULL. All states
+ * must be distinct and of one dimension. Returns OK when all points are OK, else the status of the
+ * first failed point, fatal before recoverable. */
 GRAINLAW_API grainlaw_status grainlaw_evaluate_batch(size_t n, grainlaw_state* const* states,
                                                      const double* F, unsigned want, double* P,
                                                      double* A, grainlaw_status* status,
                                                      grainlaw_report* reports, int threads);
 
-/* The time that the increments from now on take, in the host's unit, until another is given; copies of
- * the state take it over, bytes do not. Only solver.viscous_increment > 0 asks for it. Errors:
- * NULL_POINTER, BAD_HANDLE, BAD_ARGUMENT (not finite, or not above 0). */
+/* Set the time of the following increments, in the host's unit. Copies of the state keep it, bytes
+ * do not. Only solver.viscous_increment > 0 needs it. Errors: NULL_POINTER, BAD_HANDLE,
+ * BAD_ARGUMENT (not finite, or not above 0). */
 GRAINLAW_API grainlaw_status grainlaw_state_set_time_step(grainlaw_state*, double time_step);
 
 /* Make the trial the committed state. Errors: NULL_POINTER, BAD_HANDLE, NO_TRIAL. */
@@ -219,27 +225,27 @@ GRAINLAW_API grainlaw_status grainlaw_revert(grainlaw_state*);
 
 /* ---- save and load -------------------------------------------------------------------------- */
 
-/* Write the committed state to bytes. bytes NULL: set *size to the need. Otherwise *size is the
- * capacity on entry, the length on return. Errors: NULL_POINTER, BAD_HANDLE, BUFFER_TOO_SMALL. */
+/* Write the committed state to bytes. bytes NULL: set *size to the required size. Otherwise *size
+ * is the capacity on entry, the length on return. Errors: NULL_POINTER, BAD_HANDLE,
+ * BUFFER_TOO_SMALL. */
 GRAINLAW_API grainlaw_status grainlaw_state_save(const grainlaw_state*, void* bytes, size_t* size);
 
-/* Replace the committed state by saved bytes and drop the trial. Versioned, checksummed; refuses
- * anything damaged, of another version or of another material, and then changes nothing. Prescribed
- * stresses are a load: a state goes on under a material that differs in them alone.
+/* Replace the committed state by saved bytes and drop the trial. Bytes have a version and a
+ * checksum. Damaged bytes, and those of another version or material, are refused, and nothing
+ * changes. Prescribed stresses are a load: a material that differs in them alone is accepted.
  * Errors: NULL_POINTER, BAD_HANDLE, BAD_BYTES, WRONG_VERSION, WRONG_MATERIAL, OUT_OF_MEMORY. */
 GRAINLAW_API grainlaw_status grainlaw_state_load(grainlaw_state*, const void* bytes, size_t size);
 
 /* ---- measures and output -------------------------------------------------------------------- */
 
-/* Measures of the trial state, or of the committed one when there is no trial: X(name, value,
- * count, text); a count of -2 stands for dim*dim, -1 for the number of rotation components (1 in
- * 2D).
+/* Measures of the trial state, or of the committed one without a trial: X(name, value, count,
+ * text). A count of -2 means dim*dim, -1 the number of rotation components (1 in 2D).
  * ANISOTROPY is infinite when all contacts are parallel, and 0 without any.
- * DISSIPATED_ENERGY: what sliding and rolling contacts and springs that unload give up from one
- * committed state to the next, and all that the contacts lose at the F where bonds break. What is
- * lost when the packing snaps over between two equilibria without sliding is not in it (with
- * friction 0 it stays 0); after an increment with report.history_advanced = 1 it also counts the
- * sliding to and fro of the relaxation. */
+ * DISSIPATED_ENERGY sums the losses from one committed state to the next. These are losses of
+ * sliding and rolling contacts and of springs that unload, and all losses of contacts at the F
+ * where bonds break. A packing that snaps between two equilibria without sliding loses energy that
+ * is not included (with friction 0 the measure stays 0). After an increment with
+ * report.history_advanced = 1 it also includes alternating sliding of the relaxation. */
 #define GRAINLAW_MEASURE_LIST(X)                                                                  \
   X(GRAINLAW_CAUCHY_STRESS, 0, -2, "Cauchy stress P F^T / det F [Pa], tension positive")          \
   X(GRAINLAW_VOLUME, 1, 1, "current volume [m3]")                                                 \
@@ -266,25 +272,25 @@ typedef GRAINLAW_ENUM(grainlaw_measure){
 #undef GRAINLAW_X
 } grainlaw_measure;
 
-/* value NULL: set *count to the number of components. Otherwise *count is the capacity on entry,
- * the number written on return. Errors: NULL_POINTER, BAD_HANDLE, BAD_ARGUMENT (unknown measure),
- * BUFFER_TOO_SMALL. */
+/* Compute a measure. value NULL: set *count to the number of components. Otherwise *count is the
+ * capacity on entry, the number written on return. Errors: NULL_POINTER, BAD_HANDLE, BAD_ARGUMENT
+ * (unknown measure), BUFFER_TOO_SMALL. */
 GRAINLAW_API grainlaw_status grainlaw_state_measure(const grainlaw_state*, grainlaw_measure what,
                                                     double* value, size_t* count);
 
-/* Particles (radius, rotation) and force chains (normal and tangential force, moment, bonded or not)
- * of the trial state, or of the committed one, as one VTK PolyData file (.vtp) for ParaView. A file
- * of that name is replaced when the new one is whole, and stays when it cannot be written. Errors:
- * NULL_POINTER, BAD_HANDLE, FILE_ERROR, OUT_OF_MEMORY. */
+/* Write particles (radius, rotation) and force chains (normal and tangential force, moment, bonded)
+ * as one VTK PolyData file (.vtp) for ParaView. They are those of the trial state, or of the
+ * committed one without a trial. An existing file is replaced once the new one is complete, and
+ * stays when writing fails. Errors: NULL_POINTER, BAD_HANDLE, FILE_ERROR, OUT_OF_MEMORY. */
 GRAINLAW_API grainlaw_status grainlaw_state_write_vtk(const grainlaw_state*, const char* path);
 
-/* Write the same state as a packing: prefix_particles.csv, prefix_contacts.csv (forces, moments and
- * bonds included) and prefix_cell.csv, which a material file with the same contacts and boundary
- * reads back to the same equilibrium: its P at F = I is P F^T / det F of here. A frame that is
- * deformed also gets reference_x, reference_y and F00 to F11, from where its conditions count. All
- * three are whole and on the disk before the first replaces a file of its name.
- * Errors: NULL_POINTER, BAD_HANDLE, FILE_ERROR, OUT_OF_MEMORY, BAD_PACKING (nothing could start from it, and
- * nothing is written). */
+/* Write the trial state, or the committed one without a trial, as a packing. The files are
+ * prefix_particles.csv, prefix_contacts.csv (with forces, moments and bonds) and prefix_cell.csv. A
+ * material file with the same contacts and boundary reads them back to the same equilibrium: its P
+ * at F = I is the present P F^T / det F. A deformed frame adds reference_x, reference_y and F00 to
+ * F11, the reference of its conditions. All three files are complete and on disk before the first
+ * replaces an existing one. Errors: NULL_POINTER, BAD_HANDLE, FILE_ERROR, OUT_OF_MEMORY,
+ * BAD_PACKING (the packing could not be read back; nothing is written). */
 GRAINLAW_API grainlaw_status grainlaw_state_write_packing(const grainlaw_state*,
                                                           const char* prefix);
 

@@ -1,6 +1,6 @@
 // grainlaw for C++20 hosts: owners of the C handles, spans for arrays, exceptions for faults.
-// Header only; it calls nothing but grainlaw.h, whose conventions (row-major, SI, tension positive)
-// hold here too.
+// Header only; it calls grainlaw.h alone, whose conventions (row-major, SI, tension positive) hold
+// here too.
 #ifndef GRAINLAW_GRAINLAW_HPP
 #define GRAINLAW_GRAINLAW_HPP
 
@@ -17,7 +17,7 @@
 
 namespace grainlaw {
 
-// A status < 0, or a material that could not be made.
+// A status < 0, or a material that could not be created.
 class StatusError : public std::runtime_error {
  public:
   StatusError(grainlaw_status status, const std::string& message)
@@ -36,7 +36,7 @@ inline void check(grainlaw_status status, const std::string& message = {}) {
 
 class Material {
  public:
-  // As grainlaw_material_load and _parse. Throw StatusError with the library's message.
+  // Call grainlaw_material_load or _parse. Throw StatusError with the library's message.
   static Material load(const std::string& path) {
     return create([&](grainlaw_material** out, char* message, std::size_t size) {
       return grainlaw_material_load(path.c_str(), out, message, size);
@@ -71,7 +71,7 @@ class Material {
   std::unique_ptr<grainlaw_material, Destroy> handle_;
 };
 
-// What an evaluation came to. A recoverable failure is an answer, not a fault: retry with a step
+// Result of an evaluation. A recoverable failure is an answer, not a fault: retry with a step
 // smaller by report.step_ratio.
 struct Evaluation {
   grainlaw_status status = GRAINLAW_OK;
@@ -100,8 +100,8 @@ class State {
   }
   ~State() = default;
 
-  // F[dim*dim], P[dim*dim] or empty, A[dim^4] or empty; want is none or one of GRAINLAW_WANT_*.
-  // Throws StatusError for a status < 0 and for spans of another size.
+  // Evaluate F[dim*dim]; P[dim*dim] or empty, A[dim^4] or empty; want is 0 or one of
+  // GRAINLAW_WANT_*. Throws StatusError for a status < 0 and for spans of another size.
   [[nodiscard]] Evaluation evaluate(std::span<const double> F, std::span<double> P,
                                     unsigned want = 0, std::span<double> A = {}) {
     const auto square = static_cast<std::size_t>(dimension_ * dimension_);
@@ -119,7 +119,7 @@ class State {
   void commit() { check(grainlaw_commit(get())); }
   void revert() { check(grainlaw_revert(get())); }
 
-  // The committed state as bytes, and back.
+  // Save the committed state to bytes, or load it. Throw StatusError.
   [[nodiscard]] std::vector<std::byte> save() const {
     std::size_t size = 0;
     check(grainlaw_state_save(get(), nullptr, &size));
@@ -140,7 +140,7 @@ class State {
     return value;
   }
 
-  // What it is made of, of the trial or, where there is none, of the committed state.
+  // Particles and contacts of the trial, or of the committed state without a trial.
   [[nodiscard]] std::vector<grainlaw_particle> particles() const {
     return list<grainlaw_particle>(grainlaw_state_particles);
   }
@@ -155,7 +155,7 @@ class State {
     check(grainlaw_state_write_packing(get(), prefix.c_str()));
   }
 
-  // For the C functions, e.g. grainlaw_evaluate_batch.
+  // Handle for C functions, e.g. grainlaw_evaluate_batch.
   [[nodiscard]] grainlaw_state* get() const { return handle_.get(); }
 
  private:
@@ -175,13 +175,13 @@ class State {
   int dimension_;
 };
 
-// What an evaluation of a set came to; a recoverable failure is an answer here too.
+// Result of an evaluation of a set. A recoverable failure is an answer.
 struct PointsEvaluation {
   grainlaw_status status = GRAINLAW_OK;  // of the first failed point
   grainlaw_summary summary = grainlaw_summary_default();
   explicit operator bool() const { return status == GRAINLAW_OK; }
 
-  // "point 3: why", "" when none failed.
+  // "point 3: reason"; "" when none failed.
   [[nodiscard]] std::string message() const {
     if (summary.failed == 0) return summary.message;
     return "point " + std::to_string(summary.first_failed) + ": " + summary.message;
@@ -212,9 +212,9 @@ class Points {
   [[nodiscard]] std::size_t size() const { return grainlaw_points_size(get()); }
   [[nodiscard]] int dimension() const { return dimension_; }
 
-  // F[n*dim*dim], P[n*dim*dim], A[n*dim^4], status[n], reports[n] of grainlaw_report_default; all but
-  // F may be empty. threads <= 0: as many as the library takes. Throws StatusError, whose text names
-  // the point, for a status < 0, and for spans of another size.
+  // Evaluate F[n*dim*dim]; P[n*dim*dim], A[n*dim^4], status[n], reports[n] of
+  // grainlaw_report_default may be empty. threads <= 0: the library's default. Throws StatusError,
+  // whose text names the point, for a status < 0, and for spans of another size.
   [[nodiscard]] PointsEvaluation evaluate(std::span<const double> F, std::span<double> P,
                                           unsigned want = 0, std::span<double> A = {},
                                           int threads = 0, std::span<grainlaw_status> status = {},
@@ -236,12 +236,12 @@ class Points {
     return result;
   }
 
-  // All points, or none of them.
+  // Act on all points; commit fails for all where one has no trial.
   void set_time_step(double step) { check(grainlaw_points_set_time_step(get(), step)); }
   void commit() { check(grainlaw_points_commit(get())); }
   void revert() { check(grainlaw_points_revert(get())); }
 
-  // The committed states as bytes, and back: all of them, or none.
+  // Save all committed states to bytes, or load all or none. Throw StatusError.
   [[nodiscard]] std::vector<std::byte> save() const {
     std::size_t size = 0;
     check(grainlaw_points_save(get(), nullptr, &size));
@@ -256,7 +256,7 @@ class Points {
     check(status, message.data());
   }
 
-  // All components of a measure, point by point.
+  // All components of a measure, by points.
   [[nodiscard]] std::vector<double> measure(grainlaw_measure what) const {
     std::size_t count = 0;
     check(grainlaw_points_measure(get(), what, nullptr, &count));
@@ -265,8 +265,8 @@ class Points {
     return values;
   }
 
-  // For the C functions that read a state, e.g. grainlaw_state_write_vtk. Lives as long as the set.
-  // Throws StatusError for a number that is none.
+  // State for C functions that read one, e.g. grainlaw_state_write_vtk; lives as long as the set.
+  // Throws StatusError for a number outside the set.
   [[nodiscard]] const grainlaw_state* state(std::size_t point) const {
     const grainlaw_state* const found = grainlaw_points_state(get(), point);
     if (found == nullptr)

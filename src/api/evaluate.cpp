@@ -1,4 +1,4 @@
-// Evaluation of one state and of a batch, and the fate of the trial.
+// Evaluation of one state and of a batch; commit and revert.
 #include "api/evaluate_point.hpp"
 #include "api/evaluate_points.hpp"
 #include "api/guard.hpp"

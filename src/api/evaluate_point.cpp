@@ -5,7 +5,7 @@
 namespace grainlaw::core::api {
 namespace {
 
-// What a factorisation costs in relaxation steps: some tens of them with hundreds of particles.
+// Cost of a factorisation in relaxation steps, for some hundreds of particles.
 constexpr long steps_per_factorisation = 50;
 
 TangentKind tangent_kind(unsigned want) {

@@ -1,4 +1,4 @@
-// One checked evaluation, shared by the calls for one point and for many.
+// One checked evaluation, for calls with one point or many.
 #pragma once
 
 #include "points/points.hpp"
@@ -7,11 +7,11 @@
 
 namespace grainlaw::core::api {
 
-// None or one known bit of GRAINLAW_WANT_*.
+// Whether `want` is zero or one known bit of GRAINLAW_WANT_*.
 [[nodiscard]] bool known_want(unsigned want);
 
-// want is known; F, P, A as in grainlaw_evaluate. Fills the report, whatever is in it. Never throws.
-// Unless it returns OK the state has no trial, so that a host that overlooks the status cannot commit
+// Evaluates a point; `want` is known, F, P, A as in grainlaw_evaluate. Overwrites the report; never
+// throws. Any status but OK leaves no trial, so that a host that ignores the status cannot commit
 // an earlier one.
 grainlaw_status evaluate_point(IntegrationPoint& point, const double* F, unsigned want, double* P,
                                double* A, grainlaw_report& report) noexcept;

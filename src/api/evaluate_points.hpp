@@ -1,4 +1,4 @@
-// Evaluation of many points out of the caller's arrays, shared by a batch and a set.
+// Evaluation of many points from the caller's arrays, for batches and sets.
 #pragma once
 
 #include "api/report.hpp"
@@ -11,7 +11,7 @@
 
 namespace grainlaw::core::api {
 
-// As in grainlaw_points_evaluate: all but F may be null.
+// Arrays of grainlaw_points_evaluate; all but F may be null.
 struct PointArrays {
   const double* F;
   unsigned want;
@@ -21,10 +21,11 @@ struct PointArrays {
   Reports reports;
 };
 
-// OK, NULL_POINTER, BAD_REPORT or BAD_ARGUMENT, for n points.
+// Returns OK, NULL_POINTER, BAD_REPORT or BAD_ARGUMENT, for n points.
 [[nodiscard]] grainlaw_status check(const PointArrays& arrays, std::size_t n);
 
-// The points are of one dimension, the arrays are checked; order is room for as many numbers.
+// Evaluates points of one dimension from checked arrays. `order` is a workspace with one number per
+// point.
 Summary evaluate_points(PointSpan points, std::span<std::size_t> order, const PointArrays& arrays,
                         int threads) noexcept;
 

@@ -1,4 +1,5 @@
-// The edge of the library: no exception, no floating point mode and no cancellation of the host crosses it.
+// Guards of the library's boundary: exceptions, floating point modes and cancellation do not cross
+// it.
 #pragma once
 
 #include <grainlaw/grainlaw.h>
@@ -12,19 +13,19 @@
 
 namespace grainlaw::core::api {
 
-// A caller's buffer for one line of text; may be absent. Text is truncated, and always terminated.
+// The caller's buffer for one line of text, may be absent. Text is truncated and always terminated.
 struct MessageBuffer {
   char* text = nullptr;
   std::size_t size = 0;
   void write(std::string_view message) const noexcept;
 };
 
-// The status of the exception being handled; its text goes to the buffer. Call it in a catch block.
+// Translates the exception being handled into a status, with its text in the buffer. Call it in a
+// catch block.
 grainlaw_status translate_exception(const MessageBuffer& message) noexcept;
 
-// Default rounding, no floating point traps, no flush to zero while this lives: the result is a
-// function of the arguments alone, and a host that traps invalid operations gets no signal from
-// here.
+// Sets default rounding, no floating point traps and no flush to zero during its lifetime. Results
+// then depend on the arguments alone, and a host that traps invalid operations receives no signal.
 class FloatingEnvironment {
  public:
   FloatingEnvironment() noexcept {
@@ -39,8 +40,8 @@ class FloatingEnvironment {
   std::fenv_t host_;
 };
 
-// Defers cancellation of a thread by the host to the end of the call, since unwinding cannot be
-// stopped inside it.
+// Disables cancellation of the thread until the call returns. Cancellation unwinds the stack, which
+// must not cross a C interface.
 class CancellationOff {
  public:
   CancellationOff() noexcept { pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &host_); }

@@ -1,4 +1,4 @@
-// What a C handle points to, and how a dead or foreign one is told.
+// C handles, and detection of dead or foreign ones.
 #pragma once
 
 #include "points/points.hpp"
@@ -13,12 +13,12 @@
 
 namespace grainlaw::core::api {
 
-// Its address tells this copy of the library from others in the process, whose handles may be laid
-// out in another way.
+// An object whose address identifies this copy of the library. Handles of another copy in the
+// process may have another layout.
 inline const char this_copy = 0;
 
-// First word of every handle; the destructor blanks it. A handle that was destroyed, or is of the
-// other kind, is told by it as long as its memory has not been given to something else.
+// First word of every handle, zeroed by the destructor. It detects destroyed handles and handles of
+// another kind, until their memory is used again.
 template <std::uint64_t kind>
 class Magic {
  public:
@@ -59,21 +59,21 @@ struct grainlaw_points {
   }
 
   grainlaw::core::api::Magic<0x7374'6e69'6f70'6c67ULL> magic;
-  std::deque<grainlaw_state> states;  // stay where they are: hosts borrow them
+  std::deque<grainlaw_state> states;  // stable addresses: hosts borrow them
   std::vector<grainlaw::core::IntegrationPoint*> points;
-  std::vector<std::size_t> order;  // room for the next evaluation
+  std::vector<std::size_t> order;  // workspace of evaluations
 };
 
 namespace grainlaw::core::api {
 
-// OK, NULL_POINTER or BAD_HANDLE.
+// Returns OK, NULL_POINTER or BAD_HANDLE.
 template <class Handle>
 grainlaw_status check_handle(const Handle* handle) {
   if (handle == nullptr) return GRAINLAW_NULL_POINTER;
   return handle->magic.alive() ? GRAINLAW_OK : GRAINLAW_BAD_HANDLE;
 }
 
-// The same for what changes a state: one of a set is not for the host to change.
+// check_handle() for calls that change a state; a state of a set is refused.
 inline grainlaw_status check_owned(const grainlaw_state* handle) {
   const grainlaw_status status = check_handle(handle);
   return status == GRAINLAW_OK && handle->of_set ? GRAINLAW_BAD_HANDLE : status;

@@ -1,4 +1,5 @@
-// Particles and contacts of a state, as arrays of callers built against this header or an earlier one.
+// Particles and contacts of a state, as arrays of callers compiled against this header or an
+// earlier one.
 #include "api/guard.hpp"
 #include "api/handle.hpp"
 
@@ -12,13 +13,13 @@ using namespace grainlaw::core;
 
 namespace {
 
-// The fields of the version that brought them; later ones only append.
+// Sizes of the records in the version that introduced them; later versions only append.
 constexpr std::size_t first_particle_size =
     offsetof(grainlaw_particle, contacts) + sizeof(grainlaw_particle::contacts);
 constexpr std::size_t first_contact_size =
     offsetof(grainlaw_contact, bonded) + sizeof(grainlaw_contact::bonded);
 
-// find(state) gives all records.
+// Copies the records that find(state) returns to the caller's array.
 template <class Record, class Find>
 grainlaw_status list(const grainlaw_state* handle, Record* records, std::size_t record_size,
                      std::size_t first_size, std::size_t* count, Find&& find) {

@@ -1,4 +1,4 @@
-// Materials: from a file or from text to a handle.
+// Materials from a file or from text.
 #include "api/guard.hpp"
 #include "api/handle.hpp"
 #include "material/material_file.hpp"
@@ -9,7 +9,7 @@ using namespace grainlaw::core;
 
 namespace {
 
-// describe() returns the MaterialDescription.
+// Creates a handle; describe() returns the MaterialDescription.
 template <class Describe>
 grainlaw_status create(const void* source, grainlaw_material** out, api::MessageBuffer message,
                        Describe&& describe) {

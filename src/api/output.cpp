@@ -1,4 +1,4 @@
-// States as files.
+// Writers of states to files.
 #include "api/guard.hpp"
 #include "api/handle.hpp"
 

@@ -1,4 +1,4 @@
-// Sets of points: all that a host does with its integration points at once.
+// Sets of points.
 #include "points/points.hpp"
 
 #include "api/evaluate_points.hpp"
@@ -22,7 +22,7 @@ using namespace grainlaw::core;
 
 namespace {
 
-// fill(set) adds n points.
+// Creates a set; fill(set) adds its n points.
 template <class Fill>
 grainlaw_status create(grainlaw_points** out, std::size_t n, Fill&& fill) {
   return api::guarded([&] {
@@ -33,7 +33,7 @@ grainlaw_status create(grainlaw_points** out, std::size_t n, Fill&& fill) {
   });
 }
 
-// Of a call that was refused before it came to the points.
+// Summary of a call that was refused before any evaluation.
 Summary refusal(grainlaw_status status) {
   Summary summary;
   summary.status = status;
@@ -63,7 +63,7 @@ grainlaw_status measure_points(PointSpan points, grainlaw_measure what, double* 
   const std::size_t need = each * points.size();
   if (values != nullptr) {
     if (*count < need) return GRAINLAW_BUFFER_TOO_SMALL;
-    std::vector<double> found(need);  // all of them, or none is written
+    std::vector<double> found(need);  // complete before anything is written
     for (std::size_t k = 0; k < points.size(); ++k)
       points[k]->state.measure(what, found.data() + k * each);
     std::copy(found.begin(), found.end(), values);

@@ -1,4 +1,4 @@
-// Reports and summaries of callers built against this header or an earlier one.
+// Reports and summaries of callers compiled against this header or an earlier one.
 #pragma once
 
 #include <grainlaw/grainlaw.h>
@@ -8,8 +8,8 @@
 
 namespace grainlaw::core::api {
 
-// The fields of version 0.1. Later versions only append, so a caller of any version in between is
-// told by its size; a larger size belongs to a newer header than this library knows.
+// Size of the fields of version 0.1. Later versions only append, so that a size identifies every
+// version in between. A larger size belongs to a header newer than this library.
 inline constexpr std::size_t first_report_size =
     offsetof(grainlaw_report, message) + sizeof(grainlaw_report::message);
 
@@ -19,14 +19,14 @@ inline bool known_report_size(std::size_t size) {
 
 inline bool known_summary_size(std::size_t size) { return size == sizeof(grainlaw_summary); }
 
-// The size a caller wrote at the start of its report or summary.
+// Size that the caller wrote at the start of its report or summary.
 inline std::size_t claimed_size(const void* report) {
   std::size_t size;
   std::memcpy(&size, report, sizeof size);
   return size;
 }
 
-// As much of the full report or summary as the caller's struct holds; the caller's size stays.
+// Copies as much of the full struct as the caller's struct holds; the caller's size stays.
 template <class Struct>
 void copy_out(const Struct& full, void* to) {
   constexpr std::size_t after_size = sizeof(full.size);
@@ -40,7 +40,7 @@ class Reports {
   explicit Reports(grainlaw_report* first)
       : first_(first), stride_(first == nullptr ? 0 : padded(claimed_size(first))) {}
 
-  // OK or BAD_REPORT, for n of them: all have to be of one known size.
+  // Returns OK or BAD_REPORT for n reports, which need one known size.
   [[nodiscard]] grainlaw_status check(std::size_t n) const {
     if (first_ == nullptr || n == 0) return GRAINLAW_OK;
     const std::size_t size = claimed_size(first_);

@@ -1,4 +1,4 @@
-// Texts that need no handle.
+// Texts without a handle.
 #include <grainlaw/grainlaw.h>
 
 #define GRAINLAW_STRING(x) #x

@@ -1,5 +1,6 @@
-// A boundary condition as a linear space for the fluctuations: particles share the fluctuation of
-// their node, x_p = F X_p + w_node(p), and the forces on them add up to the node's residual.
+// A boundary condition is a linear space of fluctuations, @formula motion with w_q = w_node(q).
+// Particles that share a node share its fluctuation, and the forces on them add up to the node's
+// residual.
 #pragma once
 
 #include "boundary/options.hpp"
@@ -15,7 +16,7 @@
 
 namespace grainlaw::core {
 
-// Bits of BoundarySpace::fixed: one for each component of translation, then of rotation.
+// Bits of BoundarySpace::fixed: one per component of the translation, then of the rotation.
 constexpr unsigned char fixed_bit(std::size_t component) {
   return static_cast<unsigned char>(1U << component);
 }
@@ -25,43 +26,45 @@ template <int D>
 inline constexpr unsigned char fixed_rotation = fixed_bit(Dimension<D>::unknowns) -
                                                 1 - fixed_translation<D>;
 
-// sum_q w_q A_q = 0 over the boundary, of the fluctuations in one direction (Liu, Bosco & Suiker
-// 2017, eq. 15), as one or two orthonormal rows over the nodes that take part; none where nothing
-// is free. The multiplier of it is the stress: a_q = P A_q (eq. 21).
+// sum_q w_q A_q = 0 over the boundary for the fluctuations in one direction (Liu, Bosco & Suiker
+// 2017, eq. 15). It is stored as one or two orthonormal rows over the free nodes, none where no
+// node is free. Its multiplier is the stress: a_q = P A_q (eq. 21).
 struct AverageConstraint {
   std::vector<std::int32_t> node;
-  std::vector<std::array<double, 2>> row;  // of each of these nodes; second 0 when there is one
+  std::vector<std::array<double, 2>> row;  // per node; the second is 0 when there is one row
   std::size_t rows = 0;
 };
 
-// periodic-cell: one node per particle, nothing fixed. frame-p (Liu, Bosco & Suiker 2017, eqs.
-// 19-20): one node per particle of the periodic packing that was cut, so that opposite edge
-// particles share theirs, and the four corners share one, kept where F has it. frame-d
-// (eq. 17): a node per particle, those of the boundary fixed. frame-t (eqs. 15, 21-22): a node per
-// particle, the boundary's under the average constraint. mixed (section 5): each side by its rules.
+// Nodes and constraints by type (Liu, Bosco & Suiker 2017, section 2.3):
+//   periodic-cell  one node per particle, nothing fixed
+//   frame-p        eqs. 19-20: opposite edge particles share a node; the four corners share one,
+//                  whose fluctuation is 0
+//   frame-d        eq. 17: one node per particle; boundary nodes are fixed
+//   frame-t        eqs. 15, 21-22: one node per particle; the average constraint on the boundary
+//   mixed          section 5: each side by its rules
 template <int D>
 struct BoundarySpace {
   BoundaryOptions options;
   std::size_t nodes = 0;
   bool identity = true;              // node p is particle p, nothing is fixed or constrained
   std::vector<int> node;             // [particles]
-  std::vector<unsigned char> fixed;  // [nodes] bits of Fixed: prescribed
-  std::vector<char> boundary;        // [nodes] 1: on the frame, 2: and turns freely
-  std::array<AverageConstraint, static_cast<std::size_t>(D)> average;  // by direction
-  // What is periodic both ways in a direction may move as a whole in it, and does while an equilibrium
-  // is sought: held at one node, a relaxation takes twice as long. Then it is put back to where F has
-  // this particle; -1: something else holds it.
+  std::vector<unsigned char> fixed;  // [nodes] fixed_bit of prescribed components
+  std::vector<char> boundary;        // [nodes] 1: on the frame, 2: and free to rotate
+  std::array<AverageConstraint, static_cast<std::size_t>(D)> average;  // per direction
+  // Node whose fluctuation per direction is subtracted at the end, where all nodes are periodic in
+  // it; -1: none needed. The packing translates freely during the solve, since fixing one node
+  // doubles the relaxation steps.
   std::array<int, static_cast<std::size_t>(D)> anchor = none();
   double reference_volume = 0;  // V at F = I, thickness included [m3]
-  double solid_volume = 0;      // of the particles, copies counted once [m3]
-  std::vector<int> source;      // [particles] the particle that it is, copies being the same one
+  double solid_volume = 0;      // volume of the particles, copies counted once [m3]
+  std::vector<int> source;      // [particles] identity of the particle; copies share it
   std::size_t sources = 0;
 
-  // A condition whose directions are those of space, as a layer between plates has them: it does
-  // not turn with the increment, and fluctuations keep their components. Empty for all others.
+  // Reference of a condition bound to the axes of space, such as a layer between plates. It does
+  // not rotate with the increment. Empty for all other conditions.
   std::vector<double> reference;  // X' of x = F X' + offset + w, component-major [m]
-  std::vector<double> offset;     // of discs from their rigid row, component-major [m]
-  // Components of F that are found, so that those of P are the prescribed ones.
+  std::vector<double> offset;     // distance of discs from their rigid row, component-major [m]
+  // Components of F that are unknowns, each found from a prescribed component of P.
   bool finds_deformation = false;
   std::array<bool, squared<D>> found{};
   Tensor<D> stress{};  // [Pa]
@@ -73,11 +76,11 @@ struct BoundarySpace {
     return rows_of_all > 0;
   }
 
-  // Contacts that are left out: those within a row.
+  // Drops the contacts within a rigid row.
   void drop(std::vector<NeighbourPair<D>>& pairs) const;
 
-  std::array<bool, 2> copied{};  // between left and right, bottom and top: the sides are the same
-  std::vector<unsigned char> rows;  // [particles] bit k: in the row of side k; empty: none
+  std::array<bool, 2> copied{};     // left with right, bottom with top: they share fluctuations
+  std::vector<unsigned char> rows;  // [particles] bit k: in the row of side k; empty: no row
 
  private:
   static constexpr std::array<int, static_cast<std::size_t>(D)> none() {
@@ -87,7 +90,7 @@ struct BoundarySpace {
   }
 };
 
-// The condition of a periodic cell; its options are taken over.
+// The condition of a periodic cell, with its options.
 template <int D>
 BoundarySpace<D> make_cell_space(const Packing& packing, const BoundaryOptions& options = {});
 

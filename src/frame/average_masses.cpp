@@ -6,7 +6,7 @@ namespace grainlaw::core {
 
 namespace {
 
-// Symmetric 2x2 (xx, xy, yy), inverted; with one row only xx.
+// Inverse of a symmetric 2x2 matrix (xx, xy, yy); with one row only xx counts.
 std::array<double, 3> inverse(const std::array<double, 3>& a, std::size_t rows) {
   if (rows == 1) return {1 / a[0], 0, 0};
   const double det = a[0] * a[2] - a[1] * a[1];

@@ -1,5 +1,5 @@
-// Average constraints on the boundary of a frame, as relaxations meet them: what they carry of a
-// residual is taken out of it, by the masses of the nodes.
+// Average constraints of a frame during a relaxation. The part of the residual that the constraints
+// bear is projected out with the masses of the nodes.
 #pragma once
 
 #include "boundary/boundary_space.hpp"
@@ -14,11 +14,11 @@ class AverageMasses {
  public:
   void find(const BoundarySpace<2>& space, std::span<const MassRecord<2>> mass);
 
-  // C = [sum r (x) A / m] [sum A (x) A / m]^-1, and r - C A.
+  // Replaces r by r - C A, with C = [sum r (x) A / m] [sum A (x) A / m]^-1.
   void take_out(const BoundarySpace<2>& space, std::span<const MassRecord<2>> mass,
                 std::span<ForceRecord<2>> residual) const;
 
-  // Take out of velocities (component-major, of these masses) what changes the averages.
+  // Projects out of velocities (component-major, with these masses) what changes the averages.
   static void hold(const BoundarySpace<2>& space, std::size_t nodes, std::span<double> velocity,
                    std::span<const double> mass);
 

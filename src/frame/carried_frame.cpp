@@ -6,8 +6,8 @@ namespace grainlaw::core {
 
 namespace {
 
-// Whether the conditions on a frame that starts from this state would be those of the material:
-// fluctuations that average to nothing, or keep to axes, are relative to where they were counted from.
+// Whether conditions keep their meaning when this state becomes the reference. Fluctuations with
+// zero average, or bound to axes, are relative to the first reference.
 bool is_its_own_reference(const BoundarySpace<2>& space, const Tensor<2>& F) {
   return F == identity<2>() && !space.averages() && !space.bound_to_axes();
 }

@@ -1,4 +1,4 @@
-// A frame that starts anew from where F has carried it.
+// A frame whose packing becomes a new reference in its deformed state.
 #pragma once
 
 #include "boundary/boundary_space.hpp"
@@ -6,11 +6,11 @@
 
 namespace grainlaw::core {
 
-// Where the conditions on the frame would be others if they counted from here, they keep counting from
-// where they did: the positions that the packing has now become its reference. Before it is moved.
+// Makes the present positions the frame's reference where its conditions would otherwise change.
+// Call it before the packing is deformed by F.
 void keep_reference(const BoundarySpace<2>& space, const Tensor<2>& F, Packing& packing);
 
-// And after it was moved by F.
+// Carries the frame to the packing deformed by F. Call it afterwards.
 void carry_frame(const BoundarySpace<2>& space, const Tensor<2>& F, Packing& packing);
 
 }  // namespace grainlaw::core

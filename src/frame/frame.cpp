@@ -27,7 +27,7 @@ Point centre(const Packing& packing, int particle) {
   return {x[p], x[packing.size() + p]};
 }
 
-// F^-1 H
+// Undeformed lattice F^-1 H.
 Tensor<2> undeformed_cell(const Packing& packing) {
   const auto& h = packing.cell;
   const auto& f = packing.frame->deformation;
@@ -36,7 +36,8 @@ Tensor<2> undeformed_cell(const Packing& packing) {
           (f[0] * h[2] - f[2] * h[0]) / det, (f[0] * h[3] - f[2] * h[1]) / det};
 }
 
-// The boundary particle at place `upper` must be that at `lower`, shifted by lattice vector k.
+// Fails unless the boundary particle at place `upper` is that at `lower`, shifted by lattice vector
+// k.
 void check_copy(const Packing& packing, std::size_t lower, std::size_t upper, std::size_t k) {
   const int a = packing.frame->boundary[lower];
   const int b = packing.frame->boundary[upper];
@@ -53,8 +54,9 @@ void check_copy(const Packing& packing, std::size_t lower, std::size_t upper, st
     wrong(fmt::format("particles {} and {} are copies but differ in radius", a, b));
 }
 
-// Liu, Bosco & Suiker (2017) eq. 2, per unit thickness. Weighted by radii it averages to F only
-// when opposite sides are copies; halves do for any polygon. F carries areas along by its cofactors.
+// Sets A_q per unit thickness, Liu, Bosco & Suiker (2017) eq. 2. The paper's weights by radii
+// average to F only between copies; weights of one half do for any polygon. F maps areas by its
+// cofactors.
 void set_areas(const Packing& packing, Frame& frame) {
   const std::size_t count = frame.boundary.size();
   const auto share = [&](int q, int neighbour) {
@@ -79,7 +81,7 @@ void set_areas(const Packing& packing, Frame& frame) {
   }
 }
 
-// Number the identities in order of appearance; all copies of one particle share theirs.
+// Numbers identities by first appearance; copies of one particle share theirs.
 void set_sources(std::size_t particles, Frame& frame) {
   std::vector<int> first_copy(particles);
   std::iota(first_copy.begin(), first_copy.end(), 0);

@@ -1,4 +1,4 @@
-// A frame of boundary particles around a packing: cutting one out, its geometry, and its copies.
+// A frame of boundary particles around a packing: cut, geometry and copies.
 #pragma once
 
 #include "packing/packing.hpp"
@@ -9,38 +9,37 @@
 
 namespace grainlaw::core {
 
-// Cut a periodic packing along two closed chains of near-contacts, from a particle O to its image
-// O + L1 and on to O + L2, each copied to the opposite side (Liu, Bosco & Suiker 2017, section 2.1,
-// by a shortest-path search instead of the papers' rule, which leaves gaps). Particles 0..n-1 are
-// those of the periodic packing in their order, moved by lattice vectors; the copies on the upper
-// and right sides follow. Contacts come with every copy that lies in the frame.
-//   largest_gap  of two neighbours in a chain, in mean radii [-]
-// Throws Error (BAD_PACKING) when there is no chain that closes without leaks: a touching pair of
-// which no copy lies in the frame, an image inside it, a chain that crosses itself.
+// Cuts a periodic packing along two closed chains of near-contacts, from a particle O to its images
+// O + L1 and O + L2. Each chain is copied to the opposite side (Liu, Bosco & Suiker 2017, section
+// 2.1). A shortest-path search replaces the paper's rule, which leaves gaps. Particles 0..n-1 are
+// those of the periodic packing in order, moved by lattice vectors; copies on the upper and right
+// sides follow. Contacts come with every copy that lies in the frame.
+//   largest_gap  between neighbours in a chain, in mean radii [-]
+// Throws Error (BAD_PACKING) when no chain closes without leaks. Leaks are a touching pair without
+// a copy in the frame, an image inside it, and a chain that crosses itself.
 Packing cut_frame(const Packing& periodic, double largest_gap = 0.35);
 
-// Fill partner, area, source, offset and extent of packing.frame from its boundary, corners and
-// which of its sides are copies. Throws Error (BAD_PACKING) when these do not make a frame, as it
-// is in its reference: anticlockwise from corner 0, a polygon that does not cross itself; and of
-// copies, opposite sides shifted by the lattice vectors (to 1e-9 of the frame's length) with equal
-// radii.
+// Sets partner, area, source, offset and extent of packing.frame from its boundary, corners and
+// sides that are copies. Throws Error (BAD_PACKING) unless the reference of the frame is a simple
+// polygon, anticlockwise from corner 0. Sides that are copies need equal radii and a shift by
+// lattice vectors, to 1e-9 of the frame's length.
 void complete_frame(Packing& packing);
 
 // Component-major positions in which the frame is undeformed: its reference, or the positions [m].
 const std::vector<double>& undeformed(const Packing& packing);
 
-// Where the corners stand in the boundary; the first is 0. Throws Error (BAD_PACKING).
+// Places of the corners in the boundary; the first is 0. Throws Error (BAD_PACKING).
 std::array<std::size_t, 4> corner_places(const Frame& frame);
 
-// In one lattice direction: copies of a pair whose particles fill 0..first and 0..second, the
-// second `apart` further than the first.
+// Copies of a pair in one lattice direction. The particles fill 0..first and 0..second, the second
+// `apart` further than the first.
 inline int copies_along(int first, int second, int apart) {
   return std::max(0, std::min(first, second - apart) - std::max(0, -apart) + 1);
 }
 
-// How many copies of the pair (i, j) the frame holds, itself included, 1 to 4: pairs of the same
-// two particles of the periodic packing, equally far apart. Only pairs along a side have more than
-// one. Copies between left and right, bottom and top, count when asked for.
+// Number of copies of the pair (i, j) in the frame, itself included, 1 to 4. Copies join the same
+// two particles of the periodic packing at one distance; only pairs along a side have more than
+// one. `across` counts copies between left and right, `up` between bottom and top.
 inline int contact_copies(const Frame& frame, int i, int j, bool across = true, bool up = true) {
   const auto a = static_cast<std::size_t>(i);
   const auto b = static_cast<std::size_t>(j);
@@ -51,8 +50,8 @@ inline int contact_copies(const Frame& frame, int i, int j, bool across = true, 
   return copies;
 }
 
-// Area of the polygon through the centres of the boundary particles, in order, as F carried it from
-// the frame's reference [m2].
+// Area of the polygon through the centres of the boundary particles, carried by F from the frame's
+// reference [m2].
 double polygon_area(const Packing& packing);
 
 }  // namespace grainlaw::core

@@ -12,14 +12,14 @@ namespace grainlaw::core {
 
 namespace {
 
-// A straight tight chain makes a frame that stays closed; a gap of 0.35 R or straying by three
-// radii costs about as much as going half as far again.
+// Penalties of a chain: straight tight chains make frames that stay closed. A gap of 0.35 R, or
+// straying by three radii, costs about half the length more.
 constexpr double gap_weight = 1.5;
 constexpr double stray_weight = 0.05;
 
 constexpr double unreached = std::numeric_limits<double>::infinity();
 
-// Sites are numbered over the cell, the cell before and the two after it in each direction.
+// Sites cover the cell, the cell before it and the two after it in each direction.
 constexpr int first_cell = -1;
 constexpr int cells = 4;
 
@@ -81,7 +81,7 @@ std::optional<Chain> ChainGraph::shortest(int origin, int direction,
   const Point end = place(last);
   const Point along = {end[0] - start[0], end[1] - start[1]};
 
-  // A*: no chain costs less than the straight line.
+  // A* bound: no chain costs less than the straight line.
   const auto remaining = [&](const Point& p) { return std::hypot(end[0] - p[0], end[1] - p[1]); };
   using Entry = std::pair<double, std::size_t>;  // cost + remaining, site
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
@@ -95,7 +95,7 @@ std::optional<Chain> ChainGraph::shortest(int origin, int direction,
     open.pop();
     const Site site = site_of(k);
     const Point here = place(site);
-    if (estimate > cost_[k] + remaining(here)) continue;  // a cheaper way was found since
+    if (estimate > cost_[k] + remaining(here)) continue;  // a cheaper chain was found since
     const auto p = static_cast<std::size_t>(site.particle);
     for (std::size_t l = begin_[p]; l < begin_[p + 1]; ++l) {
       const Link& link = links_[l];

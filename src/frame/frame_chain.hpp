@@ -11,7 +11,7 @@
 
 namespace grainlaw::core {
 
-// An image of a particle: so many lattice vectors from its place in the cell.
+// An image of a particle, given by its lattice vectors from the cell.
 struct Site {
   int particle = 0;
   std::array<int, 2> cell{};
@@ -19,20 +19,22 @@ struct Site {
 
 struct Chain {
   std::vector<Site> sites;  // from O to its image, both included
-  double cost = 0;          // length, stretched where the chain strays or gapes [m]
+  double cost = 0;          // length plus penalties for straying and gaps [m]
 };
 
 // The graph of near-contacts of a periodic packing whose positions lie in the cell.
 class ChainGraph {
  public:
-  //   position  x[0..n), y[0..n) in the cell [m];  h: 2x2 row-major [m]
-  //   largest_gap  of two neighbours in a chain [m]
+  // Builds the graph.
+  //   position     x[0..n), y[0..n) in the cell [m]
+  //   h            2x2 row-major [m]
+  //   largest_gap  between neighbours in a chain [m]
   ChainGraph(std::vector<double> position, const std::vector<double>& radius,
              const std::array<double, 4>& h, double largest_gap);
 
   // The cheapest chain from particle `origin` to its image one lattice vector `direction` (0 or 1)
-  // on, through no particle that is blocked, nor through the origin's images; none when there is
-  // none.
+  // away. It avoids blocked particles and other images of the origin. Returns nothing when there is
+  // no chain.
   std::optional<Chain> shortest(int origin, int direction, const std::vector<char>& blocked);
 
   [[nodiscard]] Point place(const Site& site) const;
@@ -50,7 +52,7 @@ class ChainGraph {
   double mean_radius_ = 0;
   std::vector<std::size_t> begin_;  // links of particle p: begin_[p] .. begin_[p + 1]
   std::vector<Link> links_;
-  // Memory of the search, per site; reset through touched_.
+  // Workspace of the search per site, reset through touched_.
   std::vector<double> cost_;
   std::vector<std::size_t> from_;
   std::vector<std::size_t> touched_;

@@ -16,21 +16,21 @@ namespace grainlaw::core {
 
 namespace {
 
-// Trying every particle as the corner of a large packing gains nothing.
+// Limit of trial corners; more gain nothing in a large packing.
 constexpr std::size_t most_origins = 512;
 
 struct Candidate {
   double cost = 0;
-  std::array<Chain, 2> chain;  // the lower side and the left side
+  std::array<Chain, 2> chain;  // lower side, left side
 };
 
-// The periodic packing with its positions moved into the cell.
+// The periodic packing, positions wrapped into the cell.
 struct Wrapped {
   std::size_t n = 0;
   std::array<double, 4> h{};
   std::vector<double> position;
-  std::vector<std::array<int, 2>> cells;  // where each particle was
-  std::vector<InitialContact> contacts;   // shifts from the moved positions
+  std::vector<std::array<int, 2>> cells;  // cell of each particle before wrapping
+  std::vector<InitialContact> contacts;   // shifts between wrapped positions
   std::vector<NeighbourPair<2>> touching;
 };
 
@@ -60,7 +60,7 @@ Wrapped wrap(const Packing& packing) {
   return out;
 }
 
-// Every origin's two chains, cheapest first.
+// Both chains of every origin, cheapest first.
 std::vector<Candidate> find_candidates(ChainGraph& graph, std::size_t n) {
   std::vector<Candidate> candidates;
   std::vector<char> blocked(n, 0);
@@ -80,7 +80,7 @@ std::vector<Candidate> find_candidates(ChainGraph& graph, std::size_t n) {
   return candidates;
 }
 
-// Sites of the frame: where each particle's first copy lies, and how far its copies extend.
+// Layout of a frame: site of each particle's first copy, and extent of its copies.
 struct Layout {
   std::vector<std::array<int, 2>> first, extent;
   std::vector<Site> boundary;  // anticlockwise from O
@@ -98,7 +98,7 @@ Site shifted(Site site, int direction) {
   return site;
 }
 
-// The layout a candidate gives, or nothing when it does not close without leaks.
+// Layout of a candidate; nothing when it does not close without leaks.
 std::optional<Layout> lay_out(const Candidate& candidate, const ChainGraph& graph,
                               const Wrapped& packing) {
   const auto& lower = candidate.chain[0].sites;
@@ -127,7 +127,7 @@ std::optional<Layout> lay_out(const Candidate& candidate, const ChainGraph& grap
   for (const Site& site : boundary) polygon.push_back(graph.place(site));
   if (!is_simple(polygon) || !(signed_area(polygon) > 0)) return {};
 
-  // Every other particle lies inside with exactly one image.
+  // Every other particle needs exactly one image inside.
   for (std::size_t p = 0; p < packing.n; ++p) {
     if (layout.extent[p][0] >= 0) continue;
     layout.extent[p] = {0, 0};
@@ -150,7 +150,7 @@ std::optional<Layout> lay_out(const Candidate& candidate, const ChainGraph& grap
 
 Packing assemble(const Packing& periodic, const Wrapped& wrapped, const ChainGraph& graph,
                  const Layout& layout) {
-  // Copies of each particle at 0..extent: number[p][o0 + 2 o1], first copies first.
+  // Indices of the copies of each particle at 0..extent: number[p][o0 + 2 o1], first copies first.
   std::vector<std::array<int, 4>> number(wrapped.n, {-1, -1, -1, -1});
   std::vector<Site> sites;
   const auto add = [&](std::size_t p, int o0, int o1) {

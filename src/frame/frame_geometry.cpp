@@ -28,7 +28,7 @@ double turn(const Point& a, const Point& b, const Point& c) {
 }
 
 double signed_area(const std::vector<Point>& polygon) {
-  // Counted from the first corner, so that a far origin costs no digits.
+  // Coordinates relative to the first corner, so that a distant origin costs no digits.
   double twice = 0;
   for (std::size_t k = 2; k < polygon.size(); ++k)
     twice += turn(polygon[0], polygon[k - 1], polygon[k]);
@@ -52,7 +52,7 @@ bool is_inside(const std::vector<Point>& polygon, const Point& point) {
     const Point& a = polygon[last];
     const Point& b = polygon[k];
     if ((a[1] > point[1]) == (b[1] > point[1])) continue;
-    // The side crosses the horizontal line of the point: to its right?
+    // The side crosses the horizontal line through the point: count crossings to its right.
     if ((turn(a, b, point) > 0) == (b[1] > a[1])) inside = !inside;
   }
   return inside;

@@ -1,4 +1,4 @@
-// Plane geometry of polygons, as cutting a frame needs it.
+// Plane geometry of polygons, for cutting frames.
 #pragma once
 
 #include <array>
@@ -9,16 +9,16 @@ namespace grainlaw::core {
 
 using Point = std::array<double, 2>;
 
-// Twice the signed area of the triangle (a, b, c), positive when it turns anticlockwise.
+// Twice the signed area of the triangle (a, b, c), positive when anticlockwise.
 double turn(const Point& a, const Point& b, const Point& c);
 
-// Signed area, positive when numbered anticlockwise.
+// Signed area, positive when anticlockwise.
 double signed_area(const std::vector<Point>& polygon);
 
-// No two sides touch but neighbours at their common corner.
+// Whether no two sides touch except neighbours at their common corner.
 bool is_simple(const std::vector<Point>& polygon);
 
-// Whether a point lies inside; of points on a side nothing is promised.
+// Whether a point lies inside; undefined for points on a side.
 bool is_inside(const std::vector<Point>& polygon, const Point& point);
 
 }  // namespace grainlaw::core

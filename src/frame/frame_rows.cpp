@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t no_partner = -1;
 
-// A hole in the chain lets the smallest particle through.
+// Fails where a hole in the chain would let the smallest particle through.
 void check_holes(const Packing& packing) {
   const auto& boundary = packing.frame->boundary;
   const std::size_t n = packing.size();
@@ -35,7 +35,7 @@ void check_holes(const Packing& packing) {
   }
 }
 
-// Opposite sides are copies when their edges name partners; sides without an edge do as the others.
+// Opposite sides are copies when their edges name partners; sides without edges follow the others.
 void find_copies(const FrameRows& rows, Frame& frame) {
   const auto corner = corner_places(frame);
   const auto given = [&](std::size_t side) {
@@ -45,7 +45,7 @@ void find_copies(const FrameRows& rows, Frame& frame) {
       partners += rows.partner_id.at(frame.boundary[q]) != no_partner ? 1 : 0;
     return std::pair(static_cast<int>(end - corner[side]) - 1, partners);
   };
-  std::array<int, 2> edges{}, partners{};  // of left and right, bottom and top
+  std::array<int, 2> edges{}, partners{};  // by pairs: left with right, bottom with top
   for (std::size_t side = 0; side < 4; ++side) {
     const auto [count, named] = given(side);
     edges[(side + 1) % 2] += count;

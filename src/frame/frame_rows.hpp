@@ -1,4 +1,4 @@
-// What the rows of a particle file say of a frame, and the frame that they make.
+// Frame columns of a particle file, and the frame that they describe.
 #pragma once
 
 #include "packing/packing.hpp"
@@ -18,8 +18,8 @@ struct FrameRows {
   std::map<int, std::int64_t> partner_id;  // edge particle -> id
 };
 
-// Give packing, whose particles are read, its frame; `frame` holds what it counts from. Throws Error
-// (BAD_PACKING) that begins with the path, when the rows do not make a frame or its chain has holes.
+// Builds the frame of a packing whose particles are read; `frame` has its reference. Throws Error
+// (BAD_PACKING) that begins with the path, when the rows describe no frame or the chain has holes.
 void build_frame(const std::string& path, const FrameRows& rows, const ParticleIds& ids,
                  Frame frame, Packing& packing);
 

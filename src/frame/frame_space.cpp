@@ -50,7 +50,7 @@ BoundarySpace<2> make_boundary_space(const Packing& packing, const BoundaryOptio
   const Sides sides = sides_of(options);
   space_of_sides(packing, sides, space);
   if (options.type == BoundaryType::mixed) {
-    // Sides that do not share their fluctuations are no copies, however they began.
+    // Sides that do not share their fluctuations are not copies, even if cut as copies.
     space.source = space.node;
     space.sources = space.nodes;
   }
@@ -62,7 +62,7 @@ void weigh_copies(const BoundarySpace<2>& space, const Packing& packing,
   resize_with_room(weights, pairs.size());
   std::fill(weights.begin(), weights.end(), 1.0);
   if (space.options.weight == ContactWeight::one) return;
-  // Sides of a mixed boundary that do not share their fluctuations are no copies.
+  // Sides of a mixed boundary that do not share their fluctuations are not copies.
   const bool mixed = space.options.type == BoundaryType::mixed;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     weights[c] = 1.0 / contact_copies(*packing.frame, pairs[c].i, pairs[c].j,

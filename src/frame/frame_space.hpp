@@ -1,5 +1,4 @@
-// Boundary conditions of a frame, side by side: which particles share a node, what is fixed, and
-// what is constrained on average.
+// Boundary conditions of a frame, per side: shared nodes, fixed components, average constraints.
 #pragma once
 
 #include "boundary/boundary_space.hpp"
@@ -9,13 +8,13 @@
 
 namespace grainlaw::core {
 
-// Of any packing: a periodic cell, or a frame by its sides. A corner belongs to two sides and follows
-// the stricter rule. Throws Error (BAD_PACKING) when a frame condition lacks its frame, when opposite
-// sides are to share fluctuations and are not copies, when they differ in their rules, or when fewer
-// than four particles are under a uniform stress.
+// The space of any plane packing: a periodic cell, or a frame by its sides. A corner belongs to two
+// sides and follows the stricter rule. Throws Error (BAD_PACKING) for a frame condition without a
+// frame, and for fewer than four particles under a uniform stress. Opposite sides that share
+// fluctuations must be copies and have one rule; else it throws too.
 BoundarySpace<2> make_boundary_space(const Packing& packing, const BoundaryOptions& options);
 
-// 1 / (number of copies) of each pair on the frame, or 1 when the option says so.
+// Sets the weight of each pair: 1 / (number of copies) on the frame, or 1 when the option says so.
 void weigh_copies(const BoundarySpace<2>& space, const Packing& packing,
                   std::span<const NeighbourPair<2>> pairs, std::vector<double>& weights);
 

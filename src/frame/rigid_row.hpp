@@ -1,4 +1,4 @@
-// A side of a frame whose discs are one body.
+// A side of a frame whose discs form one rigid body.
 #pragma once
 
 #include "boundary/boundary_space.hpp"
@@ -8,8 +8,8 @@
 
 namespace grainlaw::core {
 
-// The discs of a row take part in F as if they lay on the line between the corners, shifted so
-// that the area within stays the same.
+// Moves the reference of the row's discs onto the line between the corners, shifted so that the
+// enclosed area is unchanged.
 void straighten(const Packing& packing, std::size_t side, BoundarySpace<2>& space);
 
 }  // namespace grainlaw::core

@@ -22,7 +22,7 @@ constexpr std::array<const char*, 4> side_names{"bottom", "right", "top", "left"
   throw Error(GRAINLAW_BAD_PACKING, "boundary: " + message);
 }
 
-// The sides of every boundary particle: bit k for side k, two at a corner.
+// Bits of the sides of every boundary particle: bit k for side k, two at a corner.
 std::vector<unsigned char> sides_of_places(const Frame& frame) {
   const auto corner = corner_places(frame);
   const std::size_t count = frame.boundary.size();
@@ -78,7 +78,8 @@ class Builder {
     }
   }
 
-  // Copies in its reference may have moved on their own since.
+  // Whether side k and its opposite are copies here; copies in the reference may have moved
+  // separately since.
   [[nodiscard]] bool are_copies_here(std::size_t k) const {
     if (frame_.reference.empty()) return true;
     const auto n = packing_.size();
@@ -95,7 +96,7 @@ class Builder {
     return true;
   }
 
-  // Particles of sides that share become one node; nodes are numbered in order of appearance.
+  // Merges particles of sides that share into one node; nodes are numbered by first appearance.
   void share_nodes() {
     check_pair(left_side, right_side);
     check_pair(bottom_side, top_side);
@@ -154,8 +155,8 @@ class Builder {
       fix(fixed_bit(1), held_y);
       fix(fixed_rotation<2>, [](const Side& s) { return s.rotation == SideRotation::fixed; });
     }
-    // What is periodic both ways is free to move as a whole, unless by the published servo, which
-    // prescribes the corners.
+    // Nodes periodic in both directions translate freely; the published servo prescribes the
+    // corners.
     for (int direction = 0; direction < 2; ++direction) {
       const auto shared = [&](SideName side) {
         return sides_[side].rule(direction) == SideRule::p;
@@ -185,7 +186,7 @@ class Builder {
 
   // Gram-Schmidt on the two components of A over the nodes that are free under stress.
   void average(int direction) {
-    constexpr double dependent = 1e-8;  // of the length of A
+    constexpr double dependent = 1e-8;  // relative to the length of A
     auto& average = space_.average[static_cast<std::size_t>(direction)];
     const unsigned char bit = fixed_bit(static_cast<std::size_t>(direction));
     std::vector<std::array<double, 2>> area(space_.nodes, {0, 0});
@@ -242,7 +243,7 @@ class Builder {
     if (!frame_.reference.empty()) carry_along(frame_.deformation);
   }
 
-  // From where a deformed packing counts its fluctuations to here; discs keep off their row as then.
+  // Carries the reference along by F; discs keep their distance from the row.
   void carry_along(const std::array<double, 4>& f) {
     const auto n = packing_.size();
     double* x = space_.reference.data();

@@ -14,19 +14,18 @@ namespace {
 
 constexpr double good = 0.004;  // error of A that ends the search
 constexpr double allowed = 0.005;
-constexpr double near_direction = 0.02;  // of spheres, where A is good
+constexpr double near_direction = 0.02;  // in space, with a good A
 constexpr int most_steps = 60;
-constexpr double largest_step = 0.1;   // of the deviatoric stress, over the pressure
-constexpr double largest_ratio = 0.8;  // no packing bears more
-// Eigenvalue difference of the fabric by deviatoric stress ratio: of the first step, and the least
-// that is believed.
+constexpr double largest_step = 0.1;   // step of the deviatoric stress over the pressure
+constexpr double largest_ratio = 0.8;  // beyond any packing's strength
+// Fabric eigenvalue difference per deviatoric stress ratio: first estimate, and least value used.
 constexpr double first_gain = 0.25;
 constexpr double least_gain = 0.05;
 
 template <int D>
 using Deviator = std::array<double, StressTarget<D>::deviators>;
 
-// Of the fabric: half the difference of the eigenvalues times (cos 2a, sin 2a) of the major direction a;
+// Deviatoric fabric: half the eigenvalue difference times (cos 2a, sin 2a), a the major direction;
 // in space its components.
 template <int D>
 Deviator<D> deviatoric_fabric(const StressControl<D>& control) {
@@ -48,7 +47,8 @@ Deviator<D> wanted_fabric(const GeneratorOptions& options) {
     const double direction = options.anisotropy_direction;
     return {size * std::cos(2 * direction), size * std::sin(2 * direction)};
   } else {
-    const double difference = anisotropy / (3 + anisotropy);  // of the eigenvalues
+    const double difference = anisotropy / (3 + anisotropy);  // half the difference of the
+                                                              // eigenvalues
     Vec<3> e = options.anisotropy_axis;
     const double size = length<3>(e);
     for (double& component : e) component /= size;
@@ -61,7 +61,7 @@ Deviator<D> wanted_fabric(const GeneratorOptions& options) {
   }
 }
 
-// Of the tensor in space.
+// Norm of the deviator as a tensor.
 double norm(const Deviator<2>& a) { return std::hypot(a[0], a[1]); }
 double norm(const Deviator<3>& a) {
   double squares = 0;
@@ -69,7 +69,7 @@ double norm(const Deviator<3>& a) {
   return std::sqrt(squares);
 }
 
-// a + factor b
+// a + factor b.
 template <std::size_t size>
 std::array<double, size> sum(std::array<double, size> a, double factor,
                              const std::array<double, size>& b) {
@@ -110,12 +110,12 @@ void consolidate_anisotropically(StressControl<D>& control, StressTarget<D> targ
     highest = std::max(highest, a);
     const auto miss = sum(wanted, -1, found);
     const double distance = norm(miss);
-    // A is about 4 d; the direction counts as much as the size.
+    // A is about 4 d, and an error in direction counts like one in size.
     if (4 * distance < good) {
       if (D == 2 || control.reach(target)) return;
       break;
     }
-    // In space five numbers have to fit, which few contacts cannot all.
+    // In space five numbers must fit, and few contacts cannot meet them all.
     if (D == 3 && std::abs(a - options.anisotropy) < good && 4 * distance < near_direction) {
       control.reach(target);
       break;

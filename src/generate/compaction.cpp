@@ -22,16 +22,16 @@ namespace grainlaw::core {
 
 namespace {
 
-// Beyond this kn / (p t) compression does not end at rest for every seed.
+// Largest kn / (p t) at which compression comes to rest for every seed.
 constexpr double stiffest_compression = 1e3;
-constexpr double faded_force = 1e-3;  // of the mean force at the target
+constexpr double faded_force = 1e-3;  // relative to the mean force at the target
 
-// Divided once: packings made before keep their bits.
+// Mean with one division, which keeps the bits of earlier packings.
 double mean_of(const std::vector<double>& radius) {
   return std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
 }
 
-// [m2, m3]
+// Area or volume of all particles [m2, m3].
 template <int D>
 double solid_size(const Packing& packing) {
   double sum = 0;
@@ -39,8 +39,8 @@ double solid_size(const Packing& packing) {
   return sum;
 }
 
-// Overlap / radius of Hertz-Mindlin contacts at a pressure: with D n contacts of branches 2 R, p V =
-// sum fn 2 R / D.
+// Overlap / radius of Hertz-Mindlin contacts at a pressure, from p V = sum fn 2 R / D over D n
+// contacts of branches 2 R.
 template <int D>
 double overlap_at(double pressure, const Packing& packing, const ContactLaw& law) {
   const double radius = mean_of(packing.radius);
@@ -54,24 +54,24 @@ double cell_size(const Packing& packing) {
   return determinant<D>(packing.cell.data());
 }
 
-// Consolidation of loose particles.
 template <int D>
 class Consolidation {
  public:
   Consolidation(const Packing& loose, const GeneratorOptions& options, const ContactLaw& law)
       : loose_(loose), options_(options), law_(law), radius_(mean_of(loose.radius)) {}
 
-  // Compression finds rest the easier the softer the particles are against the pressure; the way down
-  // from there is another for each.
+  // Compresses directly, or to a higher pressure and unloads. Soft particles, relative to the
+  // pressure, come to rest more easily; each start pressure gives another way down.
   Packing run() {
     const double line_stiffness = law_.stiffness(radius_, radius_) / depth<D>(loose_);  // [Pa]
     const bool to_pressure = !(options_.void_ratio > 0);
-    std::vector<double> above;  // pressures to come down from
+    std::vector<double> above;  // pressures to unload from
     for (const double stiffness : {1.0, 0.3, 0.1, 0.03}) {
       const double pressure = line_stiffness / (stiffness * stiffest_compression);
       if (!to_pressure || pressure > options_.pressure) above.push_back(pressure);
     }
-    // Compressed to a void ratio the particles may not have met yet, where those come down to it bear.
+    // Error of the direct compression: particles may not touch at the void ratio yet, and may bear
+    // load once unloaded to it.
     std::optional<Error> loose;
     if (!to_pressure || options_.pressure * stiffest_compression >= line_stiffness) {
       try {
@@ -125,7 +125,7 @@ class Consolidation {
   const Packing& loose_;
   const GeneratorOptions& options_;
   const ContactLaw& law_;
-  double radius_;  // mean [m]
+  double radius_;  // mean radius [m]
 };
 
 template <int D>

@@ -17,23 +17,24 @@ namespace grainlaw::core {
 
 namespace {
 
-// Compression with incomplete relaxations: linear strain per step, of particles that never bore load
-// and of those that did (a share of the final pressure); not every passing state comes to rest, the
-// next step moves on from it. Forces count as faded at a share of what their mean will be.
+// Compression with incomplete relaxations. Linear strain per step before and after the first load
+// (a share of the final pressure). A passing state may not come to rest; the next step continues
+// from it. Forces below a share of their final mean count as zero.
 constexpr double loose_step = 5e-3;
 constexpr double bearing_step = 5e-4;
 constexpr double bearing_share = 1e-2;
-// Below it every step is short from the start.
+// Void ratio below which every step is short from the start.
 template <int D>
 constexpr double dense_void_ratio = D == 2 ? 0.5 : 0.95;
 constexpr double faded_force = 1e-3;
 constexpr double passing_tolerance = 1e-2;
 constexpr long passing_relaxation = 1000;
-// Within this share of the target stresses equilibria are exact, to a residual relative to the mean
-// contact force. Relative accuracy of the stresses at the end.
+// Share of the target stresses from which equilibria are exact; residual of these over the mean
+// contact force; relative accuracy of the final stresses.
 constexpr double exact_from = 0.1;
 constexpr double exact_tolerance = 1e-9;
-// Where Newton takes over, and its factorisations, which of spheres cost a thousand relaxation steps.
+// Residual at which Newton takes over, and its most factorisations; one costs a thousand relaxation
+// steps of spheres.
 template <int D>
 constexpr double exact_relaxation = D == 2 ? 1e-4 : 1e-6;
 template <int D>
@@ -55,7 +56,7 @@ class Compression {
       solid_ += particle_size<D>(r);
       radius += r / n;
     }
-    // With D n contacts of branches 2 R: p V = sum fn 2 R / D.
+    // Stress from p V = sum fn 2 R / D over D n contacts of branches 2 R.
     const double stress = options.void_ratio > 0
                               ? 1e-4 * law.stiffness(radius, radius) / depth<D>(packing_)
                               : options.pressure;
@@ -128,7 +129,7 @@ class Compression {
     increment_.deform(deformation);
   }
 
-  // By a linear strain, or to the target void ratio if that is less.
+  // Shrinks by a linear strain, or to the target void ratio if that is less.
   void shrink(double strain) {
     if (options_.void_ratio > 0)
       strain = std::min(strain, 1 - edge_of<D>((1 + options_.void_ratio) / (1 + void_ratio())));
@@ -144,7 +145,7 @@ class Compression {
     return done;
   }
 
-  // The exact equilibrium, with sensitivities; false when it is out of reach from here.
+  // Finds the exact equilibrium, with sensitivities; returns false where none is in reach.
   bool come_to_rest() {
     relax_to(exact_relaxation<D>, long_relaxation<D>);
     workspace_.sensitivity.reset();
@@ -155,8 +156,8 @@ class Compression {
     return done;
   }
 
-  // Newton's step with the exact tangent where that is stable; frictionless packings are often
-  // close to a rearrangement, and then the stiffer affine tangent leads on.
+  // Newton's step with the exact tangent where it is stable. Frictionless packings are often close
+  // to a rearrangement; there the stiffer affine tangent is used.
   [[nodiscard]] StretchStep<D> towards_target(bool exact) const {
     StretchStep<D> target{};
     if (exact) target = newton(condensed_tangent(increment_, workspace_.sensitivity));
@@ -170,7 +171,7 @@ class Compression {
                       stress_, tangent);
   }
 
-  // The increment's friction history starts anew here.
+  // The final configuration, whose friction history starts here.
   [[nodiscard]] Configuration<D> result() {
     Configuration<D> at;
     increment_.advance_history();
@@ -193,8 +194,8 @@ class Compression {
   Problem<D> problem_;
   Workspace<D> workspace_;
   Increment<D>& increment_ = workspace_.increment;
-  Stretches stretch_ = unstretched();  // of the start configuration
-  Tensor<D> stress_{};                 // first Piola-Kirchhoff against it [Pa]
+  Stretches stretch_ = unstretched();  // stretches relative to the start
+  Tensor<D> stress_{};                 // first Piola-Kirchhoff stress, same reference [Pa]
   double solid_ = 0;                   // area or volume of the particles [m2, m3]
   double bearing_pressure_ = 0;        // [Pa]
 };

@@ -16,8 +16,9 @@ namespace grainlaw::core {
 
 namespace {
 
-// Dense enough for a short compaction, loose enough that the first trials for a place succeed
-// (random sequential adsorption jams at 0.547 of discs, at 0.38 of spheres).
+// Volume fraction of scattered particles: dense enough for a short compaction, loose enough that
+// first trials succeed. Random sequential adsorption jams at 0.547 for discs and at 0.38 for
+// spheres.
 template <int D>
 constexpr double volume_fraction = D == 2 ? 0.4 : 0.25;
 constexpr int most_trials = 100000;
@@ -45,7 +46,8 @@ void check(const GeneratorOptions& options) {
           "a density > 0");
 }
 
-// Those already placed, in bins at least two largest radii wide, over a periodic square or cube.
+// Particles already placed, in bins at least two largest radii wide, over a periodic square or
+// cube.
 template <int D>
 class Placed {
  public:
@@ -138,7 +140,7 @@ Packing scatter(const GeneratorOptions& options) {
   for (std::size_t k = 0; k < D; ++k) packing.cell[(D + 1) * k] = side;
   packing.position.resize(D * n);
 
-  // The large ones first: they may not find a place.
+  // Large particles first, since they fit in fewer positions.
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), 0U);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

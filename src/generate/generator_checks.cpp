@@ -21,8 +21,8 @@ void check_target(const GeneratorOptions& options, const ContactLaw& law, double
       wrong("void_ratio", options.void_ratio, "a finite number > 0");
   } else {
     if (!positive(options.pressure)) wrong("pressure", options.pressure, "a finite number > 0");
-    // p t / kn of equal discs, over their relative overlap: p V = 1/2 sum fn d. Of spheres a diameter is
-    // the thickness.
+    // p t / kn of equal discs over their relative overlap, from p V = 1/2 sum fn d. The thickness
+    // of spheres is one diameter.
     const double thickness = D == 2 ? options.thickness : 2 * radius;
     const char* length = D == 2 ? "thickness" : "diameter";
     const double stiffness = law.stiffness(radius, radius) / thickness;

@@ -11,9 +11,9 @@ namespace grainlaw::core {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-// Between two scalings of the velocities, per particle.
+// Collisions per particle between two rescalings of the velocities.
 constexpr long collisions_per_block = 20;
-// Reduced pressure at which the particles count as jammed: gaps are about a diameter over it.
+// Reduced pressure of a jammed packing: gaps are about a diameter over it.
 constexpr double jammed_pressure = 1e4;
 constexpr long most_collisions_per_particle = 200000;
 
@@ -47,7 +47,7 @@ Growth<D>::Growth(const GeneratorOptions& options, const std::vector<double>& ra
   double solid = 0;
   for (const double r : radii) solid += particle_size<D>(r);
   const double largest = *std::max_element(radii.begin(), radii.end());
-  // Radii that fill all of the box at scale 1.
+  // Unit of radii that fill the box at scale 1.
   const double unit = 1 / edge_of<D>(solid);
   scale_ = edge_of<D>(start_fraction);
   end_scale_ = edge_of<D>(options.growth_end > 0 ? options.growth_end : 1);

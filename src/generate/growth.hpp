@@ -18,29 +18,29 @@
 
 namespace grainlaw::core {
 
-// The box has side 1; radii at time t are radius x (scale + rate t).
+// Event-driven dynamics in a box of side 1; radii at time t are radius x (scale + rate t).
 template <int D>
 class Growth {
  public:
-  // Small enough that places are found at once; far below the density where growth is slow.
+  // Volume fraction of the start: random positions are found quickly, and growth is still fast.
   static constexpr double start_fraction = D == 2 ? 0.3 : 0.2;
 
   using Cells = std::array<std::int32_t, static_cast<std::size_t>(D)>;
   struct Particle {
     Vec<D> place;  // at `time`, not wrapped
     Vec<D> velocity;
-    double radius;  // at scale 1
+    double radius;  // radius at scale 1
     double time;
-    Cells cell;               // of the grid that repeats, not wrapped
-    unsigned long turns = 0;  // collisions so far: older predictions are void
+    Cells cell;               // of the periodic grid, not wrapped
+    unsigned long turns = 0;  // collisions so far; predictions with fewer are void
   };
 
   Growth(const GeneratorOptions& options, const std::vector<double>& radii);
 
-  // Takes over places in the unit box and draws velocities.
+  // Takes positions in the unit box and draws velocities.
   void place(const Packing& start, std::mt19937_64& engine);
 
-  // Whether the particles jammed, rather than reaching the end of growth.
+  // Runs to jamming or to the end of growth; returns whether the particles jammed.
   bool run();
 
   [[nodiscard]] const std::vector<Particle>& particles() const { return particles_; }
@@ -51,7 +51,8 @@ class Growth {
  private:
   static constexpr std::size_t dim = D;
 
-  // What a particle does next: meet `partner` (shifted by `shift` boxes), or leave its grid cell.
+  // Next event of a particle: a collision with `partner` (shifted by `shift` boxes), or leaving its
+  // grid cell.
   struct Event {
     double time = std::numeric_limits<double>::infinity();
     int particle = 0;
@@ -67,11 +68,11 @@ class Growth {
 
   [[nodiscard]] std::size_t bucket(const Cells& cell) const;
 
-  // Particles in the cells around, with the boxes by which they are shifted to lie there.
+  // Calls visit for particles in the adjacent cells, with their shifts in boxes.
   template <class Visit>
   void for_neighbours(const Particle& particle, const Visit& visit) const;
 
-  // Time until the gap closes, from now on.
+  // Time from now until the gap closes.
   [[nodiscard]] double meeting(const Particle& a, const Particle& b, const Cells& shift) const;
 
   void predict(std::size_t i);  // the particle must be up to date
@@ -79,27 +80,28 @@ class Growth {
   void collide(Particle& a, Particle& b, const Cells& shift);
   void enter_next_cell(std::size_t i);
 
-  // So many collisions, or to the end of growth, which is told.
+  // Runs so many collisions or to the end of growth; returns whether growth ended.
   bool run_block(long collisions);
 
   // p V / (N k T) over the time since the last scaling; masses 1.
   [[nodiscard]] double reduced_pressure() const;
 
-  // Mean squared velocity 1 and no drift, clock and growth restarted here, all events anew.
+  // Rescales velocities to a mean square of 1 without drift, restarts clock and growth, and
+  // predicts all events anew.
   void rescale();
 
   std::vector<Particle> particles_;
-  std::vector<std::vector<int>> members_;  // of each grid cell
+  std::vector<std::vector<int>> members_;  // particles per grid cell
   std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
-  std::int32_t cells_ = 1;  // along a side; each at least as wide as the largest diameter
-  double rate_ = 0;         // of the scale
-  double scale_ = 1;        // when the clock was last set to 0
+  std::int32_t cells_ = 1;  // per side; each at least one largest diameter wide
+  double rate_ = 0;         // growth rate of the scale
+  double scale_ = 1;        // scale when the clock was last 0
   double end_scale_ = 1;
   double now_ = 0;
-  double virial_ = 0;  // sum of kick x distance since then
+  double virial_ = 0;  // sum of impulse x distance since then
 };
 
-// From a to b, moved by so many boxes.
+// Branch from a to b, which is shifted by so many boxes.
 template <class Particle, class Cells>
 auto branch_of(const Particle& a, const Particle& b, const Cells& shift) {
   auto branch = b.place;

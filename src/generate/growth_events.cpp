@@ -1,4 +1,4 @@
-// What flying and growing particles do next: meet, or enter the next cell of the grid.
+// Events of flying and growing particles: collisions, and entries into the next grid cell.
 #include "generate/growth.hpp"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ void Growth<D>::predict(std::size_t i) {
   }
   time = std::max(0.0, time);
   for_neighbours(particle, [&](std::size_t j, const Cells& shift) {
-    if (i == j) return;  // none grows until it meets its own image
+    if (i == j) return;  // no radius reaches its own image
     const double meet = meeting(particle, particles_[j], shift);
     if (meet >= time) return;
     time = meet;
@@ -72,7 +72,7 @@ void Growth<D>::bring_up(Particle& particle) const {
   particle.time = now_;
 }
 
-// Equal masses; they part as fast as they came, seen from the growing surfaces.
+// Elastic collision of equal masses in the frame of the growing surfaces.
 template <int D>
 void Growth<D>::collide(Particle& a, Particle& b, const Cells& shift) {
   Vec<D> normal = branch_of(a, b, shift);
@@ -91,7 +91,7 @@ void Growth<D>::collide(Particle& a, Particle& b, const Cells& shift) {
   virial_ += kick * distance;
 }
 
-// Its place decides, except that it moves at most one cell on, against rounding at the wall.
+// The cell follows from the position, limited to one cell per event against rounding at the wall.
 template <int D>
 void Growth<D>::enter_next_cell(std::size_t i) {
   Particle& particle = particles_[i];

@@ -27,7 +27,7 @@ void check(const GeneratorOptions& options) {
 template <int D>
 Packing grow(const GeneratorOptions& options) {
   check<D>(options);
-  // Scattered particles fill more than growth starts from.
+  // Scattered particles fill more than the start of growth does.
   Packing packing = scatter<D>(options);
   std::mt19937_64 engine(options.seed);
   Growth<D> growth(options, packing.radius);
@@ -40,7 +40,7 @@ Packing grow(const GeneratorOptions& options) {
                             "volume_fraction = {} to lie below it",
                             D == 2 ? "discs" : "spheres", scale * scale * (D == 2 ? 1 : scale),
                             options.growth_end));
-  // In a box of side 1 the solid size is scale^D.
+  // The solid size in a box of side 1 is scale^D.
   double solid = 0;
   for (const double r : packing.radius) solid += particle_size<D>(r);
   const double side = edge_of<D>(solid) / scale;

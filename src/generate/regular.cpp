@@ -11,7 +11,7 @@ namespace grainlaw::core {
 
 namespace {
 
-// Rows `height` apart, every second one shifted by `stagger`.
+// Rows at distance `height`, every second one shifted by `stagger`.
 Packing lattice(std::size_t columns, std::size_t rows, double radius, double distance,
                 double height, double stagger) {
   const auto require = [](bool right, const char* name, double value, const char* expected) {
@@ -32,7 +32,7 @@ Packing lattice(std::size_t columns, std::size_t rows, double radius, double dis
   std::vector<double> y;
   for (std::size_t row = 0; row < rows; ++row)
     for (std::size_t column = 0; column < columns; ++column) {
-      // A quarter off the cell's edges, so that rounding cannot carry a disc across.
+      // A quarter of a distance from the cell's edges, so that rounding cannot carry a disc across.
       packing.position.push_back((static_cast<double>(column) + 0.25) * distance +
                                  (row % 2 == 1 ? stagger : 0));
       y.push_back((static_cast<double>(row) + 0.25) * height);

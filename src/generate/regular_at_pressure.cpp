@@ -13,7 +13,8 @@ namespace grainlaw::core {
 
 namespace {
 
-// Under p t of discs, under p of spheres: share fn / distance^(D - 1).
+// Neighbour force under a pressure: p t = share fn / distance for discs, p = share fn / distance^2
+// for spheres.
 struct Lattice {
   double share, load;
   double most_overlap;  // [diameter]
@@ -29,7 +30,7 @@ Lattice lattice_of(const GeneratorOptions& options) {
   }
 }
 
-// The overlap of equal particles under the pressure [m].
+// Overlap of equal particles under the pressure [m].
 template <int D>
 double overlap_under(const Lattice& lattice, const ContactLaw& law, double radius) {
   double low = 0;

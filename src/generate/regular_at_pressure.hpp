@@ -1,4 +1,4 @@
-// Regular packings whose neighbours overlap as much as a pressure asks for, or as told.
+// Regular packings with the overlap that a pressure gives, or a given one.
 #pragma once
 
 #include "contact/law.hpp"
@@ -7,7 +7,7 @@
 
 namespace grainlaw::core {
 
-// Of discs: square or hexagonal; of spheres: sc, bcc, fcc, hcp. Throws Error (BAD_PACKING).
+// Discs: square or hexagonal; spheres: sc, bcc, fcc, hcp. Throws Error (BAD_PACKING).
 template <int D>
 Packing make_regular(const GeneratorOptions& options, const ContactLaw& law);
 

@@ -15,8 +15,8 @@ namespace grainlaw::core {
 namespace {
 
 struct UnitCell {
-  Vec<3> edges;                // over the distance of neighbours
-  std::vector<Vec<3>> places;  // over the edges
+  Vec<3> edges;                // of a cell, over the distance of neighbours
+  std::vector<Vec<3>> places;  // positions over the edges
   int neighbours;
 };
 
@@ -59,7 +59,8 @@ Packing sphere_lattice(GeneratorKind kind, const std::array<std::size_t, 3>& cel
       for (std::size_t a = 0; a < cells[0]; ++a)
         for (const Vec<3>& place : unit.places)
           for (std::size_t k = 0; k < 3; ++k) {
-            // A quarter off the cell's faces, so that rounding cannot carry a sphere across.
+            // A quarter of a distance from the cell's faces, so that rounding cannot carry a sphere
+            // across.
             const double at = static_cast<double>(std::array{a, b, c}[k]) + place[k] + 0.25;
             places[k].push_back(at * unit.edges[k] * distance);
           }
@@ -78,7 +79,7 @@ double pressure_share(GeneratorKind kind) {
 }
 
 double most_lattice_overlap(GeneratorKind kind) {
-  // Across the cube's edge.
+  // Second neighbours of bcc lie along the cube's edge.
   return kind == GeneratorKind::bcc ? 1 - std::numbers::sqrt3 / 2 : most_overlap;
 }
 

@@ -9,19 +9,20 @@
 
 namespace grainlaw::core {
 
-// Cells in a row along each axis, of a lattice of spheres whose neighbours are at `distance` d [m]:
-//   sc   simple cubic, d wide, 1 sphere in a cell, 6 neighbours
-//   bcc  body-centred cubic, 2 / sqrt(3) d wide, 2 spheres, 8 neighbours
-//   fcc  face-centred cubic, sqrt(2) d wide, 4 spheres, 12 neighbours
-//   hcp  hexagonal close packing, d x sqrt(3) d x sqrt(8/3) d, 4 spheres, 12 neighbours
+// A lattice with so many cells along each axis and neighbours at `distance` d [m]:
+//   sc   simple cubic, d wide, 1 sphere in a cell, 6 neighbours;
+//   bcc  body-centred cubic, 2 / sqrt(3) d wide, 2 spheres, 8 neighbours;
+//   fcc  face-centred cubic, sqrt(2) d wide, 4 spheres, 12 neighbours;
+//   hcp  hexagonal close packing, d x sqrt(3) d x sqrt(8/3) d, 4 spheres, 12 neighbours.
 // Throws Error (BAD_PACKING).
 Packing sphere_lattice(GeneratorKind kind, const std::array<std::size_t, 3>& cells, double radius,
                        double distance);
 
-// Its isotropic pressure times d^2, over the force between neighbours: p V = 1/3 sum fn d [-].
+// Isotropic pressure of a lattice times d^2 over the force between neighbours, from p V = 1/3 sum
+// fn d [-].
 double pressure_share(GeneratorKind kind);
 
-// Up to which neighbours overlap without any others touching, over the diameter [-].
+// Largest overlap of neighbours without contacts between others, over the diameter [-].
 double most_lattice_overlap(GeneratorKind kind);
 
 }  // namespace grainlaw::core

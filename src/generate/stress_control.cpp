@@ -12,19 +12,19 @@ namespace grainlaw::core {
 
 namespace {
 
-constexpr double exact_tolerance = 1e-9;  // of the equilibria, relative to the mean force [-]
+constexpr double exact_tolerance = 1e-9;  // residual over the mean contact force [-]
 constexpr int most_increments = 400;
-// The pressure changes at most by this share in one increment; falls it further, a rearrangement
-// took part, and the increment is tried again shorter, down to where there is no way around it.
+// Largest change of the pressure in one increment, as a share. A fall beyond largest_fall is a
+// rearrangement: the increment is repeated with a shorter step, down to the least one.
 constexpr double largest_change = 0.3;
 constexpr double largest_fall = 0.7;
-// Changes of shape in one increment: of the first and the shortest, over the elastic strain
-// p t / kn, and of the longest.
+// Changes of shape per increment: the first and the least over the elastic strain p t / kn, and the
+// largest.
 constexpr double first_shear = 0.3;
 constexpr double least_shear = 3e-2;
 constexpr double largest_shear = 5e-4;
 constexpr int most_escapes = 20;
-// Overshoot: the slope of the enthalpy at the end of a step, over that at its start.
+// Overshoot: slope of the enthalpy at the end of a step over that at its start.
 constexpr double too_far = 0.5;
 
 }  // namespace
@@ -80,7 +80,7 @@ bool StressControl<D>::accept(const Tensor<D>& deformation, double least_pressur
   return true;
 }
 
-// The largest residual, relative to the target.
+// Largest residual relative to the target.
 template <int D>
 double StressControl<D>::misfit(const StressTarget<D>& target) const {
   const Tensor<D> sigma = cauchy();
@@ -107,7 +107,7 @@ bool StressControl<D>::reach(const StressTarget<D>& target, double tolerance) {
   const Packing& packing = *problem_.packing;
   const double radius = mean_radius(packing.radius);
   const double line_stiffness = law_.stiffness(radius, radius) / depth<D>(packing);
-  // Where no equilibrium is near any more, squeezing finds one further on.
+  // Squeezes the packing where no equilibrium is near; one is found further on.
   int escapes = 0;
   const auto escape = [&](int number) {
     if (number >= most_escapes) return false;

@@ -1,4 +1,4 @@
-// A periodic packing led through equilibria until its stress, or its void ratio, is the wanted one.
+// A periodic packing driven through equilibria to a wanted stress or void ratio.
 #pragma once
 
 #include "equilibrium/strategy.hpp"
@@ -7,19 +7,20 @@
 
 namespace grainlaw::core {
 
-// Newton's method on the exact tangent with F upper triangular, in increments each of which ends in
-// equilibrium and advances the friction history. It works where compression, which passes through
-// states out of equilibrium, finds no packing: near the point where stiff packings come apart.
+// Newton's method on the exact tangent with F upper triangular. Each increment ends in equilibrium
+// and advances the friction history. It works near the point where stiff packings lose contact,
+// where compression through states out of equilibrium fails.
 template <int D>
 class StressControl {
  public:
-  //   reference  packing at F = I; the configuration starts from it
-  //   force_floor  of the residuals' scale [N]
+  // Starts from configuration `at`.
+  //   reference    packing at F = I
+  //   force_floor  least force scale of residuals [N]
   StressControl(const Packing& reference, const ContactLaw& law, Configuration<D> at,
                 double force_floor);
 
-  // To so much of the pressure, or of the volume. False when no equilibrium was found on the way; the
-  // configuration is then the last one found.
+  // Drives the packing to the target within the tolerance relative to the pressure or volume.
+  // Returns false when an equilibrium was not found; the last equilibrium stays.
   bool reach(const StressTarget<D>& target, double tolerance = tight);
   static constexpr double tight = 1e-7;
 
@@ -43,7 +44,7 @@ class StressControl {
   Tensor4<D> tangent_{};
 };
 
-// The packing as it stands in a configuration: its own reference from now on, with contact forces.
+// The packing of a configuration as a new reference, with contact forces.
 template <int D>
 Packing packing_of(const Problem<D>& problem, const Configuration<D>& at);
 

@@ -11,10 +11,10 @@ namespace grainlaw::core {
 
 namespace {
 
-// Against the stiffest direction, the least stiffness that a step of Newton's counts on.
+// Least stiffness of a Newton step over the largest.
 constexpr double least_stiffness = 1e-4;
 
-// matrix^-1 right where the matrix is stable; else its even part with eigenvalues by their size.
+// matrix^-1 right for a stable matrix; else with its symmetric part and absolute eigenvalues.
 Eigen::VectorXd solve_downhill(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (matrix + matrix.transpose()));
   Eigen::VectorXd values = eigen.eigenvalues();
@@ -25,7 +25,7 @@ Eigen::VectorXd solve_downhill(const Eigen::MatrixXd& matrix, const Eigen::Vecto
   return vectors * (vectors.transpose() * right).cwiseQuotient(values);
 }
 
-// Of the upper triangle, row by row.
+// Indices of the upper triangle by rows.
 template <int D>
 constexpr auto upper_triangle() {
   std::array<std::size_t, static_cast<std::size_t>(StressDescent<D>::components)> index{};
@@ -36,7 +36,7 @@ constexpr auto upper_triangle() {
   return index;
 }
 
-// By the components of the triangle: gradient, and its derivative.
+// Gradient and its derivative over the components of the triangle.
 struct Plane {
   Eigen::Vector3d gradient;
   Eigen::Matrix3d slope, basis;

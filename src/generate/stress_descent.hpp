@@ -1,4 +1,4 @@
-// The enthalpy at whose minimum a packing has the wanted stress, seen from where it stands.
+// Enthalpy of a packing, whose minimum has the wanted stress, expanded at a state.
 #pragma once
 
 #include "math/tensor.hpp"
@@ -7,25 +7,25 @@
 
 namespace grainlaw::core {
 
-// Cauchy stress sigma = -p (1 + deviator), the deviator of discs [q, r; r, -q], of spheres symmetric
-// without a trace.
+// Wanted Cauchy stress sigma = -p (1 + deviator). The deviator is [q, r; r, -q] for discs,
+// symmetric and traceless for spheres.
 template <int D>
 struct StressTarget {
   static constexpr std::size_t deviators = D == 2 ? 2 : 6;
 
   double pressure = 0;  // p [Pa]; unused when volume > 0
   double volume = 0;    // det F instead of the pressure, 0: none [-]
-  // q, r; or the components 11, 22, 33, 23, 13, 12 [-].
+  // Components q, r; or 11, 22, 33, 23, 13, 12 [-].
   std::array<double, deviators> deviator{};
-  bool free_shear = true;  // what F has beside its diagonal stays, whatever the shear stresses
+  bool free_shear = true;  // off-diagonal F stays, shear stresses are free
 };
 
-// [Pa]
+// Wanted Cauchy stress at this pressure [Pa].
 template <int D>
 Tensor<D> target_stress(const StressTarget<D>& target, double pressure);
 
-// The enthalpy W - (work of the wanted Cauchy stress) by the upper triangle of F: first its volume,
-// then its shapes: diagonal ones, and the components beside the diagonal.
+// Enthalpy, W - (work of the wanted Cauchy stress), as a function of the upper triangle of F. Its
+// basis is the volume, then the shapes: diagonal ones, then off-diagonal components.
 template <int D>
 struct StressDescent {
   static constexpr int components = D * (D + 1) / 2;
@@ -33,19 +33,19 @@ struct StressDescent {
   using Vector = Eigen::Matrix<double, components, 1>;
   using Matrix = Eigen::Matrix<double, components, components>;
 
-  Matrix basis;     // columns: upper triangle of F, row by row, of volume and shapes
+  Matrix basis;     // columns: upper triangle of F by rows, for volume and shapes
   Vector gradient;  // [Pa]
   Matrix slope;     // [Pa]
 
-  // Newton's step towards the minimum, or its volume towards the one wanted. Where the packing is
-  // unstable, which stiff ones often are in shear, that would lead to a saddle: negative stiffness is
-  // taken by its size.
+  // Newton's step towards the minimum, or with its volume towards the wanted one. Stiff packings
+  // are often unstable in shear, where the step would lead to a saddle: negative stiffness is
+  // replaced by its absolute value.
   [[nodiscard]] Vector step(double most_volume, double most_shape, const double* volume) const;
-  // F after it.
+  // F after a step.
   [[nodiscard]] Tensor<D> moved(Tensor<D> deformation, const Vector& step) const;
 };
 
-// |cof F|, of a change of volume by its step along the first of the basis.
+// cof F|: change of volume per step along the first basis vector.
 template <int D>
 double length_of_volume(const Tensor<D>& deformation) {
   const auto& f = deformation;
@@ -56,7 +56,7 @@ double length_of_volume(const Tensor<D>& deformation) {
   }
 }
 
-// At an F of which nothing is below the diagonal, by P and dP/dF there.
+// Expansion at an upper triangular F, from P and dP/dF there.
 template <int D>
 StressDescent<D> descent_of(const StressTarget<D>& target, double pressure, const Tensor<D>& f,
                             const Tensor<D>& stress, const Tensor4<D>& tangent);

@@ -12,13 +12,14 @@ template <>
 StretchStep<2> step_of<2>(const StretchAim& aim, const Vec<2>& stretch, const Tensor<2>& p,
                           const Tensor4<2>& tangent) {
   const auto [a, b] = stretch;
-  // dP11 and dP22 by the two stretches.
+  // dP11 and dP22 over the two stretches.
   const double c11 = tangent[0];
   const double c12 = tangent[3];
   const double c21 = tangent[12];
   const double c22 = tangent[15];
   if (aim.keeps_volume) {
-    // Area fixed: a = s exp(q), b = s exp(-q); Cauchy stresses P11 / b and P22 / a equal.
+    // At fixed area a = s exp(q), b = s exp(-q); the Cauchy stresses P11 / b and P22 / a become
+    // equal.
     const double difference = p[0] / b - p[3] / a;
     const double slope = (c11 * a - c12 * b + p[0]) / b - (c21 * a - c22 * b - p[3]) / a;
     const double q = -difference / slope;
@@ -40,7 +41,7 @@ StretchStep<2> step_of<2>(const StretchAim& aim, const Vec<2>& stretch, const Te
 template <>
 StretchStep<3> step_of<3>(const StretchAim& aim, const Vec<3>& stretch, const Tensor<3>& p,
                           const Tensor4<3>& tangent) {
-  // Of the enthalpy W + pressure det F.
+  // Gradient of the enthalpy W + pressure det F.
   Eigen::Vector3d gradient, area;
   Eigen::Matrix3d slope;
   StretchStep<3> step{};
@@ -62,7 +63,7 @@ StretchStep<3> step_of<3>(const StretchAim& aim, const Vec<3>& stretch, const Te
     std::copy_n(change.data(), 3, step.change.begin());
     return step;
   }
-  // Along the areas nothing moves; a change of the mean pressure takes up what is left there.
+  // Stretches change across `area` alone; the mean pressure takes up the part along it.
   const Eigen::Matrix3d across =
       Eigen::Matrix3d::Identity() - area * area.transpose() / area.squaredNorm();
   const double stiff = even.cwiseAbs().maxCoeff();

@@ -1,4 +1,5 @@
-// Newton's step of the stretches along the axes towards a pressure, or towards equal stresses at a volume.
+// Newton's step of the stretches along the axes towards a pressure, or towards equal stresses at a
+// volume.
 #pragma once
 
 #include "math/tensor.hpp"
@@ -6,18 +7,18 @@
 namespace grainlaw::core {
 
 struct StretchAim {
-  double pressure;    // of the aim; where the volume is kept, the present mean [Pa]
-  bool keeps_volume;  // then the normal stresses are to be equal
+  double pressure;    // wanted; with a fixed volume the present mean [Pa]
+  bool keeps_volume;  // aim: equal normal stresses at this volume
 };
 
 template <int D>
 struct StretchStep {
-  double misfit;  // of the stresses, relative to the pressure [-]
-  bool stable;    // the step leads downhill in enthalpy
+  double misfit;  // error of the stresses, relative to the pressure [-]
+  bool stable;    // whether the step descends in enthalpy
   Vec<D> change;
 };
 
-// Cauchy stress times this is the stress P along an axis: det F / stretch.
+// Cofactor det F / stretch: the Cauchy stress times it is P along the axis.
 template <int D>
 double cofactor(const Vec<D>& stretch, std::size_t axis) {
   if constexpr (D == 2) {
@@ -27,7 +28,7 @@ double cofactor(const Vec<D>& stretch, std::size_t axis) {
   }
 }
 
-// By P and dP/dF at F = diag(stretch).
+// Step at F = diag(stretch), from P and dP/dF there.
 template <int D>
 StretchStep<D> step_of(const StretchAim& aim, const Vec<D>& stretch, const Tensor<D>& stress,
                        const Tensor4<D>& tangent);

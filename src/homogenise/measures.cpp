@@ -24,7 +24,7 @@ Tensor<D> cauchy_stress(const Configuration<D>& at) {
   return sigma;
 }
 
-// Weighted number of contacts of every particle, copies being one.
+// Weighted number of contacts per source particle; copies add to one source.
 template <int D>
 std::vector<double> contacts_of_sources(const Problem<D>& problem,
                                         const std::vector<ContactView<D>>& contacts) {
@@ -76,7 +76,7 @@ Tensor<D> fabric(const std::vector<ContactView<D>>& contacts) {
   return phi;
 }
 
-// The square of a spring's force.
+// Squared norm of a spring's force or moment.
 template <std::size_t components>
 double sum_of_squares(const std::array<double, components>& force) {
   double sum = force[0] * force[0];
@@ -84,13 +84,13 @@ double sum_of_squares(const std::array<double, components>& force) {
   return sum;
 }
 
-// Of twisting or torsion [N m].
+// Moment of twisting or torsion along the normal [N m].
 double moment_along(const ContactView<2>& /*contact*/) { return 0; }
 double moment_along(const ContactView<3>& c) {
   return dot<3>(c.moment.data(), c.branch.data()) / length<3>(c.branch);
 }
 
-// A contact that is not bonded carries no tension.
+// Overlap that carries force; an unbonded contact carries no tension [m].
 template <int D>
 double carried_overlap(const ContactView<D>& c) {
   return c.bonded ? c.overlap + c.bond_gap : std::max(c.overlap, 0.0);
@@ -111,14 +111,14 @@ double elastic_energy(const Problem<D>& problem, const std::vector<ContactView<D
   return energy;
 }
 
-// By component, of rotations since F = I; of spheres of rotation vectors.
+// Mean rotation per component since F = I; a rotation vector for spheres [rad].
 template <int D>
 std::array<double, Dimension<D>::spins> mean_rotation(const Problem<D>& problem,
                                                       const Configuration<D>& at) {
   const auto n = problem.packing->size();
   std::array<double, Dimension<D>::spins> mean{};
   if (at.coordinates.size() < (D + Dimension<D>::turn_numbers) * n) return mean;
-  // Copies of a frame turn alike and count once.
+  // Copies on a frame share their rotation and count once.
   std::vector<std::array<double, Dimension<D>::spins>> rotation(problem.space->nodes);
   for (std::size_t p = 0; p < n; ++p) {
     rotation[static_cast<std::size_t>(problem.space->node[p])] =

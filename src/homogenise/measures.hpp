@@ -1,4 +1,4 @@
-// What a configuration can tell: stress, void ratio, coordination, fabric, energies.
+// Measures of a configuration: stress, void ratio, coordination, fabric, energies.
 #pragma once
 
 #include "increment/configuration.hpp"
@@ -11,7 +11,7 @@
 
 namespace grainlaw::core {
 
-// One touching contact as it stands, for measures and output.
+// One touching contact, for measures and output.
 template <int D>
 struct ContactView {
   int i, j;
@@ -19,15 +19,15 @@ struct ContactView {
   Vec<D> branch;        // x_j - x_i + F H0 shift [m]
   double overlap;       // [m]
   double normal_force;  // negative in the tension of a bond [N]
-  // On j, as ContactHistory has it [N].
+  // Tangential force on j, laid out as in ContactHistory [N].
   std::array<double, Dimension<D>::tangents> tangential_force;
   double weight;  // 1, or 1 / copies on a frame [-]
   bool bonded;
-  // Of rolling or bending, on j [N m].
+  // Moment of rolling or bending on j [N m].
   std::array<double, Dimension<D>::spins> moment;
   double bond_gap;  // stress-free branch of a bond - (R_i + R_j) [m]
 
-  // On j.
+  // Tangential force on j as a vector [N].
   [[nodiscard]] Vec<D> tangential_force_vector() const;
 };
 template <>
@@ -40,10 +40,10 @@ inline Vec<3> ContactView<3>::tangential_force_vector() const {
 template <int D>
 std::vector<ContactView<D>> contact_views(const Problem<D>& problem, const Configuration<D>& at);
 
-// Number of components of a measure; -1 when unknown.
+// Number of components of a measure; -1 for an unknown one.
 int measure_count(int dimension, grainlaw_measure what);
 
-// Fills value[measure_count]. Definitions in grainlaw.h.
+// Computes value[measure_count]; definitions and units in grainlaw.h.
 template <int D>
 void measure(const Problem<D>& problem, const Configuration<D>& at, grainlaw_measure what,
              double* value);

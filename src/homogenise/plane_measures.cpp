@@ -11,7 +11,7 @@ namespace grainlaw::core {
 
 namespace {
 
-// Half the difference of a plane fabric's eigenvalues, which are 1/2 +- this: its trace is 1.
+// Half the difference d of a plane fabric's eigenvalues, 1/2 + d and 1/2 - d.
 double half_difference(const Tensor<2>& phi) { return std::hypot(0.5 * (phi[0] - phi[3]), phi[1]); }
 
 }  // namespace

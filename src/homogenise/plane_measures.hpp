@@ -1,4 +1,4 @@
-// Measures whose formula is another in the plane.
+// Measures with a formula of their own in the plane.
 #pragma once
 
 #include "increment/configuration.hpp"
@@ -13,7 +13,7 @@ double anisotropy(const Tensor<2>& fabric);
 // sqrt(1/2 Fa : Fa) of Fa = 4 dev fabric (Guo & Zhao 2014, eqs. 24-25) [-].
 double fabric_intensity(const Tensor<2>& fabric);
 
-// Inner particles of a frame outside the polygon of its boundary [-].
+// Number of inner particles outside the polygon of the frame's boundary [-].
 double escaped_particles(const Problem<2>& problem, const Configuration<2>& at);
 
 }  // namespace grainlaw::core

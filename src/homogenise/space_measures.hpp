@@ -1,4 +1,4 @@
-// Measures whose formula is another in space.
+// Measures with a formula of their own in space.
 #pragma once
 
 #include "math/tensor.hpp"

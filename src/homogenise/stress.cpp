@@ -8,7 +8,7 @@ namespace grainlaw::core {
 
 namespace {
 
-// Calls visit(contact, point, L) for every touching contact.
+// Calls visit(contact, point, L) for every touching contact, L = F^-1 l.
 template <int D, class Visit>
 void for_each_contact(const Increment<D>& increment, Visit&& visit) {
   const Tensor<D> pull_back = inverse<D>(increment.motion().deformation());
@@ -22,7 +22,8 @@ void for_each_contact(const Increment<D>& increment, Visit&& visit) {
   }
 }
 
-// Prescribed stresses stay, and the F that is given for them counts for nothing.
+// Zeroes rows and columns of found components: their stress is prescribed, and the F given for them
+// is ignored.
 template <int D>
 void clear_found(const BoundarySpace<D>& space, Tensor4<D>& tangent) {
   constexpr std::size_t n = squared<D>;
@@ -32,7 +33,8 @@ void clear_found(const BoundarySpace<D>& space, Tensor4<D>& tangent) {
   }
 }
 
-// The same of a tangent at fixed F: the found components follow so that those stresses stay.
+// Condenses a tangent at fixed F: found components of F change so that the prescribed stresses
+// stay.
 template <int D>
 void condense_found(const BoundarySpace<D>& space, Tensor4<D>& tangent) {
   constexpr std::size_t n = squared<D>;
@@ -65,7 +67,7 @@ Tensor<D> piola_stress(const Increment<D>& increment) {
   return p;
 }
 
-// Lane by lane: columns are dP by the changes of F that the lanes stand for.
+// Assembles dP/dF from lanes: column k is dP for the change of F of lane k.
 template <int D>
 Tensor4<D> changes_of_stress(const Increment<D>& increment, const Sensitivity<D>& sensitivity,
                              std::size_t lanes) {
@@ -78,8 +80,8 @@ Tensor4<D> changes_of_stress(const Increment<D>& increment, const Sensitivity<D>
     const Vec<D> force = point.force_on_j();
     const ContactChange<D>& change = sensitivity.changes(c);
     for (std::size_t k = 0; k < lanes; ++k) {
-      // d(F^-1 l) = F^-1 (dl - dF L); the change of the branch holds both parts.
-      // A space bound to axes has fixed branches.
+      // dL = d(F^-1 l) = F^-1 (dl - dF L), with both parts of the change of the branch in dl. A
+      // space bound to axes has fixed branches.
       Vec<D> fluctuation{};
       for (std::size_t i = 0; i < D; ++i) fluctuation[i] = change.branch[i].lane[k];
       if constexpr (D == 2) {
@@ -108,7 +110,7 @@ Tensor4<2> condensed_tangent(const Increment<2>& increment, const Sensitivity<2>
   return tangent;
 }
 
-// By every component of F: dF F_n^-1 is a stretch, of which the lanes tell, and a rotation, which turns P.
+// Splits dF F_n^-1 per component of F into a stretch, whose lanes give dP, and a rotation of P.
 template <>
 Tensor4<3> condensed_tangent(const Increment<3>& increment, const Sensitivity<3>& sensitivity) {
   constexpr std::size_t n = squared<3>;
@@ -144,7 +146,8 @@ Tensor4<D> elastic_tangent(const Increment<D>& increment) {
   const auto& list = increment.contacts();
   const auto& law = *increment.problem().law;
   for_each_contact(increment, [&](std::size_t c, const auto& point, const auto& branch) {
-    // Both stiffnesses of a Hertz-Mindlin contact go with the square root of the overlap.
+    // Both stiffnesses of a Hertz-Mindlin contact are proportional to the root of the overlap,
+    // @formula hertz.
     const double scale = law.hertzian() ? std::sqrt(list.reach[c] - point.distance) : 1;
     const double kn = scale * list.normal_stiffness[c];
     const double kt = scale * list.tangential_stiffness[c];

@@ -8,16 +8,17 @@
 
 namespace grainlaw::core {
 
-// Fields in quotes may have commas, line breaks and doubled quotes in them.
+// Reader of records; quoted fields may contain commas, line breaks and doubled quotes.
 class CsvRecords {
  public:
-  // The text must outlive it.
+  // `text` must outlive the reader.
   explicit CsvRecords(std::string_view text) : rest_(text) {}
 
-  // The fields of the next record; false at the end. An empty line is a record of one empty field.
+  // Reads the fields of the next record; false at the end. An empty line is a record of one empty
+  // field.
   bool next(std::vector<std::string>& fields);
 
-  // Of the last record: the line that it begins in, and whether a quote in it was left open.
+  // First line of the last record, and whether it left a quote open.
   [[nodiscard]] std::size_t line() const { return line_; }
   [[nodiscard]] bool open() const { return open_; }
 

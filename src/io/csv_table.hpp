@@ -1,5 +1,5 @@
-// A comma-separated file read line by line: wanted columns by name, numbers exact to the bit,
-// errors with file and line.
+// Reader of a comma-separated file by column names. Numbers are exact to the bit, and errors name
+// file and line.
 #pragma once
 
 #include "base/error.hpp"
@@ -22,11 +22,12 @@
 
 namespace grainlaw::core {
 
-// Throws Error: FILE_ERROR when the file cannot be opened, BAD_PACKING for what is wrong in it.
+// Rows of the wanted columns. Throws Error: FILE_ERROR when the file cannot be opened, BAD_PACKING
+// for wrong content.
 template <std::size_t columns>
 class CsvTable {
  public:
-  // path is the file's name in messages. A name may have a unit, "x[m]": headers may have it too, and
+  // `path` names the file in messages. A name may have a unit, "x[m]": headers may have it too, and
   // no other.
   CsvTable(const std::string& path, std::string_view text,
            const std::array<std::string_view, columns>& names)
@@ -58,14 +59,14 @@ class CsvTable {
 
   [[nodiscard]] bool has(std::size_t column) const { return place_[column] != none; }
 
-  // Columns first..last-1 must be there.
+  // Fails unless the columns first..last-1 are present.
   void require(std::size_t first, std::size_t last) const {
     for (std::size_t k = first; k < last; ++k)
       if (!has(k))
         fail(fmt::format("the header has no column '{}'; found '{}'", names_[k], header_));
   }
 
-  // Read the next line that is not blank; false at the end.
+  // Reads the next non-blank line; false at the end.
   bool next() {
     if (!read_record()) return false;
     if (fields_.size() < width_) fail("fewer fields than the header has columns");
@@ -73,7 +74,7 @@ class CsvTable {
     return true;
   }
 
-  // Empty where there is no such column.
+  // Text of a column; empty where the file lacks the column.
   [[nodiscard]] std::string_view text(std::size_t column) const {
     return has(column) ? std::string_view(fields_[place_[column]]) : std::string_view();
   }
@@ -111,7 +112,7 @@ class CsvTable {
  private:
   static constexpr auto none = static_cast<std::size_t>(-1);
 
-  // "x [m]": its name and its unit.
+  // Splits "x [m]" into its name and its unit.
   static std::pair<std::string_view, std::string_view> parted(std::string_view name) {
     const auto bracket = name.find('[');
     if (bracket == std::string_view::npos || !name.ends_with(']')) return {name, {}};
@@ -119,7 +120,7 @@ class CsvTable {
     return {name.substr(0, name.find_last_not_of(" \t", bracket - 1) + 1), unit};
   }
 
-  // As much of it as a message has room for.
+  // Line cut to the length of a message.
   static std::string shortened(std::string line) {
     constexpr std::size_t longest = 120;
     for (char& letter : line)
@@ -127,7 +128,7 @@ class CsvTable {
     return line.size() > longest ? line.substr(0, longest) + "..." : line;
   }
 
-  // The next that is not blank, its fields without blanks around them; false at the end.
+  // Reads the next non-blank record and trims its fields; false at the end.
   bool read_record() {
     constexpr std::string_view blanks = " \t";
     do {
@@ -154,9 +155,9 @@ class CsvTable {
   std::string text_;
   CsvRecords records_;
   std::vector<std::string> fields_;
-  std::array<std::size_t, columns> place_{};  // of each column in a record
+  std::array<std::size_t, columns> place_{};  // index of each column in a record
   std::size_t width_ = 0;
-  std::string header_;  // for messages
+  std::string header_;  // header line for messages
 };
 
 }  // namespace grainlaw::core

@@ -20,7 +20,7 @@ void fail_file(const std::string& path, const char* what, int error) {
               fmt::format("{}: cannot be {}: {}", path, what, std::strerror(error)));
 }
 
-// Opening does not wait: a pipe that nobody writes to, or reads, would hold up the host for ever.
+// Opens without blocking: a pipe without a peer would block the host for ever.
 Descriptor::Descriptor(const std::string& path, int flags)
     : number_(::open(path.c_str(), flags | O_CLOEXEC | O_NONBLOCK, 0666)) {
   if (valid()) ::fcntl(number_, F_SETFL, flags & O_APPEND);

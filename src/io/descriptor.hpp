@@ -1,4 +1,4 @@
-// An open file of the system.
+// A file descriptor with an owner.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,10 @@
 
 namespace grainlaw::core {
 
-// Throws Error (FILE_ERROR) "path: cannot be WHAT: reason", or std::bad_alloc for a lack of memory.
+// Throws Error (FILE_ERROR) "path: cannot be WHAT: reason", or std::bad_alloc when memory is short.
 [[noreturn]] void fail_file(const std::string& path, const char* what, int error);
 
-// Closed when it goes.
+// An open file, closed by the destructor.
 class Descriptor {
  public:
   Descriptor(const std::string& path, int flags);
@@ -22,12 +22,12 @@ class Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
 
   [[nodiscard]] bool valid() const { return number_ >= 0; }
-  [[nodiscard]] bool streams() const;  // a pipe or device: without an end, perhaps
+  [[nodiscard]] bool streams() const;  // a pipe or device, which may be endless
   [[nodiscard]] ssize_t read(char* to, std::size_t size) const;
-  // Each returns 0, or the error.
+  // Each call returns 0 or errno.
   int write(std::string_view text);
   int keep_mode(mode_t mode);
-  int sync();  // what the file system cannot do counts as done
+  int sync();  // unsupported by the file system: counts as done
   int cut(std::uintmax_t length);
   int close();
 

@@ -1,5 +1,5 @@
-// fmt's own functions, compiled here once: header-only they would be compiled again in every file, and
-// fmt's shared library would be a dependency of every host.
+// fmt's functions, compiled once here. Header-only use would compile them in every file, and fmt's
+// shared library would be a dependency of every host.
 #include <fmt/format-inl.h>
 
 FMT_BEGIN_NAMESPACE

@@ -28,7 +28,7 @@ std::string behind_links(const std::string& path) {
   return target.get();
 }
 
-// A write beyond the limit of file sizes is an error here, not the end of the host.
+// Turns a write beyond the file size limit into an error; SIGXFSZ would end the host.
 class NoSizeSignal {
  public:
   NoSizeSignal() {
@@ -52,7 +52,7 @@ class NoSizeSignal {
   sigset_t signal_, before_;
 };
 
-// A new file beside the one that it will be.
+// A temporary file in the directory of its target.
 class Beside {
  public:
   Beside(const std::string& path, std::string_view text, Writing writing)
@@ -95,13 +95,13 @@ class Beside {
     if (std::rename(name_.c_str(), target_.c_str()) != 0) fail_file(path_, "written", errno);
     name_.clear();
     if (!writing_.wait) return;
-    // The name itself is on the disk once its directory is; nothing fails any more.
+    // The rename is durable once its directory is on disk; failures from here on are ignored.
     Descriptor directory(directory_, O_RDONLY | O_DIRECTORY);
     if (directory.valid()) static_cast<void>(directory.sync());
   }
 
  private:
-  // E.g. /dev/stdout.
+  // Writes a target that is no regular file, e.g. /dev/stdout.
   void write_in_place(std::string_view text) const {
     Descriptor file(path_, O_WRONLY | O_TRUNC);
     if (!file.valid()) fail_file(path_, "written", errno);
@@ -113,7 +113,7 @@ class Beside {
 
   std::string path_, target_, directory_;
   Writing writing_;
-  std::string name_;  // "" : it is in its place
+  std::string name_;  // "": renamed to its target
 };
 
 }  // namespace
@@ -168,7 +168,7 @@ GrowingFile::GrowingFile(const std::string& path, std::uintmax_t length)
 void GrowingFile::append(std::string_view bytes) {
   const NoSizeSignal no_signal;
   if (const int error = file_.write(bytes); error != 0) {
-    // Best effort: what is there of the piece would be read as the whole of it.
+    // Best effort: a reader would take a partial piece for a whole one.
     static_cast<void>(file_.cut(length_));
     fail_file(path_, "written", error);
   }

@@ -1,5 +1,5 @@
-// Whole files, read and written at once: under its name a file is the old one or the new one,
-// whenever the process stops or the disk is full. And files that grow by whole pieces.
+// Whole files, replaced atomically: a file has its old or its new content, whenever the process
+// stops or the disk is full. Growing files gain whole pieces.
 #pragma once
 
 #include "io/descriptor.hpp"
@@ -11,36 +11,35 @@
 
 namespace grainlaw::core {
 
-// Without the mark that spreadsheets begin UTF-8 with. Throws Error (FILE_ERROR) when the file cannot be
-// read to its end, and for a pipe or device, which may have none.
+// Content without a UTF-8 byte order mark. Throws Error (FILE_ERROR) when the file cannot be read
+// to its end, and for a pipe or device.
 std::string read_text(const std::string& path);
 
 struct Writing {
-  bool wait = false;  // until the file and its name are on the disk, against a machine that stops
-  bool alone =
-      false;  // no other process or thread writes this file: what a killed one left beside it
-              // is written over
+  bool wait = false;   // until file and name are on disk, safe against power loss
+  bool alone = false;  // no other writer: a leftover of a killed process is overwritten
 };
 
-// Throws Error (FILE_ERROR) when not all of it could be written; the old file is then as it was, and
-// nothing is left beside it. What is no regular file, e.g. /dev/stdout, is written to.
+// Throws Error (FILE_ERROR) when writing fails; the old file is then unchanged, and no temporary
+// file is left. A target that is no regular file, e.g. /dev/stdout, is written in place.
 void write_text(const std::string& path, std::string_view text, Writing writing = {});
 
-// Files that belong to each other: all of them are on the disk before the first gets its name. Throws
-// as write_text does.
+// Writes files that belong together: all are on disk before the first is renamed. Throws as
+// write_text does.
 struct TextFile {
   std::string path;
   std::string text;
 };
 void write_together(std::span<const TextFile> files, Writing writing = {.wait = true});
 
-// Waits until what was written to the file is on the disk. Throws Error (FILE_ERROR).
+// Waits until the file is on disk. Throws Error (FILE_ERROR).
 void sync_file(const std::string& path);
 
-// What cannot be written to the end of its piece leaves nothing of it.
+// A file that grows by whole pieces; a piece that cannot be written completely is removed.
 class GrowingFile {
  public:
-  // Empty, or with its first `length` bytes. Throw Error (FILE_ERROR), as append() does.
+  // Opens the file empty, or with its first `length` bytes. Constructors and append() throw Error
+  // (FILE_ERROR).
   explicit GrowingFile(const std::string& path);
   GrowingFile(const std::string& path, std::uintmax_t length);
 

@@ -1,10 +1,11 @@
-// toml++ as this project uses it. A guard instead of "pragma once": the file is part of a precompiled
-// header, where compiler caches give it another path.
+// toml++ as this project uses it. A guard replaces "pragma once", since the file is part of a
+// precompiled header, which compiler caches store under another path.
 #ifndef GRAINLAW_IO_TOML_HPP
 #define GRAINLAW_IO_TOML_HPP
 
-// toml++ assumes things of a text before it has looked, and then either aborts or, without assertions,
-// lets the compiler rely on them: "[.a" is enough. Wrong texts are its errors, nothing else.
+// toml++ asserts conditions of a text before it has checked them. It then aborts or, without
+// assertions, lets the compiler rely on them: "[.a" suffices. Here a wrong text gives its error and
+// nothing else.
 #pragma push_macro("NDEBUG")
 #undef NDEBUG
 #define TOML_ASSERT(condition) static_cast<void>(0)

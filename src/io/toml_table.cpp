@@ -22,7 +22,7 @@ Expectation<double> number(std::string text, Accept accept) {
           }};
 }
 
-// Whether one may be a slip of the pen for the other: they differ by two letters in one place.
+// Whether two words are probably one misspelt: they differ by at most two letters in one place.
 bool resembles(std::string_view a, std::string_view b) {
   constexpr std::size_t slip = 2, in_common = 3;
   if (a.size() > b.size()) std::swap(a, b);
@@ -36,7 +36,7 @@ bool resembles(std::string_view a, std::string_view b) {
 }  // namespace
 
 toml::table parse_toml(std::string_view text, const std::string& name) {
-  // With exceptions, or a name to keep, it would end the process where there is no memory for them.
+  // Exceptions, or a name to store, would end the process when memory is short.
   toml::parse_result parsed = toml::parse(text);
   if (!parsed)
     throw Error(GRAINLAW_BAD_MATERIAL,
@@ -142,7 +142,7 @@ std::string shown(int value) { return fmt::format("{}", value); }
 void TomlTable::write_note(std::string_view key, std::string_view expected,
                            std::string_view fallback) const {
   std::string name = path(key);
-  // The first of several tables stands for them all.
+  // The first of several tables represents all.
   for (std::size_t at = name.find('['); at != std::string::npos; at = name.find('[', at + 1))
     name.erase(at + 1, name.find(']', at) - at - 1);
   const auto same = [&](const AskedKey& other) { return other.path == name; };
@@ -193,7 +193,7 @@ void TomlTable::fail(std::string_view key, std::string_view found,
   }
   std::string text = fmt::format("{}: {}: found {}, expected {}{}", where(key), path(key), found,
                                  expected, perhaps);
-  std::ranges::replace(text, '\0', ' ');  // of the file; it would end the text
+  std::ranges::replace(text, '\0', ' ');  // it would end the text of the file
   throw Error(GRAINLAW_BAD_MATERIAL, text);
 }
 
@@ -228,7 +228,7 @@ std::string TomlTable::where(std::string_view key) const {
   auto line = table_->source().begin.line;
   for (const auto& [name, value] : *table_)
     if (name.str() == key) line = name.source().begin.line;
-  // What was merged from several places has no line of its own.
+  // A table merged from several places has no line of its own.
   if (line == 0 && !table_->empty()) return file_;
   return fmt::format("{}:{}", file_, std::max(line, toml::source_index{1}));
 }
@@ -245,13 +245,13 @@ std::string TomlTable::describe(const toml::node& node) {
   if (node.is_floating_point()) return fmt::format("{:#}", node.value_or(NAN));
   std::string found;
   if (const toml::array* array = node.as_array()) {
-    // toml++ itself breaks lists of small numbers into lines.
+    // toml++ would break lists of small numbers into lines.
     for (auto item = array->begin(); item != array->end() && found.size() <= longest; ++item)
       found += (found.empty() ? "[ " : ", ") + describe(*item);
     found += found.empty() ? "[]" : " ]";
   } else {
     std::ostringstream out;
-    out.exceptions(std::ios::badbit);  // which stands for a lack of memory
+    out.exceptions(std::ios::badbit);  // set when memory is short
     node.visit([&](const auto& value) { out << value; });
     found = out.str();
   }

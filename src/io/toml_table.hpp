@@ -1,4 +1,4 @@
-// A table of a TOML file in which every key is checked, and none is overlooked.
+// A TOML table in which every key is checked and no key is ignored.
 #pragma once
 
 #include "io/toml.hpp"
@@ -17,15 +17,15 @@
 
 namespace grainlaw::core {
 
-// What a value must be: a text for messages ("a number > 0"), and how to read it. read() gives
-// nothing when the value is something else.
+// An expected value: a text for messages ("a number > 0") and a reader. read() returns nothing for
+// any other value.
 template <class T>
 struct Expectation {
   std::string text;
   std::function<std::optional<T>(const toml::node&)> read;
 };
 
-// Finite numbers; integers are numbers too.
+// Finite numbers, integers included.
 Expectation<double> any_number();
 Expectation<double> number_above(double low);
 Expectation<double> number_at_least(double low);
@@ -40,7 +40,7 @@ Expectation<std::array<long, 3>> three_integers_between(long low, long high);
 // Three finite numbers, not all zero.
 Expectation<std::array<double, 3>> direction();
 
-// One of some words, each of which stands for a value.
+// One of several words, each with its value.
 template <class T>
 Expectation<T> one_of(std::initializer_list<std::pair<std::string_view, T>> words) {
   std::string expected = words.size() > 1 ? "one of" : "";
@@ -56,20 +56,20 @@ Expectation<T> one_of(std::initializer_list<std::pair<std::string_view, T>> word
           }};
 }
 
-// What a reader asked a table for: the table of keys that the manual shows.
+// A key that a reader asked for: a row of the manual's table of keys.
 struct AskedKey {
-  std::string path;      // "contact.kn"; of tables under [[segment]] "segment[].steps"
-  std::string expected;  // the text of its expectation
-  std::string fallback;  // "required", a value, or "" for nothing
+  std::string path;      // "contact.kn"; "segment[].steps" under [[segment]]
+  std::string expected;  // text of the expectation
+  std::string fallback;  // "required", a value, or "" for none
 };
 using KeyLog = std::vector<AskedKey>;
 
-// The value of a key that is absent, as a page shows it.
+// Default value as a page shows it.
 std::string shown(double value);
 std::string shown(bool value);
 std::string shown(int value);
 inline std::string shown(std::string_view value) { return std::string(value); }
-// Of the words that an expectation allows, the one that stands for the value; "" when none does.
+// The word of an expectation that stands for the value; "" when none does.
 template <class U, class T>
 std::string shown_default(const Expectation<U>& expectation, const T& value) {
   if constexpr (std::is_same_v<U, bool>)
@@ -88,16 +88,16 @@ std::string shown_default(const Expectation<U>& expectation, const T& value) {
   return "";
 }
 
-// The whole text of a file that is called by this name. Throws Error (BAD_MATERIAL) "name:line: what is
-// wrong".
+// Parses the whole text of a file; `name` appears in messages. Throws Error (BAD_MATERIAL)
+// "name:line: what is wrong".
 toml::table parse_toml(std::string_view text, const std::string& name);
 
-// Every failure is an Error (BAD_MATERIAL) with the text
+// A checked table. Every failure is an Error (BAD_MATERIAL) with the text
 //   file:line: table.key: found X, expected Y
 class TomlTable {
  public:
-  // The table that messages call by this name, "" for the file's top one. The file is only a name here;
-  // table must outlive this. What is asked for goes to the log, where there is one.
+  // `name` is the table's name in messages, "" for the top one; `file` serves messages alone.
+  // `table` must outlive this object. Keys asked for are appended to the log, where given.
   TomlTable(const toml::table& table, std::string file, const std::string& name = "",
             KeyLog* log = nullptr)
       : table_(&table),
@@ -118,7 +118,7 @@ class TomlTable {
     value = static_cast<T>(required(key, expectation));
   }
 
-  // Nothing when the key is absent.
+  // Value of a key; nothing when it is absent.
   template <class T>
   std::optional<T> optional(std::string_view key, const Expectation<T>& expectation) {
     note(key, expectation.text, "");
@@ -127,38 +127,39 @@ class TomlTable {
     return read(key, *found, expectation);
   }
 
-  // Sets value when the key is there, else leaves its default.
+  // Sets `value` when the key is present.
   template <class T, class U>
   void optional(std::string_view key, const Expectation<U>& expectation, T& value) {
     if (log_ != nullptr) note(key, expectation.text, shown_default(expectation, value));
     if (const std::optional<U> found = optional(key, expectation)) value = static_cast<T>(*found);
   }
 
-  // The value itself, for keys that are passed on; null when absent.
+  // Node of a key whose value is passed on; null when absent.
   const toml::node* node(std::string_view key);
-  // The tables under [[key]]; absent: none.
+  // Tables under [[key]]; none when absent.
   std::vector<TomlTable> tables(std::string_view key);
   TomlTable required_table(std::string_view key);
   TomlTable optional_table(std::string_view key);  // empty when absent
 
-  // One of the two keys must be there, not both.
+  // Fails unless exactly one of the two keys is present.
   void require_either(std::string_view one, std::string_view other);
 
-  // For the log: a key that is about to be asked for. What is noted first of a key stays.
+  // Logs a key; the first note of a key stays.
   void note(std::string_view key, std::string_view expected, std::string_view fallback) const {
     if (log_ != nullptr) write_note(key, expected, fallback);
   }
 
-  // No key is left that nobody asked for.
+  // Fails for a key that no reader asked for.
   void finish() const;
 
   [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
   [[nodiscard]] const toml::table& content() const { return *table_; }
-  // "file:line: name", for messages about what the table as a whole says.
+  // "file:line: name", for messages about the whole table.
   [[nodiscard]] std::string place() const;
-  // A value as messages show it.
+  // Value as messages show it.
   static std::string describe(const toml::node& node);
-  // At the line of the key; of its table where it is missing, with the key that may be meant for it.
+  // Throws at the line of the key, or of the table when it is missing, with a similar key as a
+  // hint.
   [[noreturn]] void fail(std::string_view key, std::string_view found,
                          std::string_view expected) const;
 
@@ -179,7 +180,7 @@ class TomlTable {
   const toml::table* table_;
   std::string file_;
   std::string prefix_;              // "contact."
-  std::vector<std::string> asked_;  // in the order of asking, for the message
+  std::vector<std::string> asked_;  // in the order of asking, for messages
   KeyLog* log_ = nullptr;
 };
 

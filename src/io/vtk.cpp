@@ -12,7 +12,7 @@ namespace grainlaw::core {
 
 namespace {
 
-// value(k) for k = 0..count-1, one per line.
+// An array of value(k) for k = 0..count-1, one per line.
 template <class Value>
 std::string array(const char* type, const char* name, int components, std::size_t count,
                   Value&& value) {
@@ -36,7 +36,7 @@ void write_vtk(const std::string& path, std::span<const double> position,
     ++coordination[static_cast<std::size_t>(c.i)];
     ++coordination[static_cast<std::size_t>(c.j)];
   }
-  // Of the points only the first n are particles.
+  // Value of point k: the first n points are particles.
   const auto of_particle = [&](std::span<const double> values, std::size_t k) {
     return k < n && !values.empty() ? values[k] : 0.0;
   };

@@ -1,4 +1,4 @@
-// What VTK's XML files are made of. Their own writers would bring two hundred packages.
+// Text of VTK's XML files. VTK's own writers would add two hundred packages.
 #pragma once
 
 #include <fmt/format.h>
@@ -8,8 +8,8 @@
 
 namespace grainlaw::core {
 
-// A DataArray whose content is digits ("ascii") or base64 of a UInt64 count of bytes and the bytes
-// ("binary"); `more` are further attributes.
+// A DataArray. content: digits ("ascii"), or base64 of a UInt64 byte count and the bytes
+// ("binary"); more: further attributes.
 inline std::string vtk_array(std::string_view type, std::string_view name, int components,
                              std::string_view format, std::string_view content,
                              std::string_view more = "") {
@@ -19,7 +19,7 @@ inline std::string vtk_array(std::string_view type, std::string_view name, int c
       type, name, components, more, format, content);
 }
 
-// A whole file of one piece.
+// A whole file with one piece.
 inline std::string vtk_file(std::string_view type, std::string_view counts,
                             std::string_view content) {
   return fmt::format(
@@ -29,7 +29,6 @@ inline std::string vtk_file(std::string_view type, std::string_view counts,
       type, counts, content);
 }
 
-// Counts of a PolyData piece.
 inline std::string vtk_counts(std::size_t points, std::size_t vertices, std::size_t lines) {
   return fmt::format(
       "NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "

@@ -19,7 +19,7 @@ ServoOptions read_servo(TomlTable table) {
   return servo;
 }
 
-// What cannot be carried is told where it stands.
+// Fails for combinations of rules that are not implemented, at their place in the file.
 void check_side(const TomlTable& table, const Side& side) {
   const bool p = side.x == SideRule::p || side.y == SideRule::p;
   const bool t = side.x == SideRule::t || side.y == SideRule::t;
@@ -39,7 +39,7 @@ void check_side(const TomlTable& table, const Side& side) {
   }
 }
 
-// Without a rule in y it is that of x; rotations go with the translations.
+// Reads a side: y defaults to the rule of x, and rotations to the rule of the translations.
 Side read_side(TomlTable table) {
   const auto rule = one_of<SideRule>({{"D", SideRule::d}, {"P", SideRule::p}, {"T", SideRule::t}});
   Side side;

@@ -6,7 +6,7 @@
 
 namespace grainlaw::core {
 
-// Throws Error (BAD_MATERIAL) as TomlTable does.
+// Reads the boundary options. Throws Error (BAD_MATERIAL) as TomlTable does.
 BoundaryOptions read_boundary(TomlTable table);
 
 }  // namespace grainlaw::core

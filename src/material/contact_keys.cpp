@@ -18,7 +18,8 @@ void read_hertz(TomlTable& table, ContactLaw& law) {
   law.ratio = 2 * (1 - law.poisson) / (2 - law.poisson);
 }
 
-// A moment needs particles that turn, and they turn by tangential forces.
+// Reads rolling resistance, which needs particles that rotate, and tangential forces that rotate
+// them.
 void read_rolling(TomlTable& contact, ContactLaw& law, long dimension) {
   if (!contact.has("rolling")) return;
   TomlTable table = contact.required_table("rolling");
@@ -37,7 +38,7 @@ void read_rolling(TomlTable& contact, ContactLaw& law, long dimension) {
   if (law.friction == 0) contact.fail("friction", "0", "a number > 0 with [contact.rolling]");
 }
 
-// Bending or torsion: stiffness and strength go together, and with particles that turn.
+// Reads bending or torsion: stiffness and strength come together, with particles that rotate.
 void read_stiff_part(TomlTable& table, const ContactLaw& law, const std::string& part,
                      double& stiffness, double& strength) {
   const std::string of_stiffness = part + "_stiffness", of_strength = part + "_strength";

@@ -6,15 +6,15 @@
 
 namespace grainlaw::core {
 
-// law = "compressive"  young | kn
-//       "frictional"   young | kn, ratio, friction, rotation, [contact.rolling]
-//       "bonded"       the same, and [contact.bond]
-//       "hertz"        shear_modulus, poisson, friction, rotation, [contact.rolling]
-// [contact.rolling]    ratio, friction; of spheres also twisting_ratio, twisting_friction
-// [contact.bond]       normal_strength, tangential_strength, bending_stiffness, bending_strength,
-//                      gap; of spheres also torsion_stiffness, torsion_strength
-// Meaning and units as in ContactLaw. Throws Error (BAD_MATERIAL), also for what cannot act
-// together.
+// Reads the contact law. Meaning and units as in ContactLaw.
+//   law = "compressive"  young | kn;
+//         "frictional"   young | kn, ratio, friction, rotation, [contact.rolling];
+//         "bonded"       those of "frictional", and [contact.bond];
+//         "hertz"        shear_modulus, poisson, friction, rotation, [contact.rolling];
+//   [contact.rolling]    ratio, friction; of spheres also twisting_ratio, twisting_friction;
+//   [contact.bond]       normal_strength, tangential_strength, bending_stiffness, bending_strength,
+//                        gap; of spheres also torsion_stiffness, torsion_strength.
+// Throws Error (BAD_MATERIAL), also for keys that exclude each other.
 ContactLaw read_contact(TomlTable table, long dimension);
 
 }  // namespace grainlaw::core

@@ -1,4 +1,4 @@
-// Contacts as a packing's file has them, line by line.
+// Contacts of a packing's file, line by line.
 #pragma once
 
 #include "frame/frame_rows.hpp"
@@ -13,13 +13,13 @@
 
 namespace grainlaw::core {
 
-// What contacts are ordered by.
+// Sort key of contacts.
 using ContactKey = std::array<int, 5>;
 inline ContactKey key_of(const InitialContact& c) {
   return {c.i, c.j, c.shift[0], c.shift[1], c.shift[2]};
 }
 
-// The particle that a column names by its id.
+// The particle whose id a column contains.
 template <class Table>
 int read_particle(const Table& table, std::size_t column, const ParticleIds& ids) {
   const auto found = ids.find(table.integer(column));
@@ -27,7 +27,7 @@ int read_particle(const Table& table, std::size_t column, const ParticleIds& ids
   return found->second;
 }
 
-// What two columns, where there are any, say of its bond.
+// Reads the bond of a contact from two optional columns.
 template <class Table>
 void read_bond(const Table& table, std::size_t bonded, std::size_t gap, InitialContact& contact) {
   if (table.has(bonded)) {
@@ -38,10 +38,10 @@ void read_bond(const Table& table, std::size_t bonded, std::size_t gap, InitialC
   if (table.has(gap)) contact.bond_gap = table.real(gap);
 }
 
-// Each contact once, named from the side that comes first, whatever side its line names it from.
+// Contacts in canonical orientation, each once, whichever particle its line names first.
 class ContactLines {
  public:
-  // Of the table's present line, whose first column is the id of i.
+  // Adds the contact of the table's present line, whose first column is the id of i.
   template <class Table>
   void add(const Table& table, InitialContact contact) {
     constexpr std::array<int, 3> none{};
@@ -54,11 +54,11 @@ class ContactLines {
     if (!fresh) table.fail(fmt::format("the contact of line {} again", other->second.first));
   }
 
-  // In their order; returns the line of each.
+  // Moves the sorted contacts to the packing; returns the line of each.
   std::vector<unsigned> move_to(Packing& packing) const;
 
  private:
-  // Branch and forces turn round.
+  // Reverses branch and forces.
   static void turn_round(InitialContact& contact);
 
   std::map<ContactKey, std::pair<unsigned, InitialContact>> contacts_;

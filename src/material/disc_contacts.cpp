@@ -1,4 +1,4 @@
-// Contacts of discs as files have them.
+// Given contacts of discs.
 #include "material/given_contacts.hpp"
 
 namespace grainlaw::core {

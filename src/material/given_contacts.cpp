@@ -26,7 +26,7 @@ std::vector<NeighbourPair<D>> near_pairs(const Material<D>& material, double gap
   return pairs;
 }
 
-// What a contact has beside its history.
+// Data of a contact outside its history.
 template <int D>
 struct Extra {
   ContactHistory<D> history;
@@ -44,7 +44,7 @@ void add_bonds_and_moments(const Material<D>& material, Configuration<D>& given)
   std::map<Key<D>, Extra<D>> contacts;
   for (const auto& c : given.contacts) contacts[key_of(c)].history = c;
   if (law.bonds() && !named) {
-    constexpr double touch = 1e-9;  // of the radius: particles that rounding holds apart touch too
+    constexpr double touch = 1e-9;  // relative to the radius, for particles separated by rounding
     const double reach = std::max(law.bond.gap, touch * mean_radius(packing.radius));
     for (const auto& pair : near_pairs<D>(material, reach)) {
       auto& contact = contacts[key_of(pair)];
@@ -61,7 +61,7 @@ void add_bonds_and_moments(const Material<D>& material, Configuration<D>& given)
       std::get<shift_of_key>(key)[k] = static_cast<std::int16_t>(c.shift[k]);
     }
     const auto found = contacts.find(key);
-    if (found == contacts.end()) continue;  // named from the other side: files never are
+    if (found == contacts.end()) continue;  // named from j, as no file is
     auto& contact = found->second;
     contact.moment = given_moment<D>(c);
     if (!named || !law.bonds()) continue;

@@ -13,7 +13,7 @@ namespace grainlaw::core {
 
 namespace {
 
-// Of the way from the stress at F = I to the prescribed one.
+// First step, as a share of the way from the stress at F = I to the prescribed one.
 constexpr double first_step = 0.1;
 constexpr double least_step = 1e-2;
 constexpr int most_advancing_steps = 8;
@@ -39,7 +39,7 @@ void load_to_stress(const BoundarySpace<D>& space, const Request<D>& request,
   problem.space = &loading;
   const auto from = at.stress;
   double share = 0;
-  double missed = infinity;  // the least share that was not found from here
+  double missed = infinity;  // smallest share that failed from here
   double step = first_step;
   bool advancing = false;
   int advancing_steps = 0;

@@ -22,7 +22,7 @@ namespace grainlaw::core {
 
 namespace {
 
-// The packing as it is given, in the order in which neighbours are listed.
+// Configuration of the packing as given, contacts in the order of the neighbours.
 template <int D>
 Configuration<D> given_configuration(const Material<D>& material) {
   const auto& packing = material.packing;
@@ -48,13 +48,14 @@ Configuration<D> given_configuration(const Material<D>& material) {
   return given;
 }
 
-// Contact forces in the files must be those of this law: a packing made with another stiffness
-// would start from another equilibrium without a word.
+// Fails unless the given contact forces are those of this law. Forces of another stiffness would
+// silently start from another equilibrium.
 template <int D>
 void check_given_forces(const Material<D>& material) {
   constexpr double tolerance = 0.01;
   const auto& packing = material.packing;
-  const double most_shear = std::max(100.0, material.law.friction);  // over the normal forces
+  const double most_shear = std::max(100.0, material.law.friction);  // relative to the normal
+                                                                     // forces
   double given = 0, found = 0, shear = 0;
   for (const auto& contact : packing.contacts) {
     const auto i = static_cast<std::size_t>(contact.i);
@@ -86,8 +87,7 @@ void check_given_forces(const Material<D>& material) {
             shear, given, most_shear));
 }
 
-// Mean normal force of the packing as it is given: without it, a boundary under uniform stress could
-// begin without any.
+// Mean normal force as given; a boundary under uniform stress may have no other to start from.
 template <int D>
 double force_as_given(const Problem<D>& problem, const Configuration<D>& given,
                       Workspace<D>& workspace) {
@@ -96,10 +96,10 @@ double force_as_given(const Problem<D>& problem, const Configuration<D>& given,
   return workspace.increment.scale().mean_force();
 }
 
-// What a packing without an equilibrium is like, and what to look at first.
+// Describes a packing without an equilibrium and what to check first.
 template <int D>
 std::string unsettled(const Increment<D>& increment) {
-  constexpr double soft = 30, stiff = 1e7;  // kn / p that are hardly meant
+  constexpr double soft = 30, stiff = 1e7;  // kn / p outside are hardly meant
   const Packing& packing = *increment.problem().packing;
   const double r = mean_radius(packing.radius);
   const double kn = increment.problem().law->stiffness(r, r);
@@ -164,14 +164,14 @@ std::uint64_t fingerprint_of(const Material<D>& material) {
       add(rules, sizeof rules);
     }
   }
-  if (material.solver.viscosity.time > 0) add("drag", 4);  // saves the last move
+  if (material.solver.viscosity.time > 0) add("drag", 4);  // drag saves the last displacement
   add(material.packing.cell.data(), sizeof material.packing.cell);
   add_all(material.packing.radius);
   add_all(material.packing.position);
   return XXH3_64bits_digest(&state);
 }
 
-// What a frame condition needs: a frame is cut where there is none.
+// Cuts a frame for a frame condition whose packing has none.
 template <int D>
 void fit_frame(const BoundaryOptions& boundary, Packing& packing) {
   if (boundary.type == BoundaryType::periodic_cell) {
@@ -185,7 +185,7 @@ void fit_frame(const BoundaryOptions& boundary, Packing& packing) {
   }
 }
 
-// Longer bonds would hold each particle to all around it.
+// Fails for a gap so long that each particle would be bonded to all around it.
 void check_bond_gap(const ContactLaw& law, const Packing& packing) {
   if (!law.bonds() || packing.radius.empty()) return;
   const double diameter = 2 * *std::ranges::max_element(packing.radius);
@@ -226,7 +226,7 @@ std::shared_ptr<const Material<D>> make_material(MaterialDescription description
   const double unloaded_force = unloaded_force_scale(*material);
   const double least_force = material->law.bonds() ? unloaded_force : 0;
   const bool may_be_free = material->solver.contacts_lost == ContactsLost::stress_free;
-  // The servo and the published relaxation start from the same equilibrium as everything else.
+  // Every method, servo and published relaxation too, starts from the direct equilibrium.
   constexpr double tightest_needed = 1e-8;
   BoundarySpace<D> direct = material->space;
   direct.options.method = BoundaryMethod::direct;

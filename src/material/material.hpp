@@ -22,10 +22,10 @@ struct Material {
   BoundarySpace<D> space;
   SolverOptions solver;
   Configuration<D> initial;       // equilibrium at F = I
-  double initial_mean_force = 0;  // mean normal contact force there, or what takes its place [N]
-  std::uint64_t fingerprint = 0;  // tells saved states of different materials apart
+  double initial_mean_force = 0;  // mean normal contact force at F = I, or its substitute [N]
+  std::uint64_t fingerprint = 0;  // identifies the material of saved states
 
-  // What the solvers see of it.
+  // The material as the solvers see it.
   [[nodiscard]] Problem<D> problem() const {
     const double floor =
         solver.force_floor > 0 ? solver.force_floor : relative_floor * initial_mean_force;
@@ -33,17 +33,17 @@ struct Material {
   }
 };
 
-// What a material file says, before any equilibrium.
+// Content of a material file, before any equilibrium.
 struct MaterialDescription {
   Packing packing;
   ContactLaw law;
   BoundaryOptions boundary;
   SolverOptions solver;
-  std::optional<GeneratorOptions> generator;  // when set, the packing is still to be made
+  std::optional<GeneratorOptions> generator;  // present: the packing is still to be generated
 };
 
-// Cut the frame if the boundary needs one, and bring the packing to equilibrium at F = I.
-// Throws Error (BAD_PACKING, NOT_CONVERGED, CONTACTS_LOST).
+// Cuts the frame if the boundary needs one, and brings the packing to equilibrium at F = I. Throws
+// Error (BAD_PACKING, NOT_CONVERGED, CONTACTS_LOST).
 template <int D>
 std::shared_ptr<const Material<D>> make_material(MaterialDescription description);
 

@@ -35,7 +35,7 @@ PublishedOptions read_published(TomlTable table) {
   return published;
 }
 
-// The servo is a published algorithm around the published relaxation, and works with no other.
+// Reads the solver options; the published servo works with the published relaxation alone.
 SolverOptions read_solver(TomlTable table, const BoundaryOptions& boundary) {
   const bool servo = boundary.method == BoundaryMethod::servo;
   SolverOptions solver;
@@ -100,14 +100,14 @@ PackingPaths read_paths(TomlTable& table, const std::filesystem::path& directory
   return paths;
 }
 
-// The cell file has a thickness; one in the material file too must be the same.
+// Fails unless a thickness in the material file equals that of the cell file.
 void check_thickness(const TomlTable& top, double given, double of_cell, const std::string& cell) {
-  constexpr double tolerance = 1e-9;  // relative: decimal places lost in one of the files
+  constexpr double tolerance = 1e-9;  // relative error of digits lost in a file
   if (std::abs(given - of_cell) > tolerance * of_cell)
     top.fail("thickness", fmt::format("{}", given), fmt::format("{} as in {}", of_cell, cell));
 }
 
-// What is plane so far.
+// Fails for options that spheres do not support.
 void check_spheres(const TomlTable& top, const MaterialDescription& description) {
   if (description.boundary.type != BoundaryType::periodic_cell)
     top.fail("boundary", "a frame",

@@ -27,7 +27,7 @@ void write_packing(const std::string& prefix, const Packing& packing) {
   const PackingTexts texts{{prefix + "_particles.csv", particles_text(packing)},
                            {prefix + "_contacts.csv", contacts_text(packing)},
                            {prefix + "_cell.csv", cell_text(packing)}};
-  parse(texts, packing.dimension);  // what nothing could start from is refused here
+  parse(texts, packing.dimension);  // refuses what could not be read back
   write_together(std::array<TextFile, 3>{{{texts.particles.path, texts.particles.text},
                                           {texts.contacts.path, texts.contacts.text},
                                           {texts.cell.path, texts.cell.text}}});

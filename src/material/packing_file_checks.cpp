@@ -23,7 +23,7 @@ double branch_length(const Packing& packing, const InitialContact& contact) {
       static_cast<std::size_t>(contact.j), tensor_of<D>(packing.cell), vec_of<D>(contact.shift)));
 }
 
-// The least distance between opposite sides, in the shortest basis of a plane lattice [m].
+// Smallest height of the cell, in the shortest basis of a plane lattice [m].
 double height_of(const Tensor<2>& h) {
   return determinant<2>(h) / longest_vector(reduced_basis(h).cell);
 }

@@ -1,4 +1,4 @@
-// What is wrong with a packing although every number of its files can be read.
+// Checks of a packing whose files are readable.
 #pragma once
 
 #include "frame/frame_rows.hpp"
@@ -9,14 +9,15 @@
 
 namespace grainlaw::core {
 
-// Particles whose centres lie in one another are no packing, but lengths in different units; unless
-// they are named as contacts, whose forces tell, or those of a boundary that was deformed, of which
-// a rigid row does not feel each other. Throws Error (BAD_PACKING) that begins with the path.
+// Fails for particles whose centres lie inside one another: their lengths have different units.
+// Pairs named as contacts are exempt, since their forces tell. Boundary particles of a deformed
+// frame are too, since a rigid row has no contacts within. Throws Error (BAD_PACKING) that begins
+// with the path.
 template <int D>
 void check_sizes(const std::string& path, const ParticleIds& ids, const Packing& packing);
 
-// Contacts join particles that touch, and have these lines in their file. Bonds stretch as far as they
-// hold: whether they do is seen by their forces. Throws as above.
+// Fails for contacts, from these lines of their file, between particles that do not touch. Bonds
+// may be stretched; their forces are checked elsewhere. Throws as above.
 template <int D>
 void check_branches(const std::string& path, const std::vector<unsigned>& lines,
                     const Packing& packing);

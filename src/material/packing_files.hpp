@@ -1,4 +1,4 @@
-// The three files of a packing as texts, read by dimension.
+// The three files of a packing as texts, with one reader per dimension.
 #pragma once
 
 #include "packing/packing.hpp"
@@ -7,7 +7,7 @@
 
 namespace grainlaw::core {
 
-// One of the three files; without a path it is not there.
+// One of the three files; absent when its path is empty.
 struct PackingText {
   std::string path;
   std::string text;
@@ -17,7 +17,7 @@ struct PackingTexts {
   PackingText particles, contacts, cell;
 };
 
-// Throw Error (BAD_PACKING) as read_packing().
+// Readers per dimension; throw Error (BAD_PACKING) as read_packing() does.
 Packing read_plane_packing(const PackingTexts& texts);
 Packing read_space_packing(const PackingTexts& texts);
 

@@ -6,8 +6,8 @@
 
 namespace grainlaw::core {
 
-// Every generator has its own keys; one of another generator counts as unknown. Throws Error
-// (BAD_MATERIAL). `density` and the thickness are read elsewhere.
+// Reads the options of a generator; a key of another generator is unknown. `density` and the
+// thickness are read elsewhere. Throws Error (BAD_MATERIAL).
 GeneratorOptions read_generator(TomlTable& table, long dimension);
 
 }  // namespace grainlaw::core

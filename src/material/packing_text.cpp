@@ -10,7 +10,7 @@ namespace grainlaw::core {
 
 namespace {
 
-// Per particle, the text of its columns role, partner and frame_order.
+// Text of the columns role, partner and frame_order per particle.
 std::vector<std::string> frame_columns(const Packing& packing) {
   std::vector<std::string> text(packing.size(), ",inner,-1,-1");
   const Frame& frame = *packing.frame;

@@ -1,4 +1,4 @@
-// A packing as the text of its three files; numbers have the shortest digits that read back to the
+// A packing as the text of its three files, numbers in the shortest digits that read back to the
 // same bits.
 #pragma once
 

@@ -28,7 +28,7 @@ namespace {
 
 constexpr std::int64_t largest_shift = 32767;
 constexpr std::int64_t largest_written_shift =
-    1'000'000'000;  // before it is one in shorter vectors
+    1'000'000'000;  // before the change to the shortest basis
 
 using Ids = ParticleIds;
 
@@ -49,13 +49,12 @@ enum CellColumn : std::size_t { h00, h01, h10, h11, thickness, rho, f00, f01, f1
 using Source = PackingText;
 
 struct CellFile {
-  Basis basis;                         // that shifts are counted in from here on
-  std::optional<Lattice> deformation;  // of a frame
+  Basis basis;                         // basis of shifts from here on
+  std::optional<Lattice> deformation;  // F of a frame
 };
 
 CellFile read_cell(const Source& source, Packing& packing) {
-  constexpr double furthest_sheared =
-      1e6;  // beyond, sums with shifts lose the digits of an overlap
+  constexpr double furthest_sheared = 1e6;  // larger shifts cost the digits of an overlap
   CsvTable<10> table(source.path, source.text,
                      {"H00[m]", "H01[m]", "H10[m]", "H11[m]", "thickness[m]", "rho[kg/m3]",
                       "F00[-]", "F01[-]", "F10[-]", "F11[-]"});
@@ -86,13 +85,13 @@ CellFile read_cell(const Source& source, Packing& packing) {
   return cell;
 }
 
-// A lattice that has much shorter vectors than those of its cell, as one sheared far, is kept in
-// the shortest: the others are many times wider than high. Others stay as they are, to the bit.
+// Replaces the basis of a lattice that has much shorter vectors, as after large shear, by the
+// shortest. Other lattices keep their bits.
 void shorten(CellFile& cell, Packing& packing) {
   constexpr double much_longer = 4;
   const Basis reduced = reduced_basis(cell.basis.cell);
   if (!(longest_vector(cell.basis.cell) > much_longer * longest_vector(reduced.cell))) return;
-  // Else a shift would leave the range of its products, as in a cell far thinner than any disc.
+  // Fails for shifts beyond the range of their products, as in a cell far thinner than any disc.
   const auto in_range = [](std::int64_t n) { return std::abs(n) <= largest_written_shift; };
   if (!std::ranges::all_of(reduced.change, in_range)) return;
   cell.basis = reduced;
@@ -113,8 +112,8 @@ void read_frame_row(const Table& table, int particle, FrameRows& rows) {
   }
 }
 
-// The neighbour search numbers cells: no particle is further from the first than half of what it
-// counts to, or so far from the origin that its digits are lost.
+// Fails for positions beyond the cell numbers of the neighbour search, or so far from the origin
+// that digits are lost.
 template <class Table>
 void check_place(const Table& table, const Packing& packing, double y_first, double y_last) {
   constexpr double furthest_apart = 16000, furthest = 1e8;  // [cells]
@@ -171,7 +170,7 @@ Ids read_particles(const Source& source, CellFile& cell, Packing& packing) {
   return ids;
 }
 
-// Returns the line of each.
+// Reads the contacts; returns the line of each.
 std::vector<unsigned> read_contacts(const Source& source, const Ids& ids, const Basis& basis,
                                     Packing& packing) {
   CsvTable<10> table(source.path, source.text,
@@ -205,7 +204,7 @@ std::vector<unsigned> read_contacts(const Source& source, const Ids& ids, const 
   return contacts.move_to(packing);
 }
 
-// contacts without a path: none.
+// Parses a packing; contacts without a path: none.
 Packing parse(const Source& particles, const Source& contacts, const Source& cell) {
   Packing packing;
   CellFile of_cell = read_cell(cell, packing);

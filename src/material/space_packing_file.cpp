@@ -55,7 +55,7 @@ void read_cell(const PackingText& source, Packing& packing) {
   if (table.next()) table.fail("expected one line of numbers after the header, found another");
 }
 
-// The neighbour search numbers cells.
+// Fails for positions beyond the cell numbers of the neighbour search.
 template <class Table>
 void check_place(const Table& table, const Tensor<3>& to_cells, const Vec<3>& first,
                  const Vec<3>& place) {
@@ -97,7 +97,7 @@ ParticleIds read_particles(const PackingText& source, Packing& packing) {
   return ids;
 }
 
-// Returns the line of each.
+// Reads the contacts; returns the line of each.
 std::vector<unsigned> read_contacts(const PackingText& source, const ParticleIds& ids,
                                     Packing& packing) {
   CsvTable<14> table(source.path, source.text,

@@ -1,12 +1,12 @@
-// Contacts of spheres as files have them.
+// Given contacts of spheres.
 #include "material/given_contacts.hpp"
 
 namespace grainlaw::core {
 
 template <>
 std::array<double, 3> given_force<3>(const Packing& packing, const InitialContact& contact) {
-  // Across the branch: digits that a file lost leave a part along it. Seen from the other side it turns
-  // round.
+  // Removes the part along the branch that digits lost in a file leave. Seen from j the force is
+  // reversed.
   const Vec<3> l = given_branch<3>(packing, contact);
   const Vec<3>& f = contact.tangential_force;
   const double along = dot<3>(f.data(), l.data()) / square<3>(l);

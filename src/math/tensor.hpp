@@ -1,4 +1,4 @@
-// Vectors and second-order tensors in two and three dimensions; tensors row-major.
+// Vectors and second-order tensors in two and three dimensions. Tensors are row-major.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ constexpr Tensor<D> identity() {
   return result;
 }
 
-// The first D^2 of numbers that have room for three dimensions.
+// First D^2 numbers of an array with the capacity of three dimensions.
 template <int D, std::size_t size>
 Tensor<D> tensor_of(const std::array<double, size>& values) {
   static_assert(size >= squared<D>);
@@ -42,7 +42,7 @@ Tensor<D> tensor_of(const double* values) {
   return result;
 }
 
-// a b summed over D entries, the second `stride` apart.
+// sum_k a_k b_k over D entries; those of b are `stride` apart.
 template <int D>
 [[gnu::always_inline]] inline double dot(const double* a, const double* b, std::size_t stride = 1) {
   if constexpr (D == 2) {
@@ -70,7 +70,7 @@ Tensor<D> product(const Tensor<D>& a, const Tensor<D>& b) {
   return result;
 }
 
-// a + share (b - a)
+// a + share (b - a).
 template <int D>
 Tensor<D> between(const Tensor<D>& a, const Tensor<D>& b, double share) {
   Tensor<D> f{};
@@ -108,7 +108,7 @@ double determinant(const Tensor<D>& a) {
   return determinant<D>(a.data());
 }
 
-// By cofactors; of a singular one not finite.
+// Inverse by cofactors; not finite for a singular tensor.
 template <int D>
 Tensor<D> inverse(const Tensor<D>& a) {
   const double det = determinant<D>(a.data());
@@ -155,7 +155,7 @@ inline Vec<3> principal_values(const Tensor<3>& a) {
   return {least, 3 * mean - largest - least, largest};
 }
 
-// The largest stretch, which no rotation changes.
+// Largest singular value: the largest stretch, invariant under rotations.
 template <int D>
 double largest_singular_value(const Tensor<D>& a) {
   if constexpr (D == 2) {

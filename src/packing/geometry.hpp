@@ -1,4 +1,4 @@
-// Radii, volumes and branches of particles: each in one place.
+// Radii, volumes and branches of particles.
 #pragma once
 
 #include "math/tensor.hpp"
@@ -27,13 +27,13 @@ double particle_size(double radius) {
   }
 }
 
-// Of the square or the cube of this size [m].
+// Edge of the square or cube of this size [m].
 template <int D>
 double edge_of(double size) {
   return D == 2 ? std::sqrt(size) : std::cbrt(size);
 }
 
-// Of a disc through the thickness; of a sphere, which has none, its own [m3].
+// Volume of a disc through the thickness, or of a sphere [m3].
 template <int D>
 double particle_volume(double radius, double thickness) {
   if constexpr (D == 2) {
@@ -43,7 +43,7 @@ double particle_volume(double radius, double thickness) {
   }
 }
 
-// [kg]
+// Mass of a particle [kg].
 template <int D>
 double particle_mass(double density, double radius, double thickness) {
   if constexpr (D == 2) {
@@ -53,14 +53,15 @@ double particle_mass(double density, double radius, double thickness) {
   }
 }
 
-// What a pressure acts on beside a length of the packing: the thickness of discs, a diameter of spheres
-// [m].
+// Out-of-plane length that turns a force per length into a pressure: the thickness of discs, one
+// mean diameter of spheres [m].
 template <int D>
 double depth(const Packing& packing) {
   return D == 2 ? packing.thickness : 2 * mean_radius(packing.radius);
 }
 
-// x_j - x_i + H shift [m]; positions component-major, `particles` apart.
+// Branch x_j - x_i + H shift [m], @formula branch. Positions are component-major with stride
+// `particles`.
 template <int D>
 inline Vec<D> branch(const double* position, std::size_t particles, std::size_t i, std::size_t j,
                      const Tensor<D>& cell, const Vec<D>& shift) {
@@ -80,7 +81,7 @@ Vec<D> vec_of(const Whole& numbers) {
   return result;
 }
 
-// x -> g x
+// Maps positions x to g x, component-major.
 template <int D>
 void map_positions(const Tensor<D>& g, std::size_t n, double* x) {
   for (std::size_t p = 0; p < n; ++p) {

@@ -25,12 +25,12 @@ double longest_vector(const Lattice& cell) {
 }
 
 Basis reduced_basis(const Lattice& cell) {
-  constexpr double too_many = 1e15;  // vectors: their digits are lost before
+  constexpr double too_many = 1e15;  // lattice vectors: doubles resolve no more
   constexpr int most_steps = 100;
   Vector a{cell[0], cell[2], {1, 0}};
   Vector b{cell[1], cell[3], {0, 1}};
   for (int step = 0; step < most_steps; ++step) {
-    // Turned, not exchanged, so that det stays positive.
+    // Rotates the basis instead of swapping its vectors, so that det stays positive.
     if (a.square() > b.square()) {
       std::swap(a, b);
       b = {-b.x, -b.y, {-b.count[0], -b.count[1]}};

@@ -1,4 +1,4 @@
-// The lattice of a periodic cell does not depend on which of its vectors are written down.
+// A lattice of a periodic cell and its change of basis.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@ namespace grainlaw::core {
 
 using Lattice = std::array<double, 4>;  // H, 2x2 row-major: columns are the lattice vectors [m]
 
-// Another basis of the same lattice: H' = H change, and so shift' = change^-1 shift.
+// Another basis of one lattice: H' = H change, so that shift' = change^-1 shift.
 struct Basis {
   Lattice cell{};
   std::array<std::int64_t, 4> change{1, 0, 0, 1};  // det 1
@@ -18,11 +18,11 @@ struct Basis {
   }
 };
 
-// The shortest vectors of the lattice (Lagrange and Gauss), in an order and with signs that keep
-// det > 0. `cell` has a finite det > 0.
+// The shortest basis of the lattice (Lagrange and Gauss), ordered and signed so that det > 0.
+// `cell` has a finite det > 0.
 Basis reduced_basis(const Lattice& cell);
 
-// Longest vector [m].
+// Length of the longest lattice vector [m].
 double longest_vector(const Lattice& cell);
 
 }  // namespace grainlaw::core

@@ -1,4 +1,4 @@
-// A particle and the shift of its image as one integer, and counting through boxes of bins.
+// Integer keys of (particle, shift), and loops over boxes of bins.
 #pragma once
 
 #include "packing/neighbours.hpp"
@@ -9,11 +9,11 @@
 
 namespace grainlaw::core::neighbour {
 
-// Key of (particle, shift): particle in the upper half, then the shifts plus a bias, so that comparing
-// keys compares (particle, shift) and adding a shift is one addition.
+// Key of (particle, shift): the particle in the upper half, then the biased shifts. Comparing keys
+// compares (particle, shift), and adding a shift is one addition.
 template <int D>
 struct Key {
-  static constexpr int bits = 32 / D;  // of a shift
+  static constexpr int bits = 32 / D;  // bits per component of a shift
   static constexpr std::int64_t bias = std::int64_t{1} << (bits - 1);
   static constexpr std::int64_t largest_shift = bias - 1;
   static constexpr std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
@@ -40,7 +40,7 @@ struct Key {
   }
 };
 
-// visit(counts) for all counts from first to last, the first component fastest.
+// Calls visit(counts) for all counts from first to last, the first component fastest.
 template <std::size_t D, class Visit>
 void for_box(const std::array<std::int32_t, D>& first, const std::array<std::int32_t, D>& last,
              Visit&& visit) {

@@ -16,8 +16,8 @@ namespace {
 using neighbour::for_box;
 using neighbour::Key;
 
-// Where the largest particle is so much larger than the mean, those beyond `larger` of it are not put
-// in bins: fewer than half, and usually a few [-].
+// Where the largest radius exceeds much_larger means, particles beyond `larger` means are kept out
+// of the bins [-]. These are fewer than half of all.
 constexpr double much_larger = 4;
 constexpr double larger = 2;
 
@@ -47,10 +47,10 @@ struct NeighbourSearch<D>::Grid {
   Tensor<D> cell{};  // lattice vectors as columns
   Tensor<D> inverse{};
   Vec<D> origin{};
-  Bin count{};        // bins of the cell itself
-  Bin reach{};        // bins to each side that can hold a neighbour of those
-  Bin margin{};       // in bins, and of any
-  double binned = 0;  // largest radius in bins [m]
+  Bin count{};        // bins in the cell itself
+  Bin reach{};        // bins to each side that may contain a neighbour of a binned particle
+  Bin margin{};       // bins to each side that may contain a neighbour of any particle
+  double binned = 0;  // largest radius among binned particles [m]
   bool images = false;
 
   [[nodiscard]] std::int32_t padded(std::size_t k) const { return count[k] + 2 * margin[k]; }
@@ -66,7 +66,7 @@ struct NeighbourSearch<D>::Grid {
     for (std::size_t k = 0; k < dim; ++k) product *= static_cast<std::size_t>(padded(k));
     return product;
   }
-  // x + sign H counts
+  // x + sign H counts.
   template <class Counts>
   [[nodiscard]] Vec<D> shifted(Vec<D> x, double sign, const Counts& counts) const {
     for (std::size_t k = 0; k < dim; ++k) {
@@ -81,7 +81,7 @@ struct NeighbourSearch<D>::Grid {
 template <int D>
 auto NeighbourSearch<D>::make_grid(std::size_t n, const double* position, double binned,
                                    double largest, const double* cell, double gap) const -> Grid {
-  constexpr double surplus = 1 + 1e-9;  // covers the rounding of fractional coordinates
+  constexpr double surplus = 1 + 1e-9;  // margin for the rounding of fractional coordinates
   Grid grid;
   grid.images = cell != nullptr;
   if (cell != nullptr) {
@@ -99,11 +99,11 @@ auto NeighbourSearch<D>::make_grid(std::size_t n, const double* position, double
     no_answer("the cell is flat or not finite");
   grid.inverse = inverse<D>(grid.cell);
 
-  // More bins than particles help nobody.
+  // More bins than particles gain nothing.
   const auto number = static_cast<double>(n);
   const double most = std::ceil(2 * (D == 2 ? std::sqrt(number) : std::cbrt(number)));
   const Vec<D> width = widths<D>(grid.cell, grid.inverse, volume);
-  // Around a cell that is hardly wider than the largest particle there would be far more bins than in it.
+  // A cell hardly wider than the largest particle would need far more padding bins than its own.
   const double widest_range = (largest + binned + gap) * surplus;
   const bool narrow = widest_range > 2 * *std::min_element(width.begin(), width.end());
   grid.binned = narrow ? largest : binned;
@@ -151,7 +151,7 @@ void NeighbourSearch<D>::find_homes(const Grid& grid, std::size_t n, const doubl
 
 template <int D>
 void NeighbourSearch<D>::fill_bins(const Grid& grid, std::size_t n, const double* radius) {
-  // Every image whose bin lies in the padded grid; twice, to count and to place.
+  // Visits every image whose bin lies in the padded grid; used twice, to count and to fill.
   const auto for_images = [&](auto&& visit) {
     for (std::size_t p = 0; p < n; ++p) {
       if (!(radius[p] <= grid.binned)) continue;
@@ -169,7 +169,7 @@ void NeighbourSearch<D>::fill_bins(const Grid& grid, std::size_t n, const double
     }
   };
   const std::size_t bins = grid.bins();
-  // bin_end_[b + 1] is first the start of bin b, and its end when all entries are placed.
+  // bin_end_[b + 1] is the start of bin b while entries are filled in, and its end afterwards.
   resize_with_room(bin_end_, bins + 2);
   std::fill(bin_end_.begin(), bin_end_.end(), 0);
   for_images([&](std::size_t, const Bin&, std::size_t b) { ++bin_end_[b + 2]; });
@@ -184,7 +184,7 @@ void NeighbourSearch<D>::fill_bins(const Grid& grid, std::size_t n, const double
   });
 }
 
-// visit(entry) for all in the bins around a bin, by runs along the first direction.
+// Calls visit(entry) for all entries in the bins around a bin, by runs along the first direction.
 template <int D>
 template <class Visit>
 void NeighbourSearch<D>::for_runs(const Grid& grid, const Bin& centre, const Bin& reach,
@@ -224,7 +224,8 @@ void NeighbourSearch<D>::find(std::size_t n, const double* position, const doubl
     const Home& home = home_[i];
     const double reach = radius[i] + gap;
     const std::uint64_t origin = Key<D>::of_shift(home.wrapped);
-    // Pairs come once: later particles, and later images of the same one.
+    // Only later particles, and later images of the same particle, are visited: each pair comes
+    // once.
     const std::uint64_t self = Key<D>::of_particle(i);
     std::size_t hits = 0;
     for_runs(grid, home.bin, grid.reach, [&](const Entry& other) {
@@ -235,7 +236,7 @@ void NeighbourSearch<D>::find(std::size_t n, const double* position, const doubl
       hit_[hits] = key;
       hits += static_cast<std::size_t>((square<D>(apart) < limit * limit) & (key > self));
     });
-    // A handful of keys: insertion sort.
+    // Insertion sort, since a particle has few neighbours.
     for (std::size_t a = 1; a < hits; ++a) {
       const std::uint64_t key = hit_[a];
       std::size_t b = a;
@@ -247,7 +248,7 @@ void NeighbourSearch<D>::find(std::size_t n, const double* position, const doubl
   if (grid.binned < largest) add_larger(grid, n, position, radius, cell, gap, pairs);
 }
 
-// Pairs with at least one particle that is not in bins.
+// Adds pairs with at least one particle outside the bins.
 template <int D>
 void NeighbourSearch<D>::add_larger(const Grid& grid, std::size_t n, const double* position,
                                     const double* radius, const double* cell, double gap,
@@ -286,7 +287,7 @@ void NeighbourSearch<D>::add_larger(const Grid& grid, std::size_t n, const doubl
   for (const NeighbourPair<D>& pair : large_pairs_)
     pairs.push_back({large_[static_cast<std::size_t>(pair.i)],
                      large_[static_cast<std::size_t>(pair.j)], pair.shift});
-  // Those of the rest are in order.
+  // Pairs of binned particles are already in order.
   const auto before = [](const auto& a, const auto& b) { return key_of(a) < key_of(b); };
   const auto middle = pairs.begin() + static_cast<std::ptrdiff_t>(in_bins);
   std::sort(middle, pairs.end(), before);

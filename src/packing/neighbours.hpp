@@ -1,4 +1,4 @@
-// Which particles are near enough to touch, images of the periodic cell included.
+// Neighbour search with images of the periodic cell.
 #pragma once
 
 #include "math/tensor.hpp"
@@ -11,7 +11,7 @@
 
 namespace grainlaw::core {
 
-// Branch x_j - x_i + H shift.
+// A pair of particles i, j with branch x_j - x_i + H shift.
 template <int D>
 struct NeighbourPair {
   std::int32_t i = 0;
@@ -20,33 +20,34 @@ struct NeighbourPair {
   bool operator==(const NeighbourPair&) const = default;
 };
 
-// What pairs and contacts are ordered by.
+// Sort key of pairs and contacts.
 template <class Pair>
 auto key_of(const Pair& pair) {
   return std::tie(pair.i, pair.j, pair.shift);
 }
 
-// Neighbour search in O(n): bins in the fractional coordinates of the cell, padded with images, so
-// that all candidates of a particle lie in a few contiguous runs. A few particles far larger than the
-// rest are kept out of the bins, which they would make as wide as themselves: each looks for the
-// others from where it is, and they are a search of their own among themselves.
+// Neighbour search in O(n) by bins in the fractional coordinates of the cell. Bins are padded with
+// images, so that the candidates of a particle lie in a few contiguous runs. Bins are as wide as
+// the largest particle in them. Particles far larger than the mean are therefore searched
+// separately.
 template <int D>
 class NeighbourSearch {
  public:
-  // All pairs with |x_j - x_i + H shift| < R_i + R_j + gap, each once, ordered by (i, j, shift)
-  // with i <= j; of a particle with its own image only the lexicographically positive shift.
+  // Finds all pairs with |x_j - x_i + H shift| < R_i + R_j + gap, each once, ordered by (i, j,
+  // shift) with i <= j. A pair of a particle with its own image has the lexicographically positive
+  // shift.
   //   position  component-major, D x n [m], not wrapped into the cell
   //   radius    [n] [m]
   //   cell      H, D x D row-major, lattice vectors as columns [m]; null: no images
   //   gap       >= 0 [m]
-  //   pairs     overwritten; nothing is allocated once the vectors have grown
-  // The cell may be sheared strongly and smaller than a particle. Throws Error (NOT_CONVERGED) when
-  // there is no answer: a position that is not finite, a flat cell, particles more than 2^15 cells
-  // (of spheres 2^9) apart.
+  //   pairs     overwritten; no allocation once the vectors have grown
+  // The cell may be strongly sheared and smaller than a particle. Throws Error (NOT_CONVERGED) for
+  // a position that is not finite, for a flat cell, and for particles more than 2^15 cells
+  // (spheres: 2^9) apart.
   void find(std::size_t n, const double* position, const double* radius, const double* cell,
             double gap, std::vector<NeighbourPair<D>>& pairs);
 
-  // Distances that the last search looked at: its work.
+  // Number of distances computed by the last search.
   [[nodiscard]] std::size_t candidates() const { return candidates_; }
 
  private:
@@ -62,7 +63,7 @@ class NeighbourSearch {
   template <class Visit>
   void for_runs(const Grid& grid, const Bin& centre, const Bin& reach, Visit&& visit);
 
-  // A particle or an image of one. The key orders by (particle, shift) as one integer.
+  // A particle or one of its images. The key orders entries by (particle, shift).
   struct Entry {
     Vec<D> place;
     double radius;
@@ -70,7 +71,7 @@ class NeighbourSearch {
   };
   struct Home {
     Vec<D> place;                           // wrapped into the cell
-    Bin bin;                                // in the padded grid
+    Bin bin;                                // bin in the padded grid
     std::array<std::int64_t, dim> wrapped;  // x = wrapped place + H wrapped
   };
   std::vector<Home> home_;
@@ -78,10 +79,10 @@ class NeighbourSearch {
   std::vector<Entry> entry_;
   std::vector<std::uint64_t> hit_;
   std::size_t candidates_ = 0;
-  std::vector<std::int32_t> large_;  // particles that are not in bins
+  std::vector<std::int32_t> large_;  // particles kept out of the bins
   std::vector<double> large_position_, large_radius_;
   std::vector<NeighbourPair<D>> large_pairs_;
-  std::vector<NeighbourSearch> among_large_;  // one, where there are any
+  std::vector<NeighbourSearch> among_large_;  // at most one: search among the large particles
 };
 
 }  // namespace grainlaw::core

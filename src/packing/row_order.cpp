@@ -18,7 +18,7 @@ std::vector<std::int32_t> row_order(const Packing& packing) {
   };
   const double area = h(0, 0) * h(1, 1) - h(0, 1) * h(1, 0);
   const double rows = std::max(1.0, std::floor(0.5 * std::sqrt(static_cast<double>(n))));
-  std::vector<std::array<double, 2>> place(n);  // which row, and how far along the path in it
+  std::vector<std::array<double, 2>> place(n);  // row, and distance along the path within it
   for (std::size_t p = 0; p < n; ++p) {
     const double x = packing.position[p];
     const double y = packing.position[n + p];

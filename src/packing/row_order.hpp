@@ -1,4 +1,4 @@
-// Particles in an order in which neighbours are near each other in memory.
+// An order of particles in which neighbours are near each other in memory.
 #pragma once
 
 #include "packing/packing.hpp"
@@ -8,8 +8,8 @@
 
 namespace grainlaw::core {
 
-// To and fro along rows of the cell, each two particles high. Empty for packings so small that their
-// records stay in the first cache anyway.
+// Serpentine order along rows of the cell, each two particles high. Empty for packings whose
+// records fit in the first-level cache.
 std::vector<std::int32_t> row_order(const Packing& packing);
 
 }  // namespace grainlaw::core

@@ -1,4 +1,4 @@
-// The integration points of a host, taken together: evaluated by many threads, committed all or none.
+// Many integration points of a host: evaluated by threads, committed all or none.
 #pragma once
 
 #include "state/any_state.hpp"
@@ -13,34 +13,34 @@ namespace grainlaw::core {
 
 struct IntegrationPoint {
   AnyState state;
-  long cost = 0;  // of its last evaluation, in relaxation steps
+  long cost = 0;  // cost of the last evaluation, in relaxation steps
 };
 
 using PointSpan = std::span<IntegrationPoint* const>;
 
-// What an evaluation of many points came to.
+// Summary of an evaluation of many points.
 struct Summary {
   grainlaw_status status = GRAINLAW_OK;  // of the first failed point, fatal before recoverable
   std::size_t failed = 0;
   std::size_t first_failed = 0;
-  double step_ratio = 1;                               // smallest that a failed point suggests
+  double step_ratio = 1;                               // smallest suggestion of the failed points
   char message[sizeof grainlaw_report::message] = "";  // of the first failed point
 
-  // One more point, in any order.
+  // Adds one point; any order gives one result.
   void add(std::size_t point, grainlaw_status status, const grainlaw_report& report);
 };
 
-// The evaluation of one point: its status, and its report. Called by several threads, each for
-// another point; does not throw.
+// Evaluates one point and returns its status and report. Several threads call it for different
+// points; it does not throw.
 using EvaluateOne = std::function<grainlaw_status(std::size_t point, grainlaw_report& report)>;
 
-// Calls evaluate(k, report) once for each point, in `threads` threads at most (<= 0: as many as
-// default_threads), the dearest points first, so that no thread is left with one at the end. Order
-// is room for as many numbers as there are points. Allocates nothing.
+// Calls evaluate(k, report) once per point in at most `threads` threads (<= 0: default_threads()),
+// the most expensive points first, which balances the threads. `order` is a workspace with one
+// number per point. Does not allocate.
 Summary evaluate_all(PointSpan points, std::span<std::size_t> order, const EvaluateOne& evaluate,
                      int threads) noexcept;
 
-// Makes all trials committed. False, and nothing is changed, where a point has none.
+// Commits all trials. Returns false and changes nothing when a point has no trial.
 bool commit_all(PointSpan points) noexcept;
 void revert_all(PointSpan points) noexcept;
 

@@ -1,6 +1,6 @@
 // Layout, little-endian:
 //   "GRAINPTS"  u32 version  u64 points
-//   of each: u64 size  the bytes of its state
+//   of each point: u64 size  the bytes of its state
 //   u64 XXH3 of everything before
 #include "points/serialise_points.hpp"
 

@@ -1,4 +1,4 @@
-// The committed states of many points as bytes and back: all of them, or none.
+// Committed states of many points as bytes, loaded all or none.
 #pragma once
 
 #include "points/points.hpp"
@@ -8,15 +8,15 @@
 
 namespace grainlaw::core {
 
-// Bytes that these points take.
+// Size of the saved points in bytes.
 [[nodiscard]] std::size_t saved_size(PointSpan points);
 
-// Fills bytes, of saved_size.
+// Writes saved_size(points) bytes.
 void save_points(PointSpan points, std::span<std::byte> bytes);
 
-// Replaces what is committed and drops the trials. Any bytes of any length may be given. Throws
-// Error (BAD_BYTES, WRONG_VERSION, WRONG_MATERIAL; BAD_ARGUMENT for another number of points) or
-// bad_alloc, and then has changed nothing.
+// Replaces the committed states and drops the trials; accepts any bytes of any length. Throws Error
+// (BAD_BYTES, WRONG_VERSION, WRONG_MATERIAL; BAD_ARGUMENT for another number of points) or
+// bad_alloc, and then changes nothing.
 void load_points(PointSpan points, std::span<const std::byte> bytes);
 
 }  // namespace grainlaw::core

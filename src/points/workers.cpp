@@ -20,23 +20,24 @@ namespace grainlaw::core {
 
 namespace {
 
-// What one call has to do, in a list of all of them.
+// Work of one call, in a list of all calls.
 struct Job {
   const std::function<void()>& work;
   int places;      // helpers that may still come
-  int inside = 0;  // that are at it
+  int inside = 0;  // helpers that are working
   Job* next = nullptr;
 };
 
-// All members are guarded by the mutex. None has a destructor: threads may outlive the library's own.
+// Shared state of the threads, guarded by the mutex. No member has a destructor, since threads may
+// outlive the library's static objects.
 struct Crew {
   std::mutex mutex;
   pthread_cond_t called = PTHREAD_COND_INITIALIZER;
   pthread_cond_t left = PTHREAD_COND_INITIALIZER;
   Job* jobs = nullptr;
-  int places = 0;  // of all jobs
+  int places = 0;  // sum over all jobs
   int size = 0;    // threads
-  int busy = 0;    // of them
+  int busy = 0;    // threads at work
   bool dismissed = false;
   std::array<pthread_t, most_threads> threads{};
 };
@@ -65,7 +66,7 @@ void* help(void* /*unused*/) {
   return nullptr;
 }
 
-// The host's signals are not for them; faults are.
+// Blocks the host's signals in the threads; synchronous faults stay enabled.
 class SignalsBlocked {
  public:
   SignalsBlocked() {
@@ -83,7 +84,7 @@ class SignalsBlocked {
   sigset_t host_;
 };
 
-// A child of fork has none of these threads, and whatever they and others held at that moment.
+// Resets the crew in a child of fork, which has no threads and an undefined mutex.
 void forget_in_children() { new (&crew) Crew; }
 
 bool start_one() {
@@ -97,8 +98,8 @@ bool start_one() {
   return true;
 }
 
-// When the library is unloaded none of them may be in its code. At exit others may still be at work, or have
-// been stopped with the mutex.
+// Ends the threads when the library is unloaded, so that none runs its code. At exit threads may
+// still work, or have been stopped while they held the mutex.
 struct Dismissal {
   ~Dismissal() {
     {

@@ -10,7 +10,7 @@ namespace grainlaw::core {
 
 namespace {
 
-// Masses of particles and their inertia, summed over the particles of a node (component-major).
+// Masses and moments of inertia, summed over the particles of a node (component-major).
 template <int D>
 void physical_masses(const Increment<D>& increment, std::vector<double>& mass) {
   const Problem<D>& problem = increment.problem();
@@ -23,12 +23,13 @@ void physical_masses(const Increment<D>& increment, std::vector<double>& mass) {
     const double own = particle_mass<D>(packing.density, r, packing.thickness);
     for (std::size_t k = 0; k < D; ++k) mass[k * m + q] += own;
     if (!problem.law->rotating()) continue;
-    constexpr double share = D == 2 ? 0.5 : 0.4;  // of m R^2
+    constexpr double share = D == 2 ? 0.5 : 0.4;  // moment of inertia over m R^2
     for (std::size_t k = D; k < Dimension<D>::unknowns; ++k) mass[k * m + q] += share * own * r * r;
   }
 }
 
-// Found components of F as stable with the time step as they are with the relaxation's unit step.
+// Masses of the found components of F, as stable at time step dt as those of the relaxation are at
+// step 1.
 template <int D>
 void mass_of_deformation(const Increment<D>& increment, double dt, std::vector<double>& mass) {
   const auto pseudo_mass = increment.masses().of_unknowns();
@@ -37,7 +38,7 @@ void mass_of_deformation(const Increment<D>& increment, double dt, std::vector<d
   }
 }
 
-// Critical step of the lightest particle on its stiffest contact, min sqrt(m / kn) [s].
+// Critical time step of the lightest particle on its stiffest contact, min sqrt(m / kn) [s].
 template <int D>
 double critical_step(const Increment<D>& increment) {
   const auto& packing = *increment.problem().packing;
@@ -49,7 +50,7 @@ double critical_step(const Increment<D>& increment) {
   return std::sqrt(smallest);
 }
 
-// Ek / Ep of eqs. 11-12, with the elastic part of the tangential displacement.
+// Ek / Ep of eqs. 11-12; Ep uses the elastic part of the tangential displacement.
 template <int D>
 double energy_ratio(const Increment<D>& increment, const std::vector<double>& mass,
                     const std::vector<double>& velocity) {

@@ -9,7 +9,7 @@ namespace grainlaw::core {
 
 namespace {
 
-// Corrections of the boundary between relaxations of the inner particles.
+// Boundary corrections alternating with relaxations of the inner particles.
 class Servo {
  public:
   Servo(Increment<2>& increment, const PublishedOptions& options, double tolerance,
@@ -30,7 +30,8 @@ class Servo {
     }
     dt_ = options.time_step_ratio *
           std::sqrt(mass_of(smallest_) / problem_.law->stiffness(smallest_, smallest_));
-    // The relaxations move what is not of the boundary, and what turns freely there.
+    // The relaxation leaves translations of boundary nodes in place, and rotations that are not
+    // free.
     memory.servo.frozen.assign(nodes_, 0);
     for (std::size_t q = 0; q < nodes_; ++q) {
       if (!space_.boundary[q]) continue;
@@ -44,9 +45,9 @@ class Servo {
     if (space_.averages()) find_areas();
     predict();
     increment_.keep_neighbours();
-    // The boundary asks for the root of the sum of squares, the relaxation for the largest residual:
-    // what that leaves in many particles may add up to forces on the boundary which no correction
-    // takes away, and which are too small to set the particles moving.
+    // The boundary criterion is a root of a sum of squares, the relaxation's a maximum. Residuals
+    // within tolerance at many particles may sum to boundary forces that no correction removes.
+    // Then the relaxation takes no step, and its tolerance is tightened.
     constexpr int stalled = 20;  // corrections without a relaxation step
     constexpr double tighter = 0.3;
     double tolerance = tolerance_;
@@ -80,12 +81,12 @@ class Servo {
     return particle_mass<2>(packing_.density, radius, packing_.thickness);
   }
 
-  // Of the forces on a boundary particle, eq. 37.
+  // Force scale of a boundary particle, eq. 37.
   [[nodiscard]] double force_scale(double radius) const {
     return mass_of(radius) * radius / (dt_ * dt_);
   }
 
-  // Displacement by force; gains scale with 1/M.
+  // Displacement per force; gains scale with 1/M.
   [[nodiscard]] double compliance(double radius) const {
     return smallest_ * smallest_ / (radius * radius) / problem_.law->stiffness(radius, radius);
   }
@@ -94,16 +95,16 @@ class Servo {
     return space_.bound_to_axes() ? space_.reference.data() : packing_.position.data();
   }
 
-  // F X, where the particle would be without a fluctuation.
+  // Component i of F X: the position without fluctuation.
   [[nodiscard]] double place(std::size_t p, std::size_t i, const std::array<double, 4>& f) const {
     const auto n = packing_.size();
     const double offset = space_.bound_to_axes() ? space_.offset[i * n + p] : 0;
     return f[2 * i] * reference()[p] + f[2 * i + 1] * reference()[n + p] + offset;
   }
 
-  // Boundary particles to F X + n_f (x - F X at the start), rotations kept (Table 2, 2.1; with n_f
-  // = 0 Table 3, 1.1). Keeping rotations instead of Q = I, and rotating with F, is what makes it
-  // objective.
+  // Moves boundary particles to F X + n_f (x - F X at the start) (Table 2, 2.1; with n_f = 0 Table
+  // 3, 1.1). Rotations are kept instead of the published Q = I, and follow the rotation of F: this
+  // makes it objective.
   void predict() {
     const auto n = packing_.size();
     for (const int q : packing_.frame->boundary) {
@@ -120,7 +121,8 @@ class Servo {
     return std::binary_search(node.begin(), node.end(), static_cast<std::int32_t>(q));
   }
 
-  // Boundary nodes under no average (P): eqs. 32-34. Returns the sum of squares of 1.5.A.
+  // Corrects boundary nodes outside averages (P) by eqs. 32-34. Returns the sum of squares of
+  // 1.5.A.
   double correct_shared() {
     const auto r = increment_.residual();
     double sum = 0;
@@ -129,7 +131,7 @@ class Servo {
       const double radius = motion_.node_radius()[q];
       for (std::size_t k = 0; k < 2; ++k) {
         if ((space_.fixed[q] >> k & 1U) != 0 || averaged(q, k)) continue;
-        // The boundary force a balances the contact forces, so a+ + a- = -r and du = -g (a+ + a-).
+        // The boundary force a balances the contact forces: a+ + a- = -r and du = -g (a+ + a-).
         const double force = r[k * nodes_ + q];
         memory_.correction[k * nodes_ + q] = servo_.gain_force * compliance(radius) * force;
         sum += std::pow(force / force_scale(radius), 2);
@@ -145,7 +147,7 @@ class Servo {
     return sum;
   }
 
-  // P by the reference branches (eq. 23).
+  // P from the reference branches (eq. 23).
   [[nodiscard]] std::array<double, 4> measured_stress() const {
     const auto n = packing_.size();
     const double* x = reference();
@@ -163,9 +165,9 @@ class Servo {
     return p;
   }
 
-  // Boundary nodes under uniform stress: P A - a, and back to the average (eqs. 35, 36 with V F A
-  // once). Beside a found component of F the multiplier of the average takes the place of P, which
-  // for a jagged side is another. Returns the sum of squares of 1.5.B.
+  // Corrects boundary nodes under uniform stress by P A - a, then restores the average (eqs. 35, 36
+  // with V F A once). With a found component of F the average's multiplier replaces P, since they
+  // differ on a jagged side. Returns the sum of squares of 1.5.B.
   double correct_averaged() {
     if (!space_.averages()) return 0;
     std::array<double, 4> stress{};
@@ -199,7 +201,7 @@ class Servo {
     return space_.found[2 * direction] || space_.found[2 * direction + 1];
   }
 
-  // Beside a found component the step itself stays within the average.
+  // Projects the step onto the average constraint.
   void return_to_average(std::size_t i, double* step) {
     const auto& average = space_.average[i];
     std::array<double, 2> off{};
@@ -215,7 +217,8 @@ class Servo {
     }
   }
 
-  // Found components of F by the stress that is missing, as stiff as all contacts together.
+  // Corrects found components of F by the missing stress over the stiffness of all contacts
+  // together.
   double correct_deformation() {
     double sum = 0;
     for (std::size_t k = problem_.node_unknowns(); k < problem_.unknowns(); ++k) {
@@ -226,7 +229,7 @@ class Servo {
     return sum;
   }
 
-  // A_q t of every node under uniform stress, and a particle of it.
+  // Sets A_q t of every node under uniform stress, and one particle of it.
   void find_areas() {
     area_.assign(nodes_, {0, 0});
     particle_.assign(nodes_, 0);
@@ -244,7 +247,7 @@ class Servo {
     return motion_.coordinates()[i * packing_.size() + p] - place(p, i, motion_.deformation());
   }
 
-  // |F - (1/V) sum x (x) A| over the components that are given.
+  // F - (1/V) sum x (x) A| over the given components.
   [[nodiscard]] double off_average() const {
     double sum = 0;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -271,7 +274,7 @@ class Servo {
   double tolerance_;
   ReferenceMemory& memory_;
   std::size_t nodes_;
-  double smallest_ = 0;  // radius on the boundary [m]
+  double smallest_ = 0;  // smallest radius on the boundary [m]
   double dt_ = 0;        // [s]
   std::vector<std::array<double, 2>>& area_ = memory_.servo.area;
   std::vector<std::size_t>& particle_ = memory_.servo.particle;

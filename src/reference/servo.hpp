@@ -1,5 +1,5 @@
-// The published servo for frames (Liu, Bosco & Suiker 2017, Tables 2 and 3): boundary nodes are moved by
-// gain x residual between relaxations of the inner particles.
+// The published servo for frames (Liu, Bosco & Suiker 2017, Tables 2 and 3): boundary nodes are
+// moved by gain x residual between relaxations of the inner particles.
 #pragma once
 
 #include "reference/local_damping.hpp"

@@ -1,4 +1,4 @@
-// What the servo for frames keeps from call to call.
+// Workspace of the servo, reused between calls.
 #pragma once
 
 #include "contact/records.hpp"
@@ -10,9 +10,10 @@
 namespace grainlaw::core {
 
 struct ServoMemory {
-  std::vector<unsigned char> frozen;  // bits of what the relaxations do not move, by nodes
-  std::vector<ForceRecord<2>> raw;    // before reduction
-  // Of nodes under uniform stress.
+  std::vector<unsigned char> frozen;  // [nodes] fixed_bit of components the relaxation leaves in
+                                      // place
+  std::vector<ForceRecord<2>> raw;    // forces before reduction to nodes
+  // Areas A_q of the nodes under uniform stress.
   std::vector<std::array<double, 2>> area;
   std::vector<std::size_t> particle;
 };

@@ -1,4 +1,4 @@
-// Materials and states of either dimension: where the dimension is forgotten.
+// Materials and states of either dimension behind one type.
 #pragma once
 
 #include "state/state.hpp"
@@ -18,7 +18,7 @@ namespace grainlaw::core {
 using AnyMaterial =
     std::variant<std::shared_ptr<const Material<2>>, std::shared_ptr<const Material<3>>>;
 
-// As make_material(), in the dimension of the description.
+// make_material() in the dimension of the description.
 AnyMaterial make_any_material(MaterialDescription description);
 
 using AnyConfiguration = std::variant<Configuration<2>, Configuration<3>>;
@@ -32,11 +32,11 @@ class AnyState {
 
   [[nodiscard]] int dimension() const { return state_.index() == 0 ? 2 : 3; }
 
-  // Throws Error (NOT_FINITE, INVERTED, STEP_TOO_LARGE when the determinant overflows) for an F that no
-  // packing can follow; components that are found do not count.
+  // Throws Error (NOT_FINITE, INVERTED; STEP_TOO_LARGE when the determinant overflows) for an F
+  // that no packing can follow. Found components do not count.
   void check_deformation(const double* F) const;
 
-  // As State has them.
+  // Evaluates as State::evaluate() does.
   grainlaw_status evaluate(const double* F, TangentKind kind, double* P, double* A,
                            grainlaw_report& report);
   void set_time_step(double step);
@@ -44,14 +44,14 @@ class AnyState {
   void revert();
   [[nodiscard]] bool has_trial() const;
 
-  // The committed state as bytes; bytes of saved_size().
+  // Writes the committed state to saved_size() bytes.
   [[nodiscard]] std::size_t saved_size() const;
   void save(std::span<std::byte> bytes) const;
   [[nodiscard]] AnyConfiguration read(std::span<const std::byte> bytes) const;
-  // Makes what was read the committed state and drops the trial.
+  // Makes a loaded configuration the committed state and drops the trial.
   void restore(AnyConfiguration committed) noexcept;
 
-  // Of the trial, or of the committed state when there is none.
+  // Measure of the trial, or of the committed state without one.
   void measure(grainlaw_measure what, double* value) const;
   [[nodiscard]] std::vector<grainlaw_particle> particles() const;
   [[nodiscard]] std::vector<grainlaw_contact> contacts() const;

@@ -10,13 +10,13 @@ namespace grainlaw::core {
 
 namespace {
 
-// Zeros beyond the plane.
+// Copies a vector, padded with zeros to three components.
 template <class Numbers, class Number>
 void put(const Numbers& vector, Number (&to)[3]) {
   std::copy(vector.begin(), vector.end(), to);
 }
 
-// An angle or a moment in the plane is about axis 3.
+// Copies an angle or a moment; in the plane it is about axis 3.
 void put_about(const std::array<double, 1>& angle, double (&to)[3]) { to[2] = angle[0]; }
 void put_about(const std::array<double, 3>& vector, double (&to)[3]) { put(vector, to); }
 

@@ -1,4 +1,4 @@
-// Particles and contacts of an equilibrium, as hosts get them.
+// Particles and contacts of an equilibrium, as hosts receive them.
 #pragma once
 
 #include "material/material.hpp"
@@ -9,12 +9,12 @@
 
 namespace grainlaw::core {
 
-// In the order of the packing.
+// Lists particles in the order of the packing.
 template <int D>
 [[nodiscard]] std::vector<grainlaw_particle> list_particles(const Material<D>& material,
                                                             const Configuration<D>& at);
 
-// Ordered by i, j and shift.
+// Lists contacts ordered by i, j and shift.
 template <int D>
 [[nodiscard]] std::vector<grainlaw_contact> list_contacts(const Material<D>& material,
                                                           const Configuration<D>& at);

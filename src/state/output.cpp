@@ -11,7 +11,7 @@ namespace grainlaw::core {
 
 namespace {
 
-// With zeros beyond the plane.
+// Returns numbers padded with zeros to three components.
 template <std::size_t size, class Numbers>
 auto filled(const Numbers& numbers) {
   std::array<typename Numbers::value_type, size> result{};
@@ -19,7 +19,7 @@ auto filled(const Numbers& numbers) {
   return result;
 }
 
-// Along the tangent of discs with its sign; of spheres the size.
+// Scalar of a tangential force: signed along the tangent for discs, the norm for spheres.
 double as_number(const std::array<double, 1>& component) { return component[0]; }
 double as_number(const Vec<3>& vector) { return length<3>(vector); }
 

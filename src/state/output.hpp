@@ -1,4 +1,4 @@
-// An equilibrium for others to read: force chains to look at, or a packing to start from.
+// An equilibrium as files: force chains for pictures, or a packing to start from.
 #pragma once
 
 #include "material/material.hpp"
@@ -7,7 +7,7 @@
 
 namespace grainlaw::core {
 
-// Particles and force chains as one VTK file. Throws Error (FILE_ERROR).
+// Writes particles and force chains as one VTK file. Throws Error (FILE_ERROR).
 template <int D>
 void write_force_chains(const std::string& path, const Material<D>& material,
                         const Configuration<D>& at);

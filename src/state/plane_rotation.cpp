@@ -1,4 +1,4 @@
-// Rotations in the plane: one angle.
+// Rotations in the plane by one angle.
 #include "state/rotation.hpp"
 
 #include <cmath>
@@ -31,7 +31,7 @@ Tensor4<2> rotate_tangent<2>(const SplitIncrement<2>& increment, const Tensor<2>
   for (std::size_t k = 0; k < 4; ++k) {
     Tensor<2> direction{};
     direction[k] = 1;
-    // R^T d(dF) = omega spin U + dU with dU symmetric gives omega.
+    // omega follows from R^T d(dF) = omega spin U + dU with dU symmetric.
     const Tensor<2> a = product<2>(transpose<2>(r), product<2>(direction, f0_inverse));
     const double omega = (a[2] - a[1]) / (u[0] + u[3]);
     const Tensor<2> spun = product<2>(spin, u);

@@ -1,4 +1,4 @@
-// Turns of discs.
+// Rotations of discs.
 #pragma once
 
 #include "increment/configuration.hpp"
@@ -9,12 +9,12 @@
 
 namespace grainlaw::core {
 
-// Of discs a turn is one number, and they add up.
+// Adds the rotation R of the increment to the angles, which add up in the plane.
 inline void add_turn(const SplitIncrement<2>& increment, std::size_t particles,
                      std::vector<double>& z) {
   for (std::size_t k = 2 * particles; k < z.size(); ++k) z[k] += increment.turn[0];
 }
-// The springs of discs turn with their branches.
+// Springs of discs rotate with their branches; nothing to do.
 inline void turn_springs(const SplitIncrement<2>& /*increment*/,
                          Configuration<2>& /*configuration*/) {}
 

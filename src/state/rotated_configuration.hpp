@@ -1,4 +1,4 @@
-// Configurations turned by the rotation of an increment.
+// Configurations rotated by the rotation of an increment.
 #pragma once
 
 #include "increment/configuration.hpp"

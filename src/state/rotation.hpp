@@ -1,5 +1,5 @@
-// The rotation of an increment and what it does to stress and tangent. A rotation changes nothing
-// in the packing, so an increment is solved without it: dF = R U, F* = U F_n, P(F) = R P*(F*).
+// Rotation of an increment, and its effect on stress and tangent, @formula objectivity. An
+// increment is solved without its rotation: dF = R U, F* = U F_n, P(F) = R P*(F*).
 #pragma once
 
 #include "math/dimension.hpp"
@@ -11,7 +11,7 @@ namespace grainlaw::core {
 
 template <int D>
 struct SplitIncrement {
-  std::array<double, Dimension<D>::spins> turn{};  // of R [rad]
+  std::array<double, Dimension<D>::spins> turn{};  // rotation vector of R [rad]
   Tensor<D> rotation{};                            // R
   Tensor<D> stretch{};                             // U
   Tensor<D> target{};                              // F* = U F_n
@@ -21,7 +21,7 @@ struct SplitIncrement {
 template <int D>
 SplitIncrement<D> split_rotation(const Tensor<D>& F, const Tensor<D>& committed);
 
-// The same without a rotation, for boundary conditions bound to axes: U = F F_n^-1.
+// The increment of a boundary condition bound to axes, R = I and U = F F_n^-1.
 template <int D>
 SplitIncrement<D> without_rotation(const Tensor<D>& F, const Tensor<D>& committed) {
   SplitIncrement<D> increment;

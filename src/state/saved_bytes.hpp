@@ -1,4 +1,4 @@
-// Numbers as bytes, little-endian, between what tells their kind and version and a checksum.
+// Numbers as little-endian bytes, in an envelope of kind, version and checksum.
 #pragma once
 
 #include <array>
@@ -10,10 +10,10 @@
 
 namespace grainlaw::core {
 
-// All begin with the letters and the version and end with an XXH3 of everything before, so that
-// damage and another version are told apart.
+// Envelope of saved bytes: letters, version and a final XXH3 of everything before. Damage and
+// another version are told apart.
 struct SavedKind {
-  const char* name;  // in messages
+  const char* name;  // name in messages
   std::array<char, 8> letters;
   std::uint32_t version;
 };
@@ -26,7 +26,7 @@ using Word = std::conditional_t<
     std::conditional_t<size == 2, std::uint16_t,
                        std::conditional_t<size == 4, std::uint32_t, std::uint64_t>>>;
 
-// The caller gives as many bytes as will be written.
+// Writer into a buffer that the caller has made large enough.
 class ByteWriter {
  public:
   explicit ByteWriter(std::span<std::byte> bytes) : first_(bytes.data()), next_(bytes.data()) {}
@@ -40,7 +40,7 @@ class ByteWriter {
     const auto word = std::bit_cast<Word<sizeof(T)>>(value);
     for (std::size_t k = 0; k < sizeof(T); ++k) *next_++ = static_cast<std::byte>(word >> (8 * k));
   }
-  // The next bytes, for others to fill.
+  // Reserves the next bytes for others to fill.
   std::span<std::byte> skip(std::size_t size) {
     std::byte* const from = next_;
     next_ += size;
@@ -53,7 +53,7 @@ class ByteWriter {
   std::byte* next_;
 };
 
-// The caller has checked that the bytes suffice.
+// Reader of bytes whose size the caller has checked.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes) : left_(bytes) {}
@@ -66,7 +66,7 @@ class ByteReader {
     left_ = left_.subspan(sizeof(T));
     return std::bit_cast<T>(word);
   }
-  // Throws Error (BAD_BYTES) for a NaN or an infinity.
+  // Reads a finite number. Throws Error (BAD_BYTES) for a NaN or an infinity.
   double get_finite();
   std::span<const std::byte> take(std::size_t size) {
     const auto taken = left_.first(size);
@@ -79,7 +79,8 @@ class ByteReader {
   std::span<const std::byte> left_;
 };
 
-// Throws Error (BAD_BYTES, WRONG_VERSION) unless bytes, any of any length, are whole and of a kind.
+// Throws Error (BAD_BYTES, WRONG_VERSION) unless the bytes, any of any length, are complete and of
+// this kind.
 void check_envelope(std::span<const std::byte> bytes, const SavedKind& kind);
 
 }  // namespace grainlaw::core

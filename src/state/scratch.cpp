@@ -10,8 +10,8 @@ namespace grainlaw::core {
 
 namespace {
 
-// A key, since a thread_local object ends the process where there is no memory to register its
-// destructor. It goes with the library, which threads may outlive.
+// A pthread key. A thread_local object would end the process when memory for registering its
+// destructor is short. The key is deleted with the library, which threads may outlive.
 template <int D>
 class Key {
  public:
@@ -37,7 +37,7 @@ class Key {
   bool made_;
 };
 
-// Made before, and gone after, whatever uses it.
+// Keys are constructed before, and destroyed after, everything that uses them.
 [[gnu::init_priority(101)]] Key<2> of_discs;
 [[gnu::init_priority(101)]] Key<3> of_spheres;
 

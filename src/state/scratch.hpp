@@ -1,16 +1,16 @@
-// The memory with which a thread evaluates.
+// Workspace with which a thread evaluates.
 #pragma once
 
 #include "equilibrium/strategy.hpp"
 
 namespace grainlaw::core {
 
-// Of the calling thread: made by its first evaluation, reused by the next, gone with the thread.
+// Workspace of the calling thread: created by its first evaluation, reused, freed with the thread.
 // Throws bad_alloc.
 template <int D>
 Workspace<D>& workspace();
 
-// Frees it: what an exception left half done serves nobody.
+// Frees the thread's workspace, which an exception leaves half done.
 template <int D>
 void drop_workspace() noexcept;
 

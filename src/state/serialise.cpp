@@ -1,11 +1,12 @@
-// Layout, little-endian:
-//   "GRAINLAW"  u32 version  u32 contacts  u64 material fingerprint
-//   F [dim*dim]  P [dim*dim]  dissipated  [broken bonds]  coordinates [as many as the material has]
-//   contacts: i32 i  i32 j  i16 shift[dim]  u8 1 sliding, 2 bonded  double tangential force, of spheres three  [moment]
-//   [gap of the bond]
-//   [G - 1 and move of the last part with drag]
-// Doubles; those in brackets only with a law that has bonds, and moments, and with drag.
-//   u64 XXH3 of everything before
+// Layout, little-endian; doubles unless stated:
+//   "GRAINLAW"  u32 version  u32 contacts  u64 material fingerprint;
+//   F [dim*dim]  P [dim*dim]  dissipated  [broken bonds];
+//   coordinates [number of the material's];
+//   contacts: i32 i  i32 j  i16 shift[dim]  u8 1 sliding, 2 bonded;
+//             tangential force, of spheres three  [moment]  [gap of the bond];
+//   [G - 1 and displacement of the last part with drag];
+//   u64 XXH3 of everything before.
+// Parts in brackets exist only with a law that has bonds, moments or drag.
 #include "state/serialise.hpp"
 
 #include "base/error.hpp"
@@ -26,7 +27,7 @@ constexpr std::size_t plain_contact_size =
     2 * sizeof(std::int32_t) + D * sizeof(std::int16_t) +
     sizeof(std::uint8_t) + Dimension<D>::tangents * sizeof(double);
 
-// Numbers of the last move, places and rotations as vectors.
+// Number of doubles of the last displacement: positions, and rotations as vectors.
 template <int D>
 std::size_t move_size(const Material<D>& material) {
   if (material.solver.viscosity.time == 0) return 0;
@@ -52,7 +53,8 @@ void require(bool condition, grainlaw_status status, const char* found) {
   if (!condition) throw Error(status, std::string("saved state: ") + found);
 }
 
-// As the contact list keeps them: i <= j, ascending (i, j, shift), each once.
+// Fails unless contacts are sorted as the contact list keeps them: i <= j, ascending (i, j, shift),
+// each once.
 template <int D>
 void check_contacts(const std::vector<ContactHistory<D>>& contacts, std::size_t particles) {
   constexpr std::array<std::int16_t, static_cast<std::size_t>(D)> none{};

@@ -1,4 +1,4 @@
-// An equilibrium as bytes and back: the same on every machine, and refused when anything is wrong.
+// An equilibrium as bytes and back: portable, and refused when damaged.
 #pragma once
 
 #include "increment/configuration.hpp"
@@ -9,17 +9,18 @@
 
 namespace grainlaw::core {
 
-// Bytes that a configuration of this material takes.
+// Size of a saved configuration of this material in bytes.
 template <int D>
 [[nodiscard]] std::size_t saved_size(const Material<D>& material,
                                      const Configuration<D>& configuration);
 
-// Fills bytes, of saved_size.
+// Writes saved_size() bytes.
 template <int D>
 void save_configuration(const Material<D>& material, const Configuration<D>& configuration,
                         std::span<std::byte> bytes);
 
-// Any bytes of any length may be given. Throws Error (BAD_BYTES, WRONG_VERSION, WRONG_MATERIAL).
+// Loads a configuration from any bytes of any length. Throws Error (BAD_BYTES, WRONG_VERSION,
+// WRONG_MATERIAL).
 template <int D>
 [[nodiscard]] Configuration<D> load_configuration(const Material<D>& material,
                                                   std::span<const std::byte> bytes);

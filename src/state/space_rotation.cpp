@@ -8,7 +8,7 @@ namespace grainlaw::core {
 
 namespace {
 
-// R of a = R U by Newton's iteration for the polar factor (Higham 1986), quadratic where det a > 0.
+// R of a = R U by Newton's iteration for the polar factor (Higham 1986), quadratic for det a > 0.
 Tensor<3> polar_rotation(const Tensor<3>& a) {
   constexpr int most_steps = 60;
   constexpr double settled = 1e-16;
@@ -49,7 +49,7 @@ Tensor4<3> rotate_tangent<3>(const SplitIncrement<3>& increment, const Tensor<3>
   const Tensor<3> f0_inverse = inverse<3>(committed);
   const Tensor<3>& r = increment.rotation;
   const Tensor<3>& u = increment.stretch;
-  // Of Omega U + U Omega, whose axis it makes of that of Omega.
+  // Matrix from the axis of Omega to that of Omega U + U Omega.
   Tensor<3> of_axis{};
   for (std::size_t k = 0; k < n; ++k) of_axis[k] = -u[k];
   for (std::size_t k = 0; k < 3; ++k) of_axis[4 * k] += trace<3>(u);
@@ -58,7 +58,7 @@ Tensor4<3> rotate_tangent<3>(const SplitIncrement<3>& increment, const Tensor<3>
   for (std::size_t k = 0; k < n; ++k) {
     Tensor<3> direction{};
     direction[k] = 1;
-    // R^T d(dF) = Omega U + dU with dU symmetric gives Omega.
+    // Omega follows from R^T d(dF) = Omega U + dU with dU symmetric.
     const Tensor<3> a = product<3>(transpose<3>(r), product<3>(direction, f0_inverse));
     const Vec<3> axis = product<3>(to_axis, Vec<3>{a[7] - a[5], a[2] - a[6], a[3] - a[1]});
     const Tensor<3> spin = skew(axis);

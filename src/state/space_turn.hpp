@@ -1,4 +1,4 @@
-// Turns of spheres: unit quaternions behind their places.
+// Rotations of spheres: unit quaternions stored behind the positions.
 #pragma once
 
 #include "contact/sphere_point.hpp"
@@ -12,7 +12,7 @@
 
 namespace grainlaw::core {
 
-// Of a rotation matrix; the largest of its numbers first, so that none is lost.
+// Quaternion of a rotation matrix, from its largest component first, so that no digits cancel.
 inline Quaternion quaternion_of(const Matrix3& r) {
   const double squares[4] = {1 + r[0] + r[4] + r[8], 1 + r[0] - r[4] - r[8], 1 - r[0] + r[4] - r[8],
                              1 - r[0] - r[4] + r[8]};
@@ -60,7 +60,8 @@ inline void turn_springs(const SplitIncrement<3>& increment, Configuration<3>& c
   }
 }
 
-// From rotations since F = I to Gibbs vectors since `from`, without the rotation of the increment.
+// Replaces rotations since F = I by Gibbs vectors since `from`, without the rotation of the
+// increment.
 inline void take_turn(const SplitIncrement<3>& increment, const Configuration<3>& from,
                       std::size_t n, std::vector<double>& z) {
   const bool rotating = z.size() > 3 * n;

@@ -16,10 +16,10 @@ namespace grainlaw::core {
 
 namespace {
 
-// A larger stretch in one increment would leave no contact of the committed packing where it was.
+// Largest stretch in one increment; beyond it the committed contacts say nothing of the new ones.
 constexpr double largest_stretch_change = 0.3;
-// Step of the forward differences of the perturbed tangent: well above the tolerance it is solved
-// to, well below the increments of a host.
+// Step of the forward differences of the perturbed tangent: well above the tolerance of the solve,
+// well below the increments of a host.
 constexpr double perturbation = 1e-5;
 constexpr double perturbed_tolerance = 1e-9;
 
@@ -27,7 +27,7 @@ void describe(grainlaw_report& report, const char* text) {
   std::snprintf(report.message, sizeof report.message, "%s", text);
 }
 
-// Contacts that opened, closed, lost their bond, began or ceased to slide between two configurations.
+// Number of contacts that opened, closed, lost their bond, or began or ceased to slide.
 template <int D>
 int status_changes(const Configuration<D>& before, const Configuration<D>& after) {
   auto a = before.contacts.begin();
@@ -57,7 +57,7 @@ SplitIncrement<D> split(const BoundarySpace<D>& space, const Tensor<D>& F,
                                : split_rotation<D>(F, committed);
 }
 
-// Start the iteration from the last trial, turned back to where `from` stands.
+// Sets the guess to the last trial without the rotation of its increment since `from`.
 template <int D>
 void guess_from_trial(const Configuration<D>& from, const Configuration<D>& trial,
                       std::size_t particles, Workspace<D>& w, Request<D>& request) {
@@ -83,7 +83,7 @@ grainlaw_status perturb(Request<D> request, Workspace<D>& w, Tensor4<D>& tangent
                         grainlaw_report& report) {
   const auto centre = request.deformation;
   request.tolerance = std::min(request.tolerance, perturbed_tolerance);
-  request.loose_tolerance = 0;  // differences need it all
+  request.loose_tolerance = 0;  // differences need the tight tolerance
   request.sensitivities = false;
   request.guess = nullptr;
   const auto stress_at = [&](std::size_t component, double step, Tensor<D>& p) {
@@ -115,7 +115,7 @@ double norm(const std::array<double, size>& tangent) {
   return std::sqrt(squares);
 }
 
-// Exact or elastic; zero for the other kinds.
+// Exact or elastic tangent; zero for other kinds.
 template <int D>
 Tensor4<D> tangent_of(const Workspace<D>& w, const Outcome& outcome, TangentKind kind,
                       grainlaw_report& report) {
@@ -154,7 +154,7 @@ template <int D>
 State<D>::State(std::shared_ptr<const Material<D>> material)
     : material_(std::move(material)), committed_(material_->initial) {
   const auto& initial = material_->initial;
-  // The two take turns, and contacts come and go.
+  // Reserves capacity in both configurations, which are swapped at every commit, for more contacts.
   for (auto* configuration : {&committed_, &trial_}) {
     configuration->contacts.reserve(initial.contacts.size() + initial.contacts.size() / little);
     configuration->coordinates.reserve(initial.coordinates.size());
@@ -250,7 +250,7 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
   Tensor<D> stress{};
   Tensor4<D> tangent{};
   if (free) {
-    // And stays so: no tangent either.
+    // The packing stays free of stress nearby: the tangent is zero too.
     report.residual = 0;
     report.tangent_exact = kind == TangentKind::exact ? 1 : 0;
     describe(report, "no contact carries a force: the packing is free of stress");

@@ -1,4 +1,4 @@
-// One integration point: the committed equilibrium, and the trial one found for the last F.
+// One integration point: the committed equilibrium, and the trial of the last F.
 #pragma once
 
 #include "material/material.hpp"
@@ -22,20 +22,20 @@ class State {
 
   explicit State(std::shared_ptr<const Material<D>> material);
 
-  // Find the equilibrium at F (dim x dim row-major, finite, det F > 0) from the committed state and
-  // keep it as the trial. P [dim*dim] and A [dim^4] may be null; both and the trial are written on
-  // success only. The report tells what was done until then. Throws bad_alloc, and Error
-  // (NOT_CONVERGED) when an iterate leaves the range of the neighbour search.
+  // Finds the equilibrium at F (dim x dim row-major, finite, det F > 0) from the committed state
+  // and keeps it as the trial. P [dim*dim] and A [dim^4] [Pa] may be null; both and the trial are
+  // written on success only. The report covers the work until a failure too. Throws bad_alloc, and
+  // Error (NOT_CONVERGED) when an iterate leaves the range of the neighbour search.
   grainlaw_status evaluate(const double* F, TangentKind kind, double* P, double* A,
                            grainlaw_report& report);
 
-  // F with the components that are found, not given, as they are committed.
+  // F with its found components replaced by the committed ones.
   [[nodiscard]] Tensor<D> effective(const double* F) const;
 
-  // Of the increments from now on, in the host's time.
+  // Sets the time of the following increments, in the host's unit.
   void set_time_step(double step) { time_step_ = step; }
 
-  bool commit();  // false: there is no trial
+  bool commit();  // returns false without a trial
   void revert() { has_trial_ = false; }
   [[nodiscard]] bool has_trial() const { return has_trial_; }
   [[nodiscard]] const Configuration<D>& committed() const { return committed_; }
@@ -51,9 +51,9 @@ class State {
   Configuration<D> committed_;
   Configuration<D> trial_;
   bool has_trial_ = false;
-  double time_step_ = 0;         // 0: none was told
-  bool trial_loose_ = false;     // ended at the loose tolerance
-  bool trial_advanced_ = false;  // by advancing history
+  double time_step_ = 0;         // 0: unknown
+  bool trial_loose_ = false;     // converged to the loose tolerance
+  bool trial_advanced_ = false;  // found by advancing history
 };
 
 }  // namespace grainlaw::core

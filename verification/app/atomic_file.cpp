@@ -8,7 +8,8 @@
 namespace verification {
 namespace {
 
-// One run writes a file: its name beside it need not be unique, and what a killed run left there goes.
+// One run writes a file: its temporary name need not be unique, and a leftover of a killed run is
+// replaced.
 constexpr grainlaw::core::Writing at_once{.wait = false, .alone = true};
 constexpr grainlaw::core::Writing on_disk{.wait = true, .alone = true};
 

@@ -1,5 +1,5 @@
-// Files that are either the old ones or the whole new ones, whenever the process or the machine
-// stops: those of src/io, with errors of the program.
+// Files that have their old or their new content whenever process or machine stop: those of src/io,
+// with errors of the program.
 #pragma once
 
 #include "io/text_file.hpp"
@@ -11,28 +11,29 @@
 
 namespace verification {
 
-// Writes beside the file, waits until it is on the disk, then renames. Throws ComputationError with
-// the reason; the old file is then as it was, and nothing is left beside it. What is no regular file,
-// e.g. /dev/stdout, is written to.
+// Writes a temporary file, waits until it is on disk, then renames it. Throws ComputationError with
+// the reason; the old file is then unchanged, and no temporary file is left. A target that is no
+// regular file, e.g. /dev/stdout, is written in place.
 void write_atomically(const std::filesystem::path& path, std::string_view bytes);
 
-// Files that belong to each other: all are whole and on the disk before the first gets its name.
+// Writes files that belong together: all are complete and on disk before the first is renamed.
 struct NewFile {
   std::filesystem::path path;
   std::string_view bytes;
 };
 void write_together(std::initializer_list<NewFile> files);
 
-// As write_atomically without waiting for the disk, for what can be written again when the machine stopped.
+// write_atomically() without waiting for the disk, for content that can be computed again.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-// Waits until what was written to the file is on the disk. Throws ComputationError.
+// Waits until the file is on disk. Throws ComputationError.
 void sync_file(const std::filesystem::path& path);
 
-// A file that grows by whole pieces: what cannot be written to its end leaves nothing of itself.
+// A file that grows by whole pieces; a piece that cannot be written completely is removed.
 class GrowingFile {
  public:
-  // Empty, or with its first `length` bytes. Throw ComputationError, as append() does.
+  // Opens the file empty, or with its first `length` bytes. Constructors and append() throw
+  // ComputationError.
   explicit GrowingFile(const std::filesystem::path& path);
   GrowingFile(const std::filesystem::path& path, std::uintmax_t length);
 

@@ -1,4 +1,4 @@
-// Bounds of numbers on the command line, in words.
+// Bounds of numbers on the command line, with their texts.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 
 namespace verification {
 
-// CLI11's own take NaN and infinity.
+// Check of a finite number; CLI11's own checks accept NaN and infinity.
 template <class Accept>
 CLI::Validator finite_number(const std::string& rule, Accept accept) {
   return {[rule, accept](std::string& text) {

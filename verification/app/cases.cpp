@@ -16,7 +16,7 @@
 namespace verification {
 namespace {
 
-// The path of a material file becomes a table, over which keys can be laid.
+// Turns the path of a material file into a table, so that keys can be merged into it.
 void as_table(toml::table& scene) {
   if (const auto path = scene["material"].value<std::string>())
     scene.insert_or_assign("material", toml::table{{"file", *path}});
@@ -29,7 +29,7 @@ std::vector<toml::table> scene_cases(const SceneFile& file) {
   const std::string name = root.file_name_or("name", file.path.stem().string());
   if (root.has("seeds")) root.fail("seeds", "a key of the scene", "one of a [[case]]");
   std::set<std::string> names;
-  std::map<std::string, std::string> owners;  // of results: the case
+  std::map<std::string, std::string> owners;  // result name -> case
   std::vector<toml::table> scenes;
   for (SceneTable& one : root.tables("case")) {
     const std::string case_name = one.file_name("name");
@@ -103,7 +103,7 @@ void CaseFailures::check(const std::string& file) const {
     if (failure.kind == Kind::interrupted) signal = failure.signal;
     if (failure.kind == Kind::none || failure.kind == Kind::interrupted) continue;
     input = input && failure.kind == Kind::input;
-    // A message about the file says so.
+    // A message that begins with the file needs no case name.
     const bool named = failures_.size() == 1 && failure.text.starts_with(file + ":");
     text += (text.empty() ? (named ? "" : file + ": ") : "\n  ") + failure.text;
   }

@@ -1,4 +1,4 @@
-// Scenes that vary one thing at a time: `[[case]]` tables laid over the rest of the file.
+// Cases of a scene: `[[case]]` tables merged over the rest of the file.
 #pragma once
 
 #include "app/scene.hpp"
@@ -9,31 +9,33 @@
 
 namespace verification {
 
-// The scene of every case, key by key over the rest and named SCENE_CASE; none without cases, for a
-// copy of a table no longer knows its lines. A case with `seeds` = N stands for N of them, SCENE_CASE_sK
-// with material.packing.seed = K. Throws InputError for a case without a name and for two results of one.
+// Scene of every case, named SCENE_CASE: its keys replace those of the rest. Empty without cases,
+// since a copied table loses its line numbers. A case with `seeds` = N gives N scenes SCENE_CASE_sK
+// with material.packing.seed = K. Throws InputError for a case without a name and for two results
+// with one name.
 std::vector<toml::table> scene_cases(const SceneFile& file);
 
-// A file that a command is going to write, and what of.
+// An output file of a command, and its owner.
 struct Output {
   std::string file, owner;
 };
 
-// Throws InputError for two of one name and not of one owner: the second would take the place of the first.
+// Throws InputError for two outputs with one name and different owners, since the second would
+// replace the first.
 void check_outputs(const std::string& file, const std::vector<Output>& outputs);
 
-// Runs of which none ends the others. Threads may share it.
+// Collects failures of independent runs, for several threads.
 class CaseFailures {
  public:
   explicit CaseFailures(std::size_t cases) : failures_(cases) {}
 
-  // Calls run() unless the command has been asked to end; what that throws is kept for the case of
-  // this number and name. Returns its text, empty when there was none.
+  // Calls run() unless an interrupt is pending. An exception is stored with the number and name of
+  // its case. Returns its text, empty without one.
   std::string guard(std::size_t number, const std::string& name, const std::function<void()>& run);
 
-  // Throws what was kept, in the order of the cases and with their names when there are several:
-  // ComputationError, InputError when all are of that kind, Interrupted when the command was asked to
-  // end, after telling the others.
+  // Throws the stored failures in the order of the cases, with their names when there are several.
+  // It throws ComputationError; InputError when all are of that kind; Interrupted after an
+  // interrupt, once the others are printed.
   void check(const std::string& file) const;
 
  private:

@@ -1,5 +1,5 @@
-// The subcommands of `grainlaw`. Each function adds one to the command line; the command runs in
-// its callback and throws InputError or ComputationError.
+// The subcommands of `grainlaw`. Each function adds one to the command line; its callback runs the
+// command and throws InputError or ComputationError.
 #pragma once
 
 namespace CLI {

@@ -1,5 +1,4 @@
-// `grainlaw compare NAME=TABLE...`: finished drained tests beside each other, of this program and of
-// others.
+// `grainlaw compare NAME=TABLE...`: finished drained tests of this program and others, compared.
 
 #include "app/bounds.hpp"
 #include "app/commands.hpp"
@@ -54,8 +53,8 @@ std::vector<double> scaled(const std::vector<double>& values, double factor) {
   return result;
 }
 
-// Of `grainlaw point` or `solve`; else with the columns of YADE's tables in scenes/reference, which
-// tables of spheres have too.
+// Reads a table of `grainlaw point` or `solve`; else the columns of YADE's tables in
+// scenes/reference, which tables of spheres have too.
 Curves read_curves(const std::string& name, const std::filesystem::path& path) {
   const CsvTable table = read_csv(path);
   const auto has = [&](const char* column) {
@@ -109,15 +108,15 @@ void print_stresses(const std::vector<Curves>& runs, const std::filesystem::path
   table.write(file);
 }
 
-// Largest relative difference of axial stress up to a strain before the peak, where the path does
-// not yet depend on round-off, at multiples of 0.1 %.
+// Largest relative difference of axial stress at multiples of 0.1 % of strain, before the peak,
+// where round-off does not decide the path.
 double largest_difference(const Curves& a, const Curves& b) {
   constexpr double last = 1.0;  // %
   double worst = 0;
   for (int k = 1; k <= static_cast<int>(last * 10 + 0.5); ++k) {
     const double reference = b.stress_at(0.1 * k);
     const double error = std::abs(a.stress_at(0.1 * k) - reference) / reference;
-    // NaN, of a run that ended before, stays.
+    // NaN of a run that ended before stays.
     worst = std::isnan(worst) || error <= worst ? worst : error;
   }
   return worst;
@@ -127,14 +126,14 @@ void print_agreement(const Curves& a, const Curves& b) {
   fmt::print("  {:<24} against {:<24} {:.2e} [-]\n", a.name, b.name, largest_difference(a, b));
 }
 
-// What a run has to agree with the first reference in; NaN: not asked.
+// Allowed differences from the first reference; NaN: not checked.
 struct Bounds {
   double stress = std::numeric_limits<double>::quiet_NaN();      // up to 1 % [%]
   double peak = std::numeric_limits<double>::quiet_NaN();        // [%]
   double volumetric = std::numeric_limits<double>::quiet_NaN();  // at 2 % [% of strain]
 };
 
-// One line for each bound that was asked for.
+// Prints one line per bound.
 void print_verdict(const Curves& run, const Curves& reference, const Bounds& bounds) {
   const auto line = [&](const char* what, double difference, double bound) {
     if (std::isnan(bound)) return;
@@ -165,7 +164,7 @@ void draw_comparison(const std::string& title, const std::vector<Curves>& runs,
   Panel ratio{spheres ? "stress ratio axial / lateral [-]" : "stress ratio σ22 / σ11 [-]", {}, 1.5};
   Panel volumetric{"volumetric strain, dilation + [%]"};
   Panel coordination{"coordination number [-]"};
-  // The first on top, so that the lines of the others do not hide it.
+  // Draws the first run last, on top of the others.
   for (std::size_t k = runs.size(); k-- > 0;) {
     const Curves& run = runs[k];
     const char* colour = colours[k % colours.size()];

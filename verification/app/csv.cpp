@@ -25,12 +25,12 @@ std::string line(const std::vector<double>& values, std::size_t columns) {
   return fmt::format("{:.12g}\n", fmt::join(values, ","));
 }
 
-// "name" of "name[unit]"; a name may have brackets of its own.
+// "name" of "name[unit]"; a name may contain brackets.
 std::string without_unit(const std::string& column) {
   return column.ends_with(']') ? column.substr(0, column.rfind('[')) : column;
 }
 
-// The length, if the table there can go on from it.
+// Returns the length if the table there can be continued from it.
 std::uintmax_t checked(const std::filesystem::path& path, const std::vector<std::string>& columns,
                        std::uintmax_t length) {
   const std::string expected = header(columns);

@@ -13,17 +13,17 @@ namespace verification {
 
 class CsvWriter {
  public:
-  // Columns as "name[unit]", "[-]" when dimensionless. Throws ComputationError when the file cannot
-  // be written.
+  // Opens a table with columns "name[unit]", "[-]" when dimensionless. Throws ComputationError when
+  // the file cannot be written.
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns);
 
-  // Goes on with a file of these columns after its first `length` bytes; what came after them is
-  // dropped. Throws InputError when the file is shorter or has other columns.
+  // Continues a table with these columns after its first `length` bytes; the rest is dropped.
+  // Throws InputError when the file is shorter or has other columns.
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns,
             std::uintmax_t length);
 
-  // One line, at once, so that an interrupted run leaves all of its finished steps; values in the order
-  // of the columns. Throws ComputationError when it cannot be written.
+  // Writes one row in the order of the columns without delay, so that an interrupted run keeps its
+  // finished steps. Throws ComputationError when writing fails.
   void row(const std::vector<double>& values);
   // Bytes written so far, header included.
   [[nodiscard]] std::uintmax_t length() const { return file_.length(); }
@@ -34,7 +34,7 @@ class CsvWriter {
   std::size_t columns_;
 };
 
-// A whole table at once: the old one stays until the new one is on the disk. Throws ComputationError.
+// Replaces a whole table atomically. Throws ComputationError.
 void write_csv(const std::filesystem::path& path, const std::vector<std::string>& columns,
                const std::vector<std::vector<double>>& rows);
 
@@ -43,18 +43,17 @@ struct CsvTable {
   std::vector<std::vector<double>> columns;  // [names.size()][rows]
 
   [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
-  // Throws InputError when there is no such column.
+  // Column of this name. Throws InputError when there is none.
   [[nodiscard]] const std::vector<double>& operator[](std::string_view name) const;
 };
 
-// Throws InputError for a file that cannot be read or a line that does not fit the header.
+// Reads a table. Throws InputError for an unreadable file or a row that does not fit the header.
 CsvTable read_csv(const std::filesystem::path& path);
 
-// The first column as the text that it is.
+// Texts of the first column.
 std::vector<std::string> read_csv_names(const std::filesystem::path& path);
 
-// Value of y at x by linear interpolation between the rows around x, where xs increases; NaN
-// outside.
+// y at x by linear interpolation between rows with increasing xs; NaN outside.
 double interpolate(const std::vector<double>& xs, const std::vector<double>& ys, double x);
 
 }  // namespace verification

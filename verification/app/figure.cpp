@@ -13,7 +13,7 @@
 namespace verification {
 namespace {
 
-// The curves of a panel as gnuplot data blocks $p<panel>c<curve>.
+// Curves of a panel as gnuplot data blocks $p<panel>c<curve>.
 std::string data_blocks(const Figure& figure) {
   std::string text;
   for (std::size_t p = 0; p < figure.panels.size(); ++p)
@@ -61,7 +61,7 @@ std::string plot_command(const Panel& panel, std::size_t number) {
   return fmt::format("plot {}\n", fmt::join(items, ", "));
 }
 
-// Powers of ten where plain numbers would be too long to read.
+// Tick format: powers of ten where plain numbers would be too long.
 std::string log_format(const std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   return values.empty() || (*low >= 1e-2 && *high <= 1e5) ? "%g" : "10^{%T}";
@@ -75,7 +75,7 @@ std::string log_commands(const Figure& figure, const Panel& panel) {
                             : std::string("unset logscale y\nset format y '% h'\n"));
 }
 
-// Abscissae of all panels; logarithmic ones with room for the markers at the ends.
+// Range of all panels' abscissae; logarithmic ones with a margin for markers.
 std::string common_range(const Figure& figure) {
   constexpr double room = 1.25;
   double low = std::numeric_limits<double>::infinity();
@@ -86,7 +86,7 @@ std::string common_range(const Figure& figure) {
         low = std::min(low, x);
         high = std::max(high, x);
       }
-  if (low == high && !figure.logarithmic) {  // gnuplot would complain of it
+  if (low == high && !figure.logarithmic) {  // gnuplot warns about an empty range
     const double around = low != 0 ? 0.1 * std::abs(low) : 1;
     low -= around;
     high += around;
@@ -99,7 +99,7 @@ std::string common_range(const Figure& figure) {
   return high > 0 ? fmt::format("set xrange [{}:{}]\n", low / room, high * room) : "";
 }
 
-// Gnuplot's own range, or one around a constant, of which it would complain.
+// Range of gnuplot, or one around a constant, about which it would warn.
 std::string range_command(const Panel& panel) {
   if (panel.logarithmic && panel.lowest > 0)
     return fmt::format("set yrange [{}:*]\n", panel.lowest);
@@ -114,17 +114,16 @@ std::string range_command(const Panel& panel) {
   return fmt::format("set yrange [{}:{}]\n", low - 1, high + 1);
 }
 
-// Of UTF-8.
+// Number of characters of UTF-8.
 std::size_t letters(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
   }));
 }
 
-constexpr int width = 900;  // of a picture [points]
+constexpr int width = 900;  // width of a picture [points]
 
-// Lines that the legend of a panel takes above it, where it lies on no curve; entries in columns as wide as
-// the longest of them.
+// Lines of the legend above a panel, in columns as wide as the longest entry.
 int legend_lines(const Panel& panel, double left) {
   constexpr double letter = 10, sample = 62;  // points
   std::size_t longest = 0, entries = 0;
@@ -142,7 +141,7 @@ int legend_lines(const Panel& panel, double left) {
 }  // namespace
 
 bool draw(const Figure& figure, const std::filesystem::path& stem) {
-  constexpr double row = 21;                              // of a legend [points]
+  constexpr double row = 21;                              // line of a legend [points]
   const double left = figure.logarithmic ? 0.135 : 0.12;  // powers of ten are wide
   const auto count = static_cast<double>(figure.panels.size());
   const double relative =
@@ -157,7 +156,7 @@ bool draw(const Figure& figure, const std::filesystem::path& stem) {
   const double height = 150 + 270 * relative + row * lines;
   const double gap = 20 / height;
   const double top = 1 - (figure.title.empty() ? 14 : 38) / height;
-  const double bottom = 76 / height;  // room for the abscissa
+  const double bottom = 76 / height;  // margin for the abscissa
   const double unit = (top - bottom - gap * (count - 1) - row * lines / height) / relative;
 
   std::string body = data_blocks(figure);
@@ -174,7 +173,7 @@ bool draw(const Figure& figure, const std::filesystem::path& stem) {
   double upper = top;
   for (std::size_t p = 0; p < figure.panels.size(); ++p) {
     const Panel& panel = figure.panels[p];
-    const double legend = upper - 2 / height;  // its upper edge
+    const double legend = upper - 2 / height;  // upper edge of the legend
     upper -= row * legends[p] / height;
     const double lower = upper - unit * panel.height;
     body +=

@@ -22,7 +22,7 @@
 namespace verification {
 namespace {
 
-// A file in memory alone: a picture gets its name when it is whole.
+// A file in memory: a picture is written once it is complete.
 class MemoryFile {
  public:
   explicit MemoryFile(const char* name) : number_(::memfd_create(name, MFD_CLOEXEC)) {
@@ -59,7 +59,8 @@ class MemoryFile {
   int number_;
 };
 
-// Of its own process group, so that Ctrl-C lets a picture be finished, and with the usual signals.
+// Spawn attributes: a process group of its own, so that Ctrl-C does not stop a picture, and default
+// signals.
 class Attributes {
  public:
   Attributes() {
@@ -83,12 +84,12 @@ class Attributes {
 };
 
 struct Answer {
-  int error = 0;  // of starting it
+  int error = 0;  // of starting the process
   bool done = false;
   std::string output;
 };
 
-// Without a shell and without gnuplotrc and ~/.gnuplot.
+// Runs gnuplot without a shell, gnuplotrc and ~/.gnuplot.
 Answer answer_of_gnuplot(const std::string& script) {
   const MemoryFile input("script"), output("picture");
   input.write(script);
@@ -111,7 +112,7 @@ Answer answer_of_gnuplot(const std::string& script) {
   return answer;
 }
 
-// Of the text in it gnuplot escapes & and < alone, and XML holds neither "]]>" nor most control characters.
+// Mends XML: gnuplot escapes only & and <, but "]]>" and most control characters are not allowed.
 std::string well_formed(const std::string& svg) {
   std::string result;
   for (const char c : svg) {
@@ -130,7 +131,7 @@ std::string well_formed(const std::string& svg) {
 
 bool run_gnuplot(const std::string& body, const std::filesystem::path& stem, int width,
                  int height) {
-  const std::string text = terminal_text(body);  // bytes that are no UTF-8 as \xff
+  const std::string text = terminal_text(body);  // bytes outside UTF-8 as \xff
   for (const std::string kind : {"svg", "png"}) {
     const Answer answer = answer_of_gnuplot(
         fmt::format("set encoding utf8\nset terminal {} size {},{} font 'DejaVu Sans,14' "

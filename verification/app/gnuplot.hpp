@@ -1,4 +1,4 @@
-// Pictures drawn by gnuplot, whose own settings and directory of work change nothing in them.
+// Runs of gnuplot, independent of the user's settings and working directory.
 #pragma once
 
 #include <filesystem>
@@ -6,9 +6,9 @@
 
 namespace verification {
 
-// Runs `body` once for stem.svg and once for stem.png, each of width x height points, with a plain
-// style set up. Without gnuplot says so on stderr and returns false; the tables are complete without
-// pictures. Throws ComputationError when a picture cannot be written.
+// Runs `body` for stem.svg and for stem.png, each width x height points, in a plain style. Without
+// gnuplot prints a note to stderr and returns false. Throws ComputationError when a picture cannot
+// be written.
 bool run_gnuplot(const std::string& body, const std::filesystem::path& stem, int width, int height);
 
 }  // namespace verification

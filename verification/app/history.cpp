@@ -24,7 +24,7 @@ namespace {
 constexpr double percent = 100;
 constexpr double kilopascal = 1e-3;
 
-// Columns of a history in the units of pictures.
+// Columns of a history in units of figures.
 class Columns {
  public:
   Columns(const CsvTable& table, std::string abscissa)
@@ -103,7 +103,7 @@ bool draw_history(const CsvTable& table, const std::string& abscissa, const std:
                 spheres ? stress_of_spheres(columns) : stress_of_discs(columns)};
   const auto volumetric = columns.column("volumetric_strain", percent);
   const auto [least, most] = std::minmax_element(volumetric.begin(), volumetric.end());
-  constexpr double isochoric = 1e-9;  // %, below this there is nothing to see
+  constexpr double isochoric = 1e-9;  // % below which strains are not drawn
   if (*most - *least > isochoric)
     figure.panels.push_back({"volumetric strain, dilation + [%]",
                              {columns.curve("", "volumetric_strain", percent, colour::blue)},

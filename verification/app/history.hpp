@@ -1,4 +1,4 @@
-// The history of a run: its table, its pictures and its particles, written while it goes.
+// History of a run: table, pictures and particles, written during the run.
 #pragma once
 
 #include "app/csv.hpp"
@@ -11,21 +11,21 @@
 
 namespace verification {
 
-// Abscissae a scene may choose for its picture.
+// Abscissae that a scene may choose for its picture.
 inline constexpr const char* axial_abscissa = "axial_strain";
 inline constexpr const char* shear_abscissa = "F12";
 
-// Of a table with record_columns(): stem.svg and stem.png with stress, volumetric strain and
-// coordination number. False without a picture.
+// Draws stem.svg and stem.png with stress, volumetric strain and coordination number from a table
+// with record_columns(). Returns false without a picture.
 bool draw_history(const CsvTable& table, const std::string& abscissa, const std::string& title,
                   const std::filesystem::path& stem);
 
-// One line about what the run of such a table cost, with that of a step that did not end.
+// One line with the cost of the run of such a table, and that of an unfinished step.
 std::string history_summary(const CsvTable& table, const Effort& unfinished = {});
 
 class History {
  public:
-  // Opens stem.csv, of records of discs or of spheres.
+  // Opens stem.csv for records of discs or spheres.
   explicit History(std::filesystem::path stem,
                    const std::vector<std::string>& columns = record_columns());
 
@@ -41,7 +41,7 @@ class History {
   CsvWriter csv_;
 };
 
-// stem_0010.vtp: particles and force chains of the state. Throws ComputationError.
+// Writes stem_0010.vtp: particles and force chains of the state. Throws ComputationError.
 void write_vtk(const grainlaw_state* state, const std::filesystem::path& stem, int step);
 
 }  // namespace verification

@@ -1,10 +1,10 @@
-// Ctrl-C and SIGTERM as a wish to end soon.
+// Ctrl-C and SIGTERM as a request to end soon.
 #pragma once
 
 namespace verification {
 
-// While it lives, the first SIGINT or SIGTERM is noted, and the user told; a second one ends the
-// process at once, as both do without it.
+// Handles signals during its lifetime: the first SIGINT or SIGTERM is recorded and reported. A
+// second one ends the process.
 class Interrupt {
  public:
   Interrupt();
@@ -12,18 +12,18 @@ class Interrupt {
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  // The signal that has come, 0: none.
+  // Received signal; 0: none.
   [[nodiscard]] static int signal();
-  // Throws Interrupted when one has come.
+  // Throws Interrupted after a signal.
   static void check();
 };
 
-// A run that ended early because it was asked to; what it says is for the user. The command ends
-// with exit code 128 + signal, as a shell counts it.
+// A run that ended early on request; its text is for the user. The exit code is 128 + signal, as a
+// shell counts it.
 struct Interrupted {
   int signal;
 
-  [[nodiscard]] const char* text() const;  // for the user: by what it was stopped
+  [[nodiscard]] const char* text() const;  // name of the signal for the user
 };
 
 }  // namespace verification

@@ -11,9 +11,8 @@
 
 namespace verification {
 
-// Calls job(0), ..., job(count - 1), so many at a time as there are threads (>= 1), or as many fewer as
-// can be started; all of them are
-// done, or tried, before the error of the first that failed is thrown.
+// Calls job(0), ..., job(count - 1) in `threads` threads (>= 1), or in fewer where some cannot
+// start. All jobs are run before the error of the first failed one is thrown.
 template <class Job>
 void run_jobs(std::size_t count, int threads, Job&& job) {
   std::vector<std::exception_ptr> errors(count);
@@ -32,7 +31,7 @@ void run_jobs(std::size_t count, int threads, Job&& job) {
     try {
       for (std::size_t k = 1; k < std::min(count, static_cast<std::size_t>(threads)); ++k)
         others.emplace_back(work);
-    } catch (const std::system_error&) {  // no more threads: the others do it all
+    } catch (const std::system_error&) {  // no more threads: the others do all jobs
     }
     work();
   }

@@ -1,4 +1,4 @@
-// The library as the driver sees it: its C++ face, and what Eigen and the errors of the program add.
+// The library as the driver uses it: its C++ interface, Eigen types and errors of the program.
 #pragma once
 
 #include "base/error.hpp"
@@ -21,22 +21,22 @@ template <int D>
 using ComponentsOf = Eigen::Matrix<double, D * D, 1>;
 template <int D>
 using TangentOf = Eigen::Matrix<double, D * D, D * D, Eigen::RowMajor>;
-// Of discs.
+// Types of discs.
 using Tensor = TensorOf<2>;
 using Vector4 = ComponentsOf<2>;
 using Tangent = TangentOf<2>;
 
-// A computation that did not succeed: the command ends with exit code 1.
+// A computation that failed: the command exits with code 1.
 struct ComputationError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Input that makes no sense: the command ends with exit code 2.
+// Wrong input: the command exits with code 2.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What src/io throws, as an error of the program.
+// Runs an action and translates errors of src/io into errors of the program.
 template <class Failure, class Action>
 decltype(auto) as(Action&& action) {
   try {
@@ -63,27 +63,27 @@ struct EvaluationOf {
 };
 using Evaluation = EvaluationOf<2>;
 
-// One evaluation at the total deformation gradient; a recoverable failure is left in `status`,
-// anything worse throws ComputationError.
+// Evaluates a state at the total deformation gradient. A recoverable failure is returned in
+// `status`; a fatal one throws ComputationError.
 template <int D>
 EvaluationOf<D> evaluate_of(State& state, const TensorOf<D>& deformation, unsigned want);
 inline Evaluation evaluate(State& state, const Tensor& deformation, unsigned want) {
   return evaluate_of<2>(state, deformation, want);
 }
 
-// "exact" | "elastic" | "perturbed" as a bit of `want`.
+// Bit of `want` for "exact" | "elastic" | "perturbed".
 unsigned tangent_bit(const std::string& name);
 
-// All components of a measure, and the first one. Throw ComputationError.
+// All components of a measure, or its first. Throw ComputationError.
 std::vector<double> measure(const grainlaw_state* state, grainlaw_measure what);
 double measure_scalar(const grainlaw_state* state, grainlaw_measure what);
 
-// F of the trial: a boundary with prescribed stresses finds components of its own.
+// F of the trial, found components included.
 template <int D>
 TensorOf<D> deformation_gradient(const grainlaw_state* state);
 inline Tensor deformation_of(const grainlaw_state* state) { return deformation_gradient<2>(state); }
 
-// sigma = P F^T / det F [Pa].
+// Cauchy stress sigma = P F^T / det F, @formula stress [Pa].
 template <int D>
 TensorOf<D> cauchy_stress_of(const TensorOf<D>& stress, const TensorOf<D>& deformation) {
   return stress * deformation.transpose() / deformation.determinant();
@@ -97,7 +97,7 @@ template <int D>
 TangentOf<D> cauchy_tangent(const TensorOf<D>& stress, const TangentOf<D>& tangent,
                             const TensorOf<D>& deformation);
 
-// The components of a tensor as a vector, row by row, and back.
+// Components of a tensor as a vector by rows, and back.
 template <int D>
 ComponentsOf<D> components_of(const TensorOf<D>& tensor) {
   return ComponentsOf<D>::Map(tensor.data());
@@ -106,7 +106,7 @@ template <int D>
 TensorOf<D> tensor_of(const ComponentsOf<D>& components) {
   return TensorOf<D>::Map(components.data());
 }
-// Those of many tensors, one tensor after the other.
+// Components of many tensors, one tensor after the other.
 template <class Matrix>
 std::span<double> numbers(std::vector<Matrix>& matrices) {
   return {matrices.front().data(), Matrix::SizeAtCompileTime * matrices.size()};

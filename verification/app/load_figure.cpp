@@ -11,7 +11,7 @@
 namespace verification {
 namespace {
 
-// The largest in size, with its sign.
+// Value of the largest magnitude, with its sign.
 double extreme(const std::vector<double>& values) {
   return *std::max_element(values.begin(), values.end(),
                            [](double a, double b) { return std::abs(a) < std::abs(b); });

@@ -1,4 +1,4 @@
-// Load against displacement: what the conditions of a boundary problem exert on the body.
+// Load-displacement curves of the conditions of a boundary value problem.
 #pragma once
 
 #include "app/csv.hpp"
@@ -9,10 +9,10 @@
 
 namespace verification {
 
-// Of the columns CONDITION_displacement [m] and CONDITION_force of a table: stem.svg and stem.png with a
-// curve for each of the conditions that moves. Where all of them move against their axis, both are turned
-// round, so that a footing that is pressed down has a positive load. `unit` is that of the forces, "N" or
-// "N/m". False without a picture.
+// Draws stem.svg and stem.png from columns CONDITION_displacement [m] and CONDITION_force, one
+// curve per moving condition. Where all move against their axis, both signs are reversed: a footing
+// pressed down has a positive load. `unit` is that of the forces, "N" or "N/m". Returns false
+// without a picture.
 bool draw_load_figure(const CsvTable& table, const std::vector<std::string>& conditions,
                       const std::string& unit, const std::string& title,
                       const std::filesystem::path& stem);

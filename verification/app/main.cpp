@@ -1,4 +1,4 @@
-// grainlaw: the commands that users run.
+// The command `grainlaw`.
 
 #include "app/commands.hpp"
 #include "app/program.hpp"

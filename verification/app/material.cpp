@@ -13,8 +13,8 @@ namespace verification {
 
 namespace {
 
-// Another law does not have all of the keys of the one before: those that it would refuse are not taken
-// over. Nor is one of the two ways to say a stiffness beside the other.
+// Drops keys of another contact law, which the new law would refuse, and a second way to state one
+// stiffness.
 void drop_what_is_refused(toml::table& before, const toml::table& after) {
   if (after.contains("kn")) before.erase("young");
   if (after.contains("young")) before.erase("kn");
@@ -46,14 +46,14 @@ void merge(toml::table& target, const toml::table& changes) {
 
 namespace {
 
-// "scene: material file", what of it there is.
+// "scene: material file", without absent parts.
 std::string named(const MaterialSource& source) {
   std::string name = source.scene.empty() ? "" : source.scene.string() + ": ";
   name += "material";
   return source.file.empty() ? name : name + " " + source.file.string();
 }
 
-// A message about a text parsed at `base`, without "base:line: " in front.
+// Message of a text parsed at `base`, without "base:line: " in front.
 std::string_view without_line(std::string_view message, const std::string& base) {
   if (!message.starts_with(base + ":")) return message;
   const auto end = message.find(": ");

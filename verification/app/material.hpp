@@ -1,4 +1,4 @@
-// Where a scene's material comes from: a file, a table in the scene, or a file with changes.
+// Source of a scene's material: a file, a table in the scene, or a file with changes.
 #pragma once
 
 #include "app/library.hpp"
@@ -8,35 +8,36 @@
 
 namespace verification {
 
-// A material description; `changes` are laid over the file key by key. With an empty `file` the
-// changes are the whole description.
+// A material description; `changes` replace keys of the file. With an empty `file` the changes are
+// the whole description.
 struct MaterialSource {
-  std::filesystem::path scene;  // that names it
+  std::filesystem::path scene;  // the scene that names it
   std::filesystem::path file;   // "" : no file
-  std::filesystem::path base;   // where relative paths of the description start
+  std::filesystem::path base;   // base of relative paths in the description
   toml::table changes;
-  bool unfolded = false;  // the changes have all that the file says
+  bool unfolded = false;  // changes contain all keys of the file
 };
 
-// The same with what its file says among the changes, where whole tables of it can be replaced.
+// Copies the keys of the file into the changes, where whole tables can be replaced.
 MaterialSource unfold(const MaterialSource& source);
 
-// Lays `changes` over `target`; tables are merged, everything else is replaced.
+// Merges `changes` into `target`: tables are merged, other values are replaced.
 void merge(toml::table& target, const toml::table& changes);
 
-// Sets one key, e.g. {"solver", "tolerance"}, over what the source says.
+// Sets one key, e.g. {"solver", "tolerance"}, in the changes.
 template <class Value>
 void change(MaterialSource& source, std::string_view table, std::string_view key, Value value) {
   if (!source.changes.contains(table)) source.changes.insert(table, toml::table{});
   source.changes[table].as_table()->insert_or_assign(key, value);
 }
 
-// The scene's key `material`: a path relative to the scene, or a table. In a table the key `file`
-// names a material file that the other keys change; its relative paths are then those of that file.
+// Reads the scene's key `material`: a path relative to the scene, or a table. The key `file` of a
+// table names a material file that its other keys change; relative paths are then those of that
+// file.
 MaterialSource read_material_source(SceneTable& scene);
 
-// The whole description as text, where its relative paths start, and what messages call it. Its
-// lines are in no file.
+// A whole description as text, the base of its relative paths and its name in messages. Its lines
+// belong to no file.
 struct MaterialText {
   std::string text;
   std::string base;
@@ -44,15 +45,16 @@ struct MaterialText {
 };
 MaterialText material_text(const MaterialSource& source);
 
-// 3 when the description says so, else 2: what is wrong is told when the material is made.
+// 3 when the description says so, else 2; errors are reported when the material is created.
 int dimension_of(const MaterialSource& source);
 
-// Throws InputError for a wrong description, or one of another dimension, ComputationError when there
-// is no equilibrium at F = I.
+// Creates the material. Throws InputError for a wrong description or dimension, ComputationError
+// without an equilibrium at F = I.
 Material make_material(const MaterialSource& source, int dimension = 2);
 
-// `tolerance` of a table: what stresses or forces are brought to. Where the material starts from its last
-// trial they are known to its solver.tolerance alone: the default is no smaller, and less is refused.
+// Reads `tolerance` of a table, a bound of stresses or forces. A material that starts from its last
+// trial has these to solver.tolerance alone: the default is no smaller, and a smaller value is
+// refused.
 double read_tolerance(SceneTable& table, const MaterialSource& material, double usual);
 
 }  // namespace verification

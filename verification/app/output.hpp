@@ -1,4 +1,4 @@
-// Where a command puts its files.
+// Output files of commands.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,9 @@
 
 namespace verification {
 
-// directory / name, without an extension. Creates the directory. Throws InputError when it cannot, and for
-// a name that would lead elsewhere (is_file_name); those of scenes were refused at their line before.
+// Path directory / name without an extension; creates the directory. Throws InputError when it
+// cannot, and for a name that leads elsewhere (is_file_name). Names in scenes are checked earlier,
+// at their line.
 std::filesystem::path output_stem(const std::string& directory, const std::string& name);
 
 }  // namespace verification

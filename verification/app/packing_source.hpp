@@ -5,8 +5,8 @@
 
 namespace verification {
 
-// The same with the packing in prefix_particles.csv, _contacts.csv and _cell.csv in place of its own,
-// so that nothing of that is left. Throws InputError.
+// Replaces the packing of a source, with all its keys, by prefix_particles.csv, _contacts.csv and
+// _cell.csv. Throws InputError.
 MaterialSource with_packing(const MaterialSource& source, const std::filesystem::path& prefix);
 
 }  // namespace verification

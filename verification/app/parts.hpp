@@ -1,4 +1,4 @@
-// A step solved in as many parts as it takes.
+// Step control: a step is divided into parts until each converges.
 #pragma once
 
 #include "app/library.hpp"
@@ -12,48 +12,47 @@
 
 namespace verification {
 
-// How an attempt at a part of a step ended.
+// Result of an attempt at a part of a step.
 struct Attempt {
   bool converged = false;
-  bool loose = false;                    // converged to a residual beyond the tolerance
-  bool stalled = false;                  // every evaluation went well, to no end
-  double ratio = 0.5;                    // of the part that seems feasible
-  std::string reason = {};               // of the failure
-  grainlaw_status status = GRAINLAW_OK;  // of an evaluation that failed
+  bool loose = false;                    // converged beyond the tolerance
+  bool stalled = false;                  // all evaluations succeeded, without convergence
+  double ratio = 0.5;                    // suggested factor on the part
+  std::string reason = {};               // reason of the failure
+  grainlaw_status status = GRAINLAW_OK;  // of a failed evaluation
 };
 
-// A step that failed in its smallest part too. `status` is of the evaluation that did not succeed, OK
-// when all did.
+// A step that failed at its smallest part. `status` is that of the failed evaluation, OK when all
+// succeeded.
 struct StepError : ComputationError {
   StepError(grainlaw_status status_, const std::string& text)
       : ComputationError(text), status(status_) {}
   grainlaw_status status;
 };
 
-// Is told of every cut: the part that comes next, of the step, and why.
+// Called at every cut with the next part over the step, and the reason.
 using CutObserver = std::function<void(double part, const std::string& reason)>;
 inline std::string describe_cut(int step, double part, const std::string& reason) {
   return fmt::format("step {} in parts of {:.1e} of it: {}", step, part, reason);
 }
 
-// What a part of no more than this share of a step does not end is a jump of P as a function of F and the
-// last commit: a packing that has become unstable there rearranges. It is crossed: what lies beyond is
-// committed out of balance, and brought to balance from there.
+// Largest part over its step at which a failure counts as a jump of P(F). The packing is unstable
+// there and rearranges. The jump is crossed: the state beyond is committed out of balance, then
+// balanced.
 inline constexpr double crossing_part = 1.0 / 16;
-inline constexpr int most_crossings = 8;  // of one part; then it ends where it is, as a loose one
+inline constexpr int most_crossings = 8;  // per part; then it is accepted as loose
 
-inline constexpr int most_cuts = 30;  // a part of 1e-9 of a step is rounding
+inline constexpr int most_cuts = 30;  // smaller parts are below rounding
 
 struct Parts {
   int cuts = 0;
   int loose = 0;
 };
 
-// From one time to another: attempt(next, loose) goes from the time of the last success to `next`,
-// whole or not at all. After a failure the part is cut by the ratio, at most to a tenth and at least
-// to half; after a success the next one is twice as long. When 2^-max_cuts of the step fails, the
-// rest is tried once more as a loose part, if they are allowed. Throws StepError, which calls the step
-// by its name, when that fails.
+// Advances from one time to another. attempt(next, loose) goes from the last success to `next`,
+// completely or not at all. A failure multiplies the part by the suggested ratio, between 0.1 and
+// 0.5; a success doubles it. When 2^-max_cuts of the step fails, the rest is tried once as a loose
+// part, if allowed. Throws StepError with the name of the step.
 template <class Function>
 Parts solve_in_parts(double from, double to, const std::string& name, int max_cuts,
                      bool loose_allowed, Function&& attempt, const CutObserver& observe_cut = {}) {

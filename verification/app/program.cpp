@@ -19,7 +19,7 @@ namespace verification {
 
 namespace {
 
-// A file would be opened with the number of what is closed, and get the messages.
+// Opens closed standard streams. A file would take their numbers and receive the messages.
 void keep_streams_open() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) == -1) static_cast<void>(open("/dev/null", O_RDWR));
@@ -29,7 +29,7 @@ void keep_streams_open() {
 
 int run_program(CLI::App& app, int argc, char** argv) {
   keep_streams_open();
-  // What cannot be written is an error that says so.
+  // Failed writes return an error instead of a signal.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   app.set_version_flag("--version", std::string(grainlaw_version()));

@@ -1,4 +1,4 @@
-// What the programs share: signals, and how errors become exit codes.
+// Common frame of the programs: signals, and exit codes of errors.
 #pragma once
 
 namespace CLI {
@@ -7,7 +7,8 @@ class App;
 
 namespace verification {
 
-// Exit codes: 0 done, 1 a computation failed, 2 the input is wrong, 128 + signal: asked to end.
+// Runs the program. Exit codes: 0 done, 1 failed computation, 2 wrong input, 128 + signal: ended on
+// request.
 int run_program(CLI::App& app, int argc, char** argv);
 
 }  // namespace verification

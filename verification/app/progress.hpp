@@ -1,4 +1,4 @@
-// One line on stderr that says how far a long run is.
+// Progress of a long run, one line on stderr.
 #pragma once
 
 #include <chrono>
@@ -6,10 +6,10 @@
 
 namespace verification {
 
-// Writes to stderr; that it cannot be written to ends no run.
+// Writes to stderr; failures are ignored.
 void tell(const std::string& text);
 
-// On a terminal the line is rewritten in place; elsewhere a line is printed every few seconds.
+// Progress line: rewritten in place on a terminal, else printed every few seconds.
 class Progress {
  public:
   explicit Progress(std::string what);
@@ -17,10 +17,10 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // Fraction of the run that is done, 0..1, and a short text. The time left is told at the speed
+  // Shows the completed fraction, 0..1, and a short text. The time left assumes the mean speed
   // since the first call.
   void update(double fraction, const std::string& text);
-  // Takes the line off the terminal, to be called before anything else is printed.
+  // Removes the line from the terminal; call it before other output.
   void clear();
 
  private:

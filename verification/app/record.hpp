@@ -1,4 +1,4 @@
-// What a run writes down about an integration point after every step.
+// Record of an integration point after a step.
 #pragma once
 
 #include "app/library.hpp"
@@ -9,17 +9,17 @@
 
 namespace verification {
 
-// Work the library and the driver did for one step.
+// Work of library and driver in one step.
 struct Effort {
   int iterations = 0;          // linear solves of the driver's Newton [-]
   int evaluations = 0;         // calls of the library per point [-]
   int cuts = 0;                // times the step was cut [-]
   int loose = 0;               // parts accepted out of balance [-]
-  int crossed = 0;             // jumps of P that a balanced part has behind it [-]
+  int crossed = 0;             // jumps of P before a balanced part [-]
   long relaxation_steps = 0;   // [-]
   long servo_corrections = 0;  // [-]
   int factorisations = 0;      // [-]
-  int subincrements = 0;       // largest of the evaluations [-]
+  int subincrements = 0;       // largest of all evaluations [-]
   int history_advanced = 0;    // accepted evaluations that advanced the friction history [-]
 
   void add(const grainlaw_report& report);
@@ -39,8 +39,8 @@ struct RecordOf {
   double fabric_intensity = 0;
   double anisotropy = 0;
   double mean_overlap = 0;         // [m]
-  double mean_rotation = 0;        // [rad]; of spheres the length of the mean rotation vector
-  Tensor fabric = Tensor::Zero();  // of spheres alone [-]
+  double mean_rotation = 0;        // [rad]; spheres: length of the mean rotation vector
+  Tensor fabric = Tensor::Zero();  // spheres only [-]
   double elastic_energy = 0;       // [J]
   double dissipated_energy = 0;    // [J]
   double external_work = 0;        // sum over the steps of V0 P:dF, trapezoid rule [J]
@@ -48,21 +48,22 @@ struct RecordOf {
   double sliding = 0;
   double status_changes = 0;
   double broken_bonds = 0;       // since F = I
-  double escaped_particles = 0;  // inner ones outside the polygon of a frame
+  double escaped_particles = 0;  // inner particles outside the polygon of a frame
   Effort effort;
 
-  // Axis 2 of discs and 3 of spheres is the axial one. Compression positive: 1 - F22 or 1 - F33;
-  // dilation positive: det F - 1.
+  // Axial axis: 2 of discs, 3 of spheres. Axial strain 1 - F22 or 1 - F33, compression positive;
+  // volumetric strain det F - 1, dilation positive.
   [[nodiscard]] double axial_strain() const { return 1 - deformation(D - 1, D - 1); }
   [[nodiscard]] double volumetric_strain() const { return deformation.determinant() - 1; }
-  // Compression positive [Pa]; lateral: -sigma11, of spheres the mean of -sigma11 and -sigma22.
+  // Axial and lateral stress, compression positive [Pa]. Lateral: -sigma11, for spheres the mean of
+  // -sigma11 and -sigma22.
   [[nodiscard]] double axial_stress() const { return -cauchy(D - 1, D - 1); }
   [[nodiscard]] double lateral_stress() const {
     return D == 2 ? -cauchy(0, 0) : -0.5 * (cauchy(0, 0) + cauchy(1, 1));
   }
   [[nodiscard]] double stress_ratio() const { return axial_stress() / lateral_stress(); }
-  // p = -tr sigma / D, compression positive; q = sqrt(3/2 s:s), s the symmetric deviator of sigma,
-  // |axial - lateral| in a triaxial test [Pa].
+  // p = -tr sigma / D, compression positive [Pa]. q = sqrt(3/2 s:s) with s the symmetric deviator
+  // of sigma [Pa]; |axial - lateral| in a triaxial test.
   [[nodiscard]] double mean_pressure() const { return -cauchy.trace() / D; }
   [[nodiscard]] double deviatoric_stress() const {
     const Tensor deviator =
@@ -72,13 +73,13 @@ struct RecordOf {
 };
 using Record = RecordOf<2>;
 
-// Measures of the state (its trial, or the committed one without a trial) at F with P.
-// Counts of sliding contacts and status changes come from the report of the evaluation.
+// Measures of a state (trial, or committed without a trial) at F with P. Sliding contacts and
+// status changes come from the report.
 template <int D>
 RecordOf<D> make_record(const grainlaw_state* state, const TensorOf<D>& deformation,
                         const TensorOf<D>& stress, const grainlaw_report& report);
 
-// Mean over points of everything but step, effort and deformation's derived numbers.
+// Mean over points, except for step, effort and numbers derived from F.
 template <int D>
 RecordOf<D> mean(const std::vector<RecordOf<D>>& records);
 

@@ -12,11 +12,11 @@
 
 namespace verification {
 
-// Bounds of a number; `text` says them to a person.
+// Bounds of a number, with their text for messages.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
-  bool open_low = false;  // low itself is outside
+  bool open_low = false;  // low itself is excluded
   std::string_view text = "a number";
 };
 inline constexpr Range any_number{};
@@ -24,11 +24,12 @@ inline constexpr Range positive{0, std::numeric_limits<double>::infinity(), true
 inline constexpr Range not_negative{0, std::numeric_limits<double>::infinity(), false,
                                     "a number >= 0"};
 
-// A table of a scene file: src/io's, with errors of the program. Every key that is asked for counts as
-// known; close() refuses the rest. All functions throw InputError "file:line: key: found X, expected Y".
+// A table of a scene file: that of src/io with errors of the program. Keys that were asked for are
+// known; close() refuses others. All functions throw InputError "file:line: key: found X, expected
+// Y".
 class SceneTable {
  public:
-  // The table that messages call by this name, "" for the root. It must outlive this.
+  // `name` is the table's name in messages, "" for the root; `table` must outlive this object.
   SceneTable(const toml::table& table, std::filesystem::path file, const std::string& name,
              grainlaw::core::KeyLog* log = nullptr);
 
@@ -42,27 +43,27 @@ class SceneTable {
   bool flag_or(std::string_view key, bool fallback);
   std::string text(std::string_view key);
   std::string text_or(std::string_view key, std::string_view fallback);
-  // Becomes part of the names of files.
+  // A text that becomes part of file names.
   std::string file_name(std::string_view key);
   std::string file_name_or(std::string_view key, std::string_view fallback);
   std::string choice_or(std::string_view key, std::string_view fallback,
                         const std::vector<std::string_view>& choices);
   // Exactly `count` numbers.
   std::vector<double> numbers(std::string_view key, std::size_t count, const Range& range);
-  // A sub-table, and an array of tables ([[key]]; absent: empty).
+  // A sub-table; an array of tables ([[key]]; absent: empty).
   SceneTable table(std::string_view key);
   std::vector<SceneTable> tables(std::string_view key);
-  // The value itself, for keys that are passed on; null when absent.
+  // Node of a key whose value is passed on; null when absent.
   const toml::node* node(std::string_view key) { return table_.node(key); }
 
-  // To be called when everything was asked for. Throws for the first key that nobody knows.
+  // Throws for the first unknown key; call it after all keys were asked for.
   void close() const;
 
-  // Throws InputError at the line of the key, or of the table when the key is absent; then with the
-  // key that may have been meant for it.
+  // Throws InputError at the line of the key, or of the table when the key is absent, with a
+  // similar key as a hint.
   [[noreturn]] void fail(std::string_view key, std::string_view found,
                          std::string_view expected) const;
-  // "file:line: name", for messages about what the table as a whole says.
+  // "file:line: name", for messages about the whole table.
   [[nodiscard]] std::string place() const { return table_.place(); }
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
   [[nodiscard]] const toml::table& content() const { return table_.content(); }
@@ -79,14 +80,14 @@ class SceneTable {
   std::filesystem::path file_;
 };
 
-// A parsed scene file; SceneTable points into it.
+// A parsed scene file, which tables refer to.
 struct SceneFile {
   explicit SceneFile(const std::filesystem::path& path);  // throws InputError
   SceneFile(std::filesystem::path path, toml::table content);
 
   std::filesystem::path path;
   toml::table content;
-  grainlaw::core::KeyLog* log = nullptr;  // of the keys that the root and its tables are asked for
+  grainlaw::core::KeyLog* log = nullptr;  // keys asked for in the root and its tables
 
   [[nodiscard]] SceneTable root() const { return {content, path, "", log}; }
 };

@@ -15,7 +15,7 @@
 namespace verification {
 namespace {
 
-// The point array of that name of a .vtp file of ASCII arrays, one point per line: of vectors their
+// Point array of this name in a .vtp file of ASCII arrays, one point per line; vectors give their
 // lengths.
 std::vector<double> read_point_array(const std::string& path, const std::string& name) {
   std::ifstream file(path);

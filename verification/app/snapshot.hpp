@@ -1,5 +1,4 @@
-// Particles and contacts of a state as the library writes them, and what is drawn and counted from
-// them.
+// Particles and contacts of a state as files of the library, with their pictures and counts.
 #pragma once
 
 #include "app/library.hpp"
@@ -20,7 +19,7 @@ struct SnapshotContact {
   double normal_force = 0;         // [N], compression positive
   bool bonded = false;
 
-  [[nodiscard]] double length() const {  // of the branch [m]
+  [[nodiscard]] double length() const {  // length of the branch [m]
     return branch[2] == 0 ? std::hypot(branch[0], branch[1])
                           : std::hypot(branch[0], branch[1], branch[2]);
   }
@@ -28,9 +27,9 @@ struct SnapshotContact {
 
 struct Snapshot {
   std::vector<double> x, y, radius;  // [m]
-  std::vector<double> rotation;  // since F = I [rad]; of spheres the length of the rotation vector
-  std::vector<int> boundary;     // of a frame: particles in order around it; else empty
-  std::vector<double> cell;      // H, row-major [m]
+  std::vector<double> rotation;      // since F = I [rad]; spheres: length of the rotation vector
+  std::vector<int> boundary;         // particles of a frame in order; else empty
+  std::vector<double> cell;          // H, row-major [m]
   std::vector<SnapshotContact> contacts;
   std::vector<double> z{};  // of spheres [m]
 
@@ -38,11 +37,11 @@ struct Snapshot {
   [[nodiscard]] bool spheres() const { return !z.empty(); }
 };
 
-// The trial of a state, or the committed one without a trial. Writes `stem`_particles.csv,
-// _contacts.csv, _cell.csv and .vtp, and reads them. Throws ComputationError.
+// Snapshot of the trial, or of the committed state without a trial. Writes and reads
+// `stem`_particles.csv, _contacts.csv, _cell.csv and .vtp. Throws ComputationError.
 Snapshot take_snapshot(const grainlaw_state* state, const std::filesystem::path& stem);
 
-// The files that take_snapshot leaves; they go with it.
+// Owner of the files of take_snapshot(), removed by the destructor.
 class SnapshotFiles {
  public:
   explicit SnapshotFiles(std::filesystem::path stem) : stem_(std::move(stem)) {}
@@ -58,23 +57,22 @@ class SnapshotFiles {
   std::filesystem::path stem_;
 };
 
-// Mean over the touching contacts of overlap / mean radius of the two (Liu, Bosco & Suiker 2017,
-// eq. 39) [-].
+// Mean over touching contacts of overlap / mean radius of the pair (Liu, Bosco & Suiker 2017, eq.
+// 39) [-].
 double normalised_overlap(const Snapshot& snapshot);
 
 // Mean over all particles, boundary included, of |rotation| (eq. 41) [rad].
 double mean_rotation_magnitude(const Snapshot& snapshot);
 
-// One panel of a row of pictures.
 struct SnapshotPanel {
   std::string title;
   Snapshot snapshot;
 };
 
-// stem.svg and stem.png: discs, the frame and force chains, side by side at one scale. A bar between
-// two centres is as wide as a mean radius when it carries `force` [N]; 0: four times the mean normal
-// force of the panel where that is largest. Bonded contacts have another colour than frictional ones.
-// Spheres are seen along y, without contacts that carry less than the mean, and with twelve times the mean.
+// Draws stem.svg and stem.png: discs, frame and force chains, side by side at one scale. A bar is
+// one mean radius wide at `force` [N]; 0: at four times the largest mean normal force of a panel.
+// Bonded and frictional contacts have different colours. Spheres are seen along y, without contacts
+// below the mean force, and with twelve times the mean.
 bool draw_snapshots(const std::vector<SnapshotPanel>& panels, double force,
                     const std::string& title, const std::filesystem::path& stem);
 

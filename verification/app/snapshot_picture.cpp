@@ -50,7 +50,7 @@ double mean_force(const Snapshot& snapshot) {
   return snapshot.contacts.empty() ? 0 : sum / static_cast<double>(snapshot.contacts.size());
 }
 
-// Of a periodic cell: every particle at its image within it.
+// Moves every particle of a periodic cell to its image in the cell.
 Snapshot in_cell(Snapshot snapshot) {
   if (!snapshot.boundary.empty()) return snapshot;
   const int d = snapshot.spheres() ? 3 : 2;
@@ -71,9 +71,9 @@ Snapshot in_cell(Snapshot snapshot) {
   return snapshot;
 }
 
-// A caption in as many lines as its picture's width needs.
+// Caption broken into lines of the picture's width.
 std::string broken(const std::string& title, double pixels) {
-  constexpr double letter = 10;  // pixels a letter
+  constexpr double letter = 10;  // pixels per letter
   const auto most = static_cast<std::size_t>(std::max(8.0, pixels / letter));
   std::string text;
   std::size_t in_line = 0;
@@ -92,8 +92,8 @@ std::string broken(const std::string& title, double pixels) {
   return text;
 }
 
-// Spheres as they look from the front, along y: discs in the plane of x and z, the far ones first, and
-// the contacts that carry more than the mean force, which the others would hide.
+// Spheres seen along y: discs in the plane of x and z, far ones first. Contacts above the mean
+// force are kept, since the others would hide them.
 Snapshot seen_from_front(const Snapshot& snapshot) {
   if (!snapshot.spheres()) return snapshot;
   std::vector<int> order(snapshot.size()), place(snapshot.size());
@@ -131,7 +131,7 @@ std::string discs(const Snapshot& snapshot, bool of_boundary) {
   return text;
 }
 
-// Rectangles along the branches, as closed polygons.
+// Rectangles along branches, as closed polygons.
 template <class Choice>
 std::string bars(const Snapshot& snapshot, double width_per_force, double widest, Choice&& choice) {
   std::string text;
@@ -217,7 +217,7 @@ bool draw_snapshots(const std::vector<SnapshotPanel>& all, double force, const s
   const double scale = std::min((pixels_wide - gap * (count + 1)) / total, tallest / highest);
   const double wide = scale * total + gap * (count + 1);
   const std::string head = broken(title, wide - 2 * gap);
-  const double captions = 40 + line * static_cast<double>(breaks(head));  // from above
+  const double captions = 40 + line * static_cast<double>(breaks(head));  // top margin
   double heading = captions + 16;
   for (std::size_t k = 0; k < panels.size(); ++k) {
     panels[k].title = broken(panels[k].title, scale * extents[k].width());

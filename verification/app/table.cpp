@@ -45,7 +45,7 @@ void Table::write(const std::filesystem::path& path) const {
     std::vector<std::string> fields;
     for (const Cell& cell : row) {
       fields.push_back(cell.full);
-      std::replace(fields.back().begin(), fields.back().end(), ',', ';');  // one field it stays
+      std::replace(fields.back().begin(), fields.back().end(), ',', ';');  // keeps it one field
     }
     stream << fmt::format("{}\n", fmt::join(fields, ","));
   }

@@ -8,24 +8,24 @@
 
 namespace verification {
 
-// A table that is printed to stdout and written as CSV.
+// A table, printed to stdout and written as CSV.
 class Table {
  public:
   struct Cell {
     Cell(double number);
     Cell(std::string text) : shown(text), full(std::move(text)) {}
     Cell(const char* text) : shown(text), full(text) {}
-    std::string shown;  // four digits of a number
-    std::string full;   // ten
+    std::string shown;  // number with four digits
+    std::string full;   // number with ten digits
   };
 
-  // Columns as "name[unit]".
+  // Columns are "name[unit]".
   Table(std::string title, std::vector<std::string> columns);
 
   void row(const std::vector<Cell>& cells);
-  // Prints title and rows in columns.
+  // Prints the title and aligned rows.
   void print() const;
-  // Throws ComputationError when the file cannot be written.
+  // Writes the table as CSV. Throws ComputationError when it cannot.
   void write(const std::filesystem::path& path) const;
 
  private:

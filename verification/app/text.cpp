@@ -8,9 +8,9 @@
 namespace verification {
 namespace {
 
-constexpr std::uint32_t wrong = 0xFFFF;  // no character, here of bytes that are no UTF-8
+constexpr std::uint32_t wrong = 0xFFFF;  // stands for bytes outside UTF-8
 
-// The character at the front of `text`, which it takes away.
+// Removes and returns the first character of `text`.
 std::uint32_t take_character(std::string_view& text) {
   const auto byte = [&](std::size_t k) { return static_cast<std::uint8_t>(text[k]); };
   const std::uint8_t first = byte(0);
@@ -37,7 +37,7 @@ bool is_control(std::uint32_t character) {
          (character & 0xFFFEU) == 0xFFFE;
 }
 
-// Calls see(character, its bytes) one after the other.
+// Calls see(character, its bytes) for each character.
 template <class See>
 void each_character(std::string_view text, See&& see) {
   while (!text.empty()) {
@@ -50,7 +50,7 @@ void each_character(std::string_view text, See&& see) {
 }  // namespace
 
 std::string gnuplot_text(std::string_view text) {
-  // Nothing is special between single quotes but the quote itself, and a line must not end there.
+  // Only the quote is special between single quotes; a line break must not end a command.
   std::string result = "'";
   for (const char c : text) {
     const auto code = static_cast<unsigned char>(c);

@@ -1,4 +1,4 @@
-// Text of users inside other languages, where all of it stays text; and as the name of a file.
+// Escaping of users' texts for other languages and for file names.
 #pragma once
 
 #include <string>
@@ -6,22 +6,23 @@
 
 namespace verification {
 
-// A string expression of gnuplot. Shown literally where the command says `noenhanced`.
+// A gnuplot string expression, literal where the command says `noenhanced`.
 std::string gnuplot_text(std::string_view text);
 
-// Content or attribute of XML. What XML cannot hold at all, most control characters, becomes U+FFFD.
+// Content or attribute of XML. Characters that XML excludes, most control characters, become
+// U+FFFD.
 std::string xml_text(std::string_view text);
 
-// A field of a comma-separated table (RFC 4180): in quotes where it has to be.
+// A field of a comma-separated table (RFC 4180), quoted where necessary.
 std::string csv_field(std::string_view text);
 
-// One word of a shell's command.
+// One word of a shell command.
 std::string shell_text(std::string_view text);
 
-// For a terminal: control characters but line breaks as \x1b, so that they do nothing there.
+// Text for a terminal: control characters except line breaks as \x1b.
 std::string terminal_text(std::string_view text);
 
-// Whether results can be called by it: UTF-8 without "/", ".." and control characters, not empty.
+// Whether a text may name files: not empty, UTF-8, without "/", ".." and control characters.
 bool is_file_name(std::string_view text);
 inline constexpr const char* file_name_rule =
     "a name for files: not empty, without \"/\", \"..\" and control characters";

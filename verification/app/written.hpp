@@ -1,4 +1,4 @@
-// What a run has written, for the user.
+// Files that a run has written, for the user.
 #pragma once
 
 #include "app/text.hpp"
@@ -20,7 +20,7 @@ class Written {
   void add(const std::string& end) {
     if (std::find(ends_.begin(), ends_.end(), end) == ends_.end()) ends_.push_back(end);
   }
-  // stem.svg and stem.png.
+  // Adds stem.svg and stem.png.
   void add_pictures(bool drawn) {
     if (!drawn) return;
     add(".svg");

@@ -10,7 +10,7 @@ const std::array<double, 2> gauss{-1 / std::sqrt(3.0), 1 / std::sqrt(3.0)};
 double shape(int end, double x) { return 0.5 * (end == 0 ? 1 - x : 1 + x); }
 double slope(int end) { return end == 0 ? -0.5 : 0.5; }
 
-// [v]x, so that [v]x w = v x w.
+// Matrix [v]x with [v]x w = v x w.
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
   Eigen::Matrix3d result;
   result << 0, -v(2), v(1), v(2), 0, -v(0), -v(1), v(0), 0;
@@ -44,7 +44,7 @@ BrickMesh make_box(const std::array<double, 3>& size, const std::array<int, 3>& 
         for (int a = 0; a < 8; ++a)
           e[static_cast<std::size_t>(a)] = node(i + a % 2, j + a / 2 % 2, k + a / 4);
         mesh.elements.push_back(e);
-        // First along the axis whose cross product with the second one points outwards.
+        // Face nodes start along the axis whose cross product with the second points outwards.
         if (i == 0) mesh.faces["left"].push_back({e[0], e[4], e[2], e[6]});
         if (i == nx - 1) mesh.faces["right"].push_back({e[1], e[3], e[5], e[7]});
         if (j == 0) mesh.faces["front"].push_back({e[0], e[1], e[4], e[5]});

@@ -6,7 +6,7 @@ namespace verification {
 
 namespace {
 
-// Every condition that holds nodes, with its name.
+// Calls function for every condition on displacements, with its name.
 template <class Function>
 void for_each_condition(const BrickModel& model, Function&& function) {
   for (const auto& condition : model.displacements)

@@ -1,4 +1,4 @@
-// A body of bricks: mesh, conditions, and a packing of spheres in every integration point.
+// A body of bricks: mesh, conditions, and a packing of spheres per integration point.
 #pragma once
 
 #include "app/library.hpp"
@@ -35,13 +35,13 @@ struct BrickModel {
   std::vector<Pressure> pressures;
 };
 
-// Of every prescribed displacement and every tie, in this order: what the columns of a table are called,
-// and how far it moves [m] with the force [N] that it exerts on the body.
+// Names and values of table columns, for every prescribed displacement, then every tie: its
+// displacement [m] and its force on the body [N].
 std::vector<std::string> force_columns(const BrickModel& model);
 std::vector<double> force_values(const BrickModel& model, const Eigen::VectorXd& displacement,
                                  const Eigen::VectorXd& residual);
 
-// Which unknown every component of displacement is; of node n component i is 3 n + i.
+// Unknown of every displacement component; component i of node n is 3 n + i.
 struct BrickUnknowns {
   explicit BrickUnknowns(const BrickModel& model);
 
@@ -53,25 +53,25 @@ struct BrickUnknowns {
   [[nodiscard]] Eigen::VectorXd expand(const Eigen::VectorXd& unknowns) const;
 };
 
-// Forces and stiffness of all components of displacement.
+// Residual and stiffness over all displacement components.
 struct BrickSystem {
   Eigen::VectorXd residual;               // external minus internal force [N]
   Eigen::SparseMatrix<double> stiffness;  // minus its derivative [N/m]
   double scale = 1;                       // |internal force| [N]
 };
 
-// The integration points.
 class BrickField {
  public:
   BrickField(const BrickModel& model, const Material& material, int threads);
 
-  // Recoverable failures are returned; the answer is kept for assemble(). Throws StatusError.
+  // Evaluates all points and keeps the result for assemble(). Returns recoverable failures; throws
+  // StatusError.
   grainlaw_status evaluate(const Eigen::VectorXd& displacement, unsigned want);
   [[nodiscard]] BrickSystem assemble(const Eigen::VectorXd& displacement) const;
   void commit();
   void revert();
 
-  // Means over the points, and what the points took since the last call.
+  // Means over the points, and the effort since the last call.
   RecordOf<3> record();
   [[nodiscard]] const grainlaw_summary& summary() const { return last_.summary; }
   [[nodiscard]] const grainlaw_state* state(std::size_t point) const { return set_.state(point); }
@@ -87,8 +87,8 @@ class BrickField {
   std::vector<grainlaw_report> reports_;
   grainlaw::PointsEvaluation last_;
   std::vector<Effort> efforts_;
-  std::vector<double> work_;  // [J] of a packing
-  double volume_ = 0;         // of a packing at F = I [m3]
+  std::vector<double> work_;  // external work of each packing [J]
+  double volume_ = 0;         // volume of a packing at F = I [m3]
 };
 
 }  // namespace verification

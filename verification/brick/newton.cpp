@@ -9,11 +9,11 @@
 namespace verification {
 namespace {
 
-// An attempt ends when this many iterations in a row have not halved the residual: it goes to and fro
-// across a jump of P.
+// Iterations in a row without halving the residual that end an attempt: it alternates across a jump
+// of P.
 constexpr int patience = 4;
 
-// The change of displacement that the linearised system asks for; NaN where it is singular.
+// Displacement change of the linearised system; NaN where it is singular.
 Eigen::VectorXd solve(const BrickSystem& system, const BrickUnknowns& unknowns,
                       const Eigen::VectorXd& prescribed) {
   const Eigen::VectorXd force = unknowns.reduce(system.residual - system.stiffness * prescribed);
@@ -46,11 +46,11 @@ BrickNewton::BrickNewton(const BrickModel& model, const Material& material,
         "evaluating the integration points at F = I");
   system_ = field_.assemble(displacement_);
   field_.commit();
-  field_.record();  // the start is not part of step 0's effort
+  field_.record();  // excludes the start from step 0
 }
 
-// The increment of prescribed displacement enters through the right-hand side of the first solve, which
-// extrapolates the committed equilibrium by its tangent.
+// Finds the equilibrium at a time. The increment of prescribed displacement enters the right-hand
+// side of the first solve, which extrapolates the committed equilibrium with its tangent.
 Attempt BrickNewton::equilibrate(double time, double tolerance, std::vector<double>& residuals) {
   Eigen::VectorXd displacement = displacement_;
   BrickSystem system = system_;

@@ -10,29 +10,29 @@ namespace verification {
 
 struct BrickNewtonOptions {
   double tolerance = 1e-8;  // |residual| / |internal force| [-]
-  int max_iterations = 20;  // of one attempt, then the step is cut
-  int max_cuts = 10;        // halvings of one step, at most
+  int max_iterations = 20;  // per attempt; then the step is cut
+  int max_cuts = 10;        // halvings of one step
   double loose_tolerance =
-      0;  // of a step at its smallest cut, counted as a loose part; 0: never [-]
+      0;  // accepted at the smallest part of a step, counted as loose; 0: never [-]
 };
 
 struct BrickStep {
   RecordOf<3> record;             // means over the integration points
-  std::vector<double> residuals;  // relative, of all iterations; every attempt begins with its load
+  std::vector<double> residuals;  // relative, of all iterations; an attempt begins with its load
 };
 
 class BrickNewton {
  public:
-  // Throws ComputationError when F = I cannot be evaluated.
+  // Starts at F = I. Throws ComputationError when that cannot be evaluated.
   BrickNewton(const BrickModel& model, const Material& material, const BrickNewtonOptions& options,
               int threads);
 
-  // From one time to the next, in parts where need be. Throws StepError.
+  // Advances to a time in as many parts as needed. Throws StepError.
   BrickStep advance(double to, int number, const CutObserver& observe_cut);
 
   [[nodiscard]] const BrickField& field() const { return field_; }
   [[nodiscard]] const Eigen::VectorXd& displacement() const { return displacement_; }
-  // External minus internal force there [N].
+  // External minus internal force at the committed time [N].
   [[nodiscard]] const Eigen::VectorXd& residual() const { return system_.residual; }
 
  private:
@@ -42,7 +42,7 @@ class BrickNewton {
   BrickUnknowns unknowns_;
   BrickField field_;
   Eigen::VectorXd displacement_;  // committed [m]
-  BrickSystem system_;            // there
+  BrickSystem system_;            // at the committed displacement
   double time_ = 0;               // committed
 };
 

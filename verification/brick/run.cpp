@@ -18,7 +18,7 @@
 namespace verification {
 namespace {
 
-// Of all threads [s].
+// Processor time of all threads [s].
 double cpu() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A scene of bricks from start to end, with its table and picture.
+// Run of a scene of bricks, with its table and picture.
 #pragma once
 
 #include "app/scene.hpp"
@@ -7,8 +7,8 @@
 
 namespace verification {
 
-// Writes NAME.csv, .svg, .png to the directory. Ends after `stop_after` load steps where that is not
-// negative. Throws InputError, ComputationError and Interrupted; what was reached stays written.
+// Writes NAME.csv, .svg, .png to the directory. Ends after `stop_after` load steps unless that is
+// negative. Throws InputError, ComputationError and Interrupted; results so far stay written.
 void run_brick_scene(const SceneFile& file, const std::string& directory, int stop_after);
 
 }  // namespace verification

@@ -37,7 +37,7 @@ BrickNewtonOptions read_newton(SceneTable table, const MaterialSource& material)
   return options;
 }
 
-// A set of the box by its name.
+// A named set of the box.
 template <class Sets>
 const typename Sets::mapped_type& read_set(SceneTable& table, const Sets& sets) {
   const std::string name = table.text("on");
@@ -55,7 +55,7 @@ int read_component(SceneTable& table) {
   return name[0] - 'x';
 }
 
-// "top_z"
+// Name of a condition, e.g. "top_z".
 std::string name_of(SceneTable& table, int component) {
   return table.text("on") + '_' + "xyz"[component];
 }
@@ -100,7 +100,7 @@ void read_conditions(SceneTable& scene, BrickModel& model) {
   }
 }
 
-// A side of the box whose normal component is prescribed, for each axis, leaves no rigid motion.
+// Fails unless each axis has a side with prescribed normal component, which excludes rigid motions.
 void check_held(SceneTable& scene, const BrickModel& model) {
   constexpr std::array<std::array<const char*, 2>, 3> sides{
       {{"left", "right"}, {"front", "back"}, {"bottom", "top"}}};

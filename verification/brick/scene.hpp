@@ -1,4 +1,4 @@
-// Scenes of `grainlaw solve` whose material is made of spheres.
+// Scenes of `grainlaw solve` whose material consists of spheres.
 #pragma once
 
 #include "app/material.hpp"
@@ -19,9 +19,9 @@ struct BrickScene {
   std::string abscissa;
 };
 
-// Keys as in the plane, of which there are here: steps, threads, abscissa, [mesh] size and divisions
-// of three numbers, [newton], [[displacement]], [[tie]] and [[pressure]] with constant values. Throws
-// InputError.
+// Reads the keys of plane scenes that bricks support: steps, threads, abscissa, [mesh] size and
+// divisions of three numbers, [newton], [[displacement]], [[tie]] and [[pressure]] with constant
+// values. Throws InputError.
 BrickScene read_brick_scene(const SceneFile& file);
 
 }  // namespace verification

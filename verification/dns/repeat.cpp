@@ -19,14 +19,14 @@ bool has_column(const CsvTable& table, const char* name) {
   return std::find(table.names.begin(), table.names.end(), name) != table.names.end();
 }
 
-// The particles of a frame without those that are copies of others: `of` p is particle `first`,
-// moved by lattice vectors.
+// A particle of a frame that is not a copy, or the copy `of` p: particle `first` shifted by lattice
+// vectors.
 struct Copy {
   int first = 0;
   std::array<int, 2> shift{};
 };
 
-// Right and upper sides are copies of the left and lower ones.
+// Right and upper sides are copies of left and lower ones.
 std::vector<Copy> find_copies(const FramePacking& frame) {
   std::vector<Copy> copies(frame.size());
   for (std::size_t p = 0; p < copies.size(); ++p) copies[p].first = static_cast<int>(p);
@@ -37,7 +37,8 @@ std::vector<Copy> find_copies(const FramePacking& frame) {
   for (std::size_t q = c1; q <= c2; ++q)
     copies[at(q)] = {frame.boundary[(frame.boundary.size() - (q - c1)) % frame.boundary.size()],
                      {1, 0}};
-  // The upper right corner has been placed through the right side: its first copy is the upper left.
+  // The upper right corner is already placed through the right side; its first copy is the upper
+  // left one.
   for (std::size_t q = c2; q <= c3; ++q) {
     const Copy below = copies[at(c1 - (q - c2))];
     copies[at(q)] = {below.first, {below.shift[0], below.shift[1] + 1}};
@@ -62,7 +63,7 @@ class Repeated {
   FramePacking take() { return std::move(result_); }
 
  private:
-  // The particle that p of the copy in this column and row is.
+  // Particle p of the copy in this column and row.
   int particle(int p, int column, int row) {
     const Copy& copy = copies_[static_cast<std::size_t>(p)];
     const std::array key{copy.first, column + copy.shift[0], row + copy.shift[1]};
@@ -166,7 +167,7 @@ FramePacking read_frame(const std::string& prefix) {
   }
   std::size_t corners = 0;
   for (const auto& [place, p] : at_place) {
-    // Of copies, every edge particle has a partner and no corner has one.
+    // Every edge particle of copied sides has a partner, and no corner has one.
     if (particles["partner"][static_cast<std::size_t>(p)] < 0) {
       if (corners < 4) frame.corner[corners] = frame.boundary.size();
       ++corners;
@@ -177,7 +178,7 @@ FramePacking read_frame(const std::string& prefix) {
     wrong(fmt::format("{} particles of the boundary without a partner", corners));
   const auto [c0, c1, c2, c3] = frame.corner;
   if (c1 - c0 != c3 - c2 || c2 - c1 != frame.boundary.size() - c3) wrong("sides that differ");
-  // Written under a boundary that holds no copies together, they are copies in their reference alone.
+  // Under a boundary that does not couple copies, the reference alone has copies.
   if (has_column(particles, "reference_x")) {
     const auto& h = frame.cell;
     for (const int p : frame.boundary) {

@@ -1,4 +1,4 @@
-// A frame packing repeated side by side: the specimen of a direct simulation.
+// A frame packing repeated side by side, as specimen of a direct simulation.
 #pragma once
 
 #include <array>
@@ -17,11 +17,11 @@ struct FrameContact {
   double normal_force = 0;                   // [N], compression positive
   std::array<double, 2> tangential_force{};  // [N]
   double moment = 0;                         // [N m]
-  std::optional<bool> bonded;                // nothing: the law says
+  std::optional<bool> bonded;                // absent: the law decides
   double bond_gap = 0;                       // [m]
 };
 
-// A frame of boundary particles as the library writes it to files.
+// A frame of boundary particles as in the library's files.
 struct FramePacking {
   std::vector<double> x, y, radius;     // [m]
   std::vector<int> boundary;            // anticlockwise from corner 0: bottom, right, top, left
@@ -29,22 +29,22 @@ struct FramePacking {
   std::vector<FrameContact> contacts;
   std::array<double, 4> cell{};  // H, row-major: columns lead from a side to its copy [m]
   double thickness = 1;          // [m]
-  double density = 1;            // of the particles [kg/m3]
+  double density = 1;            // density of the particles [kg/m3]
 
   [[nodiscard]] std::size_t size() const { return radius.size(); }
 };
 
-// From prefix_particles.csv, _contacts.csv and _cell.csv. Throws InputError when these are no frame
-// whose opposite sides are copies.
+// Reads prefix_particles.csv, _contacts.csv and _cell.csv. Throws InputError unless these are a
+// frame whose opposite sides are copies.
 FramePacking read_frame(const std::string& prefix);
 
-// Throws ComputationError when the files cannot be written.
+// Writes the three files. Throws ComputationError when it cannot.
 void write_frame(const FramePacking& frame, const std::string& prefix);
 
-// columns x rows copies, each shifted by the vectors of the cell. Copies share the particles and
-// contacts of the sides between them, so that n of them have n times the contacts of the periodic
-// packing that the frame was cut from, and those of two sides once more (Liu, Bosco & Suiker 2019,
-// section 4.2).
+// Repeats a frame in columns x rows copies, shifted by the vectors of the cell. Neighbouring copies
+// share the particles and contacts of the sides between them. n copies thus have n times the
+// contacts of the periodic packing that was cut, and those of two sides once more. (Liu, Bosco &
+// Suiker 2019, section 4.2.)
 FramePacking repeat(const FramePacking& frame, int columns, int rows);
 
 }  // namespace verification

@@ -15,7 +15,7 @@
 namespace verification {
 namespace {
 
-// Since the start, compression positive.
+// Axial strain since the start, compression positive.
 double axial_strain(const Record& record, const Record& start) {
   return 1 - record.deformation(1, 1) / start.deformation(1, 1);
 }

@@ -14,7 +14,8 @@ namespace {
 constexpr std::array<const char*, 4> indices{"11", "12", "21", "22"};
 using Kind = SpecimenTarget::Kind;
 
-// Left and right flexible, under a uniform stress; bottom and top moved by F along y, smooth.
+// Default rules: left and right flexible under a uniform stress; bottom and top smooth, moved along
+// y by F.
 toml::table usual_sides() {
   const toml::table flexible{{"x", "T"}, {"y", "T"}};
   const toml::table platen{{"x", "T"}, {"y", "D"}};

@@ -47,7 +47,8 @@ Specimen::Specimen(const SpecimenScene& scene, const std::filesystem::path& stem
   source_.changes.insert_or_assign("boundary", boundary);
 }
 
-// A material of its own for each set of prescribed stresses; the state goes from one to the next.
+// Changes the prescribed stresses: each set needs a material, and the state moves from one to the
+// next.
 void Specimen::prescribe(const Stresses& stress) {
   if (state_ && stress == prescribed_) return;
   toml::table values;
@@ -61,7 +62,7 @@ void Specimen::prescribe(const Stresses& stress) {
   prescribed_ = stress;
 }
 
-// P = sigma cof F with the F that is found, again until it stays.
+// Iterates P = sigma cof F with the found F until F stays.
 void Specimen::bring_to_start() {
   constexpr int most = 10;
   constexpr double close = 1e-6;
@@ -74,7 +75,7 @@ void Specimen::bring_to_start() {
     const Vector4 wanted = to_vector(F.determinant() * sigma * F.inverse().transpose());
     for (std::size_t k = 0; k < 4; ++k)
       if (scene_.start[k]) stress[k] = wanted(static_cast<Eigen::Index>(k));
-    state_.reset();  // each round loads the packing anew
+    state_.reset();  // each round reloads the packing
     prescribe(stress);
     const Tensor found = deformation_of(state_->get());
     const double change = (found - F).norm();
@@ -145,7 +146,7 @@ Specimen::Goal Specimen::goal_at(const SpecimenSegment& segment, const Tensor& d
     if (target.kind == Kind::stretch)
       goal.deformation(i, j) = F * (1 + fraction * (target.value - 1));
     if (target.kind == Kind::stress) goal.stress[k] = P + fraction * (target.value - P);
-    // What was prescribed keeps its digits.
+    // A constant stress keeps the digits of its prescribed value.
     if (target.kind == Kind::keep_stress) goal.stress[k] = prescribed_[k].value_or(P);
   }
   return goal;

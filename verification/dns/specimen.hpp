@@ -1,5 +1,5 @@
-// Static direct simulation: the library's own particle engine on a whole specimen, with boundary
-// spaces on its four sides.
+// Static direct simulation: the library applied to a whole specimen, with boundary rules on its
+// four sides.
 #pragma once
 
 #include "app/library.hpp"
@@ -14,32 +14,32 @@
 
 namespace verification {
 
-// How far a run went and what it cost.
+// End and cost of a run.
 struct SpecimenEnd {
   int particles = 0;
-  int boundary = 0;  // of them
+  int boundary = 0;  // particles on the boundary
   int steps = 0;
   int steps_wanted = 0;
-  Record start;               // under the stress of the start
+  Record start;               // under the initial stress
   Effort effort;              // sum over the steps
-  double cpu = 0;             // of the thread, output left out [s]
+  double cpu = 0;             // of the thread, without output [s]
   double elapsed = 0;         // [s]
-  std::string text = "done";  // why it ended
+  std::string text = "done";  // reason of the end
 };
 
-// A specimen of repeated frames. Components of P that a segment prescribes are a uniform stress on
-// the sides whose rule is "T", and the library finds the components of F that belong to them.
+// A specimen of repeated frames. Prescribed components of P are a uniform stress on sides with rule
+// "T", and the library finds their components of F.
 class Specimen {
  public:
-  // Called after every step, and once at the start.
+  // Called after every step, and at the start.
   using Observer = std::function<void(const grainlaw_state*, const Record&)>;
 
-  // Makes the frame, repeats it and writes stem_specimen_particles.csv, _contacts.csv and _cell.csv.
-  // Throws InputError for a wrong scene, ComputationError when there is no equilibrium.
+  // Builds the frame, repeats it and writes stem_specimen_particles.csv, _contacts.csv and
+  // _cell.csv. Throws InputError for a wrong scene, ComputationError without an equilibrium.
   Specimen(const SpecimenScene& scene, const std::filesystem::path& stem);
 
-  // All segments. A path that ends early is told in the result; so is one that an observer ends by
-  // Interrupted, which is left in `stopped`. Throws InputError.
+  // Runs all segments. The result tells of an early end; one by Interrupted from an observer is
+  // stored in `stopped`. Throws InputError.
   SpecimenEnd run(const Observer& observe, const CutObserver& observe_cut,
                   std::exception_ptr& stopped);
   SpecimenEnd run(const Observer& observe) {
@@ -48,7 +48,7 @@ class Specimen {
   }
 
  private:
-  using Stresses = std::array<std::optional<double>, 4>;  // P that is prescribed [Pa]
+  using Stresses = std::array<std::optional<double>, 4>;  // prescribed components of P [Pa]
   struct Goal {
     Tensor deformation;
     Stresses stress;
@@ -63,7 +63,7 @@ class Specimen {
   void accept(const Evaluation& evaluation);
 
   SpecimenScene scene_;
-  MaterialSource source_;  // the specimen, its boundary without stress
+  MaterialSource source_;  // the specimen with a boundary free of stress
   Stresses prescribed_;
   std::optional<State> state_;
   double volume_ = 0;  // at F = I [m3]

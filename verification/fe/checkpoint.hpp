@@ -1,4 +1,4 @@
-// Checkpoints: everything the next load step of a run depends on, in one file.
+// Checkpoints: all data on which the next load step of a run depends, in one file.
 #pragma once
 
 #include "app/library.hpp"
@@ -17,7 +17,7 @@ namespace verification {
 template <class T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-// Collects the bytes of a checkpoint. What writes a value reads it back in the same order and type:
+// Writer of a checkpoint. Values are read back in one order and type:
 //
 //   void save(CheckpointWriter& out) const { out.write(time_); out.write(velocity_); }
 //   void restore(CheckpointReader& in) { in.read(time_); in.read(velocity_); }
@@ -27,7 +27,7 @@ class CheckpointWriter {
   void write(const T& value) {
     append(&value, sizeof value);
   }
-  // A vector or matrix of numbers, and a list of numbers or of matrices of fixed size.
+  // Writes a vector or matrix of numbers; a list of numbers or of matrices of fixed size.
   template <class Derived>
   void write(const Eigen::PlainObjectBase<Derived>& values) {
     write(static_cast<std::int64_t>(values.rows()));
@@ -52,8 +52,8 @@ class CheckpointWriter {
   std::string bytes_;
 };
 
-// Gives the values back. Throws InputError when a value is not there or has another size than the
-// thing that is to take it; a vector, matrix or list without entries takes any.
+// Reader of a checkpoint. Throws InputError for an absent value or one of another size than its
+// target; an empty vector, matrix or list takes any size.
 class CheckpointReader {
  public:
   CheckpointReader(std::string bytes, std::filesystem::path path)
@@ -112,11 +112,11 @@ class CheckpointReader {
   std::size_t position_ = 0;
 };
 
-// The file has a version and a checksum, and replaces an older one in one go. Throws
-// ComputationError when it cannot be written; the older one is then kept.
+// Writes the file with version and checksum, replacing an older one atomically. Throws
+// ComputationError when it cannot; the older one then stays.
 void write_checkpoint(const std::filesystem::path& path, const CheckpointWriter& content);
 
-// Throws InputError for a file that cannot be read, is damaged or of another version.
+// Reads a file. Throws InputError when it cannot be read, is damaged or of another version.
 CheckpointReader read_checkpoint(const std::filesystem::path& path);
 
 }  // namespace verification

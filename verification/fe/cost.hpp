@@ -1,4 +1,4 @@
-// Where the time of a finite element run goes.
+// Time of a finite element run by stages.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ struct Spent {
   }
 };
 
-// Adds up what is spent in each stage; what is in none of them is the rest.
+// Sum of the time in each stage; the rest belongs to none.
 class Cost {
  public:
   class Measure {

@@ -11,14 +11,15 @@
 
 namespace verification {
 
-// One point does not feel the displacements u_a = h_a c, h = (1, -1, 1, -1). A spring resists them:
-// with q = sum_a gamma_a u_a, gamma orthogonal to every affine field, node a gets stiffness q gamma_a.
-// In the reference configuration this is linear, exact for affine fields, and turns with a rotation.
+// Springs against the hourglass modes u_a = h_a c, h = (1, -1, 1, -1), which one point does not
+// resist. With q = sum_a gamma_a u_a, gamma orthogonal to every affine field, the internal force on
+// node a is stiffness q gamma_a. In the reference configuration this is linear, zero for affine
+// fields, and objective.
 class Hourglass {
  public:
   Hourglass() = default;
-  // Stiffness = coefficient * modulus * area * |dN/dX|^2, modulus [Pa] that of uniaxial strain.
-  // Nothing for a mesh of other elements.
+  // stiffness = coefficient * modulus * area * |dN/dX|^2, modulus [Pa] of uniaxial strain. No
+  // springs in a mesh of other elements.
   Hourglass(const Mesh& mesh, double coefficient, double modulus);
 
   void add_force(const Eigen::VectorXd& displacement, Eigen::VectorXd& force) const;  // [N/m]

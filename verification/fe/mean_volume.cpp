@@ -11,7 +11,7 @@ MeanVolume::MeanVolume(const Tensor& gradient, const Tensor& gradient_at_centre,
   const Tensor here = Tensor::Identity() + gradient;
   const Tensor centre = Tensor::Identity() + gradient_at_centre;
   const double ratio = centre.determinant() / here.determinant();
-  if (!(ratio > 0) || !std::isfinite(ratio)) return;  // inside out: the packing will refuse it
+  if (!(ratio > 0) || !std::isfinite(ratio)) return;  // inverted: the packing will refuse it
   root_ = std::sqrt(ratio);
   by_node_ = slopes_at_centre * centre.inverse() - slopes * here.inverse();
 }

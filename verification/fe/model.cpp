@@ -9,7 +9,7 @@ namespace verification {
 
 namespace {
 
-// Of uniaxial strain at F = I, mean of both directions [Pa].
+// Modulus of uniaxial strain at F = I, mean of both directions [Pa].
 double initial_modulus(const Material& material) {
   State state(material);
   const Evaluation start = evaluate(state, Tensor::Identity(), GRAINLAW_WANT_TANGENT_EXACT);
@@ -120,7 +120,7 @@ void PointField::add_stiffness(Triplets& triplets) const {
     const NodeRows& area = mean_volume_[p].by_node();
     const Tensor follow =
         MeanVolume::follow(tangent_[p], mesh_deformation_[p], mean_volume_[p].on_mesh(stress_[p]));
-    // dN_a/dX_J A_iJkL dN_b/dX_L for every pair of nodes a, b and components i, k.
+    // Adds K of @formula host for every pair of nodes a, b and components i, k.
     for (int a = 0; a < gradient.rows(); ++a)
       for (int b = 0; b < gradient.rows(); ++b)
         for (int i = 0; i < 2; ++i)
@@ -210,7 +210,7 @@ Effort PointField::effort() const {
 Record PointField::record() {
   std::vector<Record> records;
   for (std::size_t p = 0; p < points_.size(); ++p) {
-    // Of the mesh: the mean of its F is that of the body. The Cauchy stress is the packing's.
+    // F is that of the mesh, whose mean is that of the body; the Cauchy stress is the packing's.
     records.push_back(make_record(state(p), mesh_deformation_[p],
                                   mean_volume_[p].on_mesh(stress_[p]), reports_[p]));
     records.back().external_work = points_[p].work;

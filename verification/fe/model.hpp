@@ -23,47 +23,49 @@ struct Model {
   std::vector<Periodic> periodics;
   std::vector<Resultant> resultants;
   Loads loads;
-  double hourglass = 0.05;  // of the modulus at the start; elements with one point only [-]
+  double hourglass = 0.05;  // relative to the initial modulus; one-point elements only [-]
   AverageOptions average;
 };
 
-// The integration points of a model, numbered element by element.
+// Integration points of a model, numbered by elements.
 class PointField {
  public:
   // Throws ComputationError when F = I cannot be evaluated.
   PointField(const Model& model, const Material& material);
 
-  // How long evaluations last from here on: with solver.viscous_increment the drag depends on it.
+  // Sets the duration of the following evaluations; with solver.viscous_increment the drag depends
+  // on it.
   void set_time_step(double step);
-  // F at every point for these displacements, one batch call. When a point fails, its status.
+  // Evaluates F at every point for these displacements in one batch. Returns the status of the
+  // first failed point.
   grainlaw_status evaluate(const Eigen::VectorXd& displacement, unsigned want, int threads);
-  // Smallest step ratio of the points that failed, and the first of them with its message.
+  // Smallest step ratio of the failed points, and the first of these with its message.
   [[nodiscard]] double step_ratio() const { return last_.summary.step_ratio; }
   [[nodiscard]] std::string message() const;
 
-  // Largest change of F (Frobenius norm) that this change of displacement makes in a point.
+  // Largest change of F (Frobenius norm) at a point due to this change of displacement.
   [[nodiscard]] double largest_change(const Eigen::VectorXd& displacement) const;
 
-  // Nodal forces of the stresses of the last evaluation [N/m], and their derivative.
+  // Nodal forces of the last evaluation's stresses, @formula host [N/m], and their derivative.
   [[nodiscard]] Eigen::VectorXd internal_force() const;
   void add_stiffness(Triplets& triplets) const;
 
-  // Make the trials committed (their work is added up), or drop them.
+  // Commits the trials and adds their work, or drops them.
   void commit();
   void revert();
 
-  // The committed states, and what the last evaluation left. To be called after `commit` and
-  // `record`, when that is the committed equilibrium.
+  // Saves the committed states and the last evaluation, which is the committed equilibrium after
+  // `commit` and `record`.
   void save(CheckpointWriter& out) const;
   void restore(CheckpointReader& in);
 
-  // Of evaluations and assembly; the solver adds its own.
+  // Cost of evaluations and assembly; the solver adds its own.
   [[nodiscard]] Cost& cost() const { return cost_; }
 
   [[nodiscard]] std::size_t size() const { return points_.size(); }
-  // Mean over the points of the last evaluation; the effort since the last call of this function.
+  // Mean over the points of the last evaluation, and the effort since the last call.
   Record record();
-  // That effort, without its end.
+  // Effort since the last record().
   [[nodiscard]] Effort effort() const;
   [[nodiscard]] const std::vector<int>& nodes(std::size_t point) const {
     return points_[point].nodes;
@@ -71,7 +73,7 @@ class PointField {
   [[nodiscard]] const QuadPoint& geometry(std::size_t point) const {
     return points_[point].geometry;
   }
-  // Of the last evaluation, as the packing has them.
+  // Values of the last evaluation, as the packings have them.
   [[nodiscard]] const Tensor& deformation(std::size_t point) const { return deformation_[point]; }
   [[nodiscard]] const Tensor& stress(std::size_t point) const { return stress_[point]; }
   [[nodiscard]] const grainlaw_report& report(std::size_t point) const { return reports_[point]; }
@@ -81,17 +83,17 @@ class PointField {
   struct Point {
     std::vector<int> nodes;
     QuadPoint geometry;
-    NodeRows centre;  // q4fbar: dN_a/dX in the centre of the element; others: no rows
+    NodeRows centre;  // q4fbar: dN_a/dX at the element's centre; others: empty
     Tensor committed_deformation = Tensor::Identity();
     Tensor committed_stress = Tensor::Zero();
-    double work = 0;  // external, since F = I [J]
+    double work = 0;  // external work since F = I [J]
     Effort effort;
   };
 
   [[nodiscard]] static std::vector<Point> points_of(const Mesh& mesh);
   [[nodiscard]] static Tensor gradient(const Point& point, const NodeRows& slopes,
                                        const Eigen::VectorXd& displacement);
-  // F of the mesh and of the packing at every point.
+  // Computes F of mesh and packing at every point.
   void deform(const Eigen::VectorXd& displacement);
 
   std::vector<Point> points_;
@@ -99,11 +101,11 @@ class PointField {
   StrainAverage average_;
   Eigen::VectorXd displacement_;  // of the last evaluation [m]
   Points set_;
-  grainlaw::PointsEvaluation last_;  // evaluation
+  grainlaw::PointsEvaluation last_;  // last evaluation
   std::vector<grainlaw_report> reports_;
   std::vector<Tensor> mesh_deformation_;
   std::vector<MeanVolume> mean_volume_;
-  std::vector<Tensor> deformation_;  // of the packings, likewise their stress and tangent
+  std::vector<Tensor> deformation_;  // of the packings, with their stress and tangent
   std::vector<Tensor> stress_;
   std::vector<Tangent> tangent_;
   mutable Cost cost_;

@@ -19,7 +19,7 @@
 namespace verification {
 namespace {
 
-// What a checkpoint belongs to: the scene without the keys that do not change results, and the mesh.
+// Identity of a checkpoint: the mesh, and the scene without keys that do not change results.
 struct Identity {
   std::string scene;
   std::string mesh;
@@ -98,7 +98,7 @@ class Run {
         fmt::print("{}: there is no {}, so this starts from the beginning\n", scene_.name,
                    checkpoint_.string());
       solver_ = make_solver(scene_.solver, scene_.model, material, scene_.threads);
-      if (found) std::filesystem::remove(checkpoint_);  // its tables are about to be overwritten
+      if (found) std::filesystem::remove(checkpoint_);  // its tables will be overwritten
       output_.emplace(scene_, RunTables(stem_), *solver_);
     }
   }
@@ -118,10 +118,10 @@ class Run {
       else
         run_load_steps(*solver_, scene_.solver.duration(), scene_.steps, last, observe, done_ + 1);
     } catch (const ComputationError& error) {
-      if (dynamic_cast<const StepError*>(&error) != nullptr) ++cuts_;  // the smallest part's
+      if (dynamic_cast<const StepError*>(&error) != nullptr) ++cuts_;  // cut of the smallest part
       try {
         finish(true);
-      } catch (const std::exception&) {  // says no more than the error that is reported
+      } catch (const std::exception&) {  // adds nothing to the reported error
       }
       const char* to_try = done_ < 0 ? "look at the loads that act from time 0 on, which load "
                                        "steps do not divide; pressure presses where it is above 0"
@@ -136,7 +136,7 @@ class Run {
   }
 
  private:
-  // `failed`: in the step after the last that is done, which has cost something too.
+  // Ends the output; `failed`: in a step after the last complete one, whose cost counts.
   void finish(bool failed = false) {
     progress_.clear();
     Effort unfinished;
@@ -200,7 +200,7 @@ class Run {
   std::optional<RunOutput> output_;
   Progress progress_;
   PackingStart start_;
-  int done_ = -1;  // last step that is done
+  int done_ = -1;  // last complete step
   int cuts_ = 0;   // since then
 };
 

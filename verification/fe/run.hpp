@@ -1,4 +1,4 @@
-// A run of a finite element scene from beginning to end, or from where an interrupted one was left.
+// Run of a finite element scene from its start, or from a checkpoint.
 #pragma once
 
 #include "fe/scene.hpp"
@@ -9,15 +9,14 @@
 namespace verification {
 
 struct RunOptions {
-  std::string directory = ".";          // for the results
-  bool restart = false;                 // go on from the checkpoint, if there is one
-  std::optional<int> checkpoint_every;  // instead of the scene's; 0: when interrupted only
-  std::optional<int> stop_after;        // end with a checkpoint after this load step
+  std::string directory = ".";          // of the results
+  bool restart = false;                 // from the checkpoint, if there is one
+  std::optional<int> checkpoint_every;  // replaces the scene's; 0: only at an interrupt
+  std::optional<int> stop_after;        // load step after which the run ends with a checkpoint
 };
 
-// Writes the files that `grainlaw solve` documents. Between two load steps it looks whether it has
-// been asked to end: it then leaves NAME.checkpoint and throws Interrupted. Throws InputError and
-// ComputationError.
+// Writes the files that `grainlaw solve` documents. An interrupt is handled between load steps: it
+// leaves NAME.checkpoint and throws Interrupted. Throws InputError and ComputationError.
 void run_fe_scene(const SceneFile& file, const RunOptions& options);
 
 }  // namespace verification

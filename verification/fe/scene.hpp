@@ -22,14 +22,14 @@ struct FiniteElementScene {
   Model model;
   SolverOptions solver;
   std::optional<Cycle> cycle;
-  int threads = 0;  // <= 0: as many as the library takes
+  int threads = 0;  // <= 0: the library's default
   int steps = 1;
   std::string abscissa;
   std::vector<DisplacementProbe> probes;
   OutputOptions output;
 };
 
-// Throws InputError that names file, line, key and what was expected.
+// Reads a scene. Throws InputError that names file, line, key and expectation.
 FiniteElementScene read_fe_scene(const SceneFile& file);
 
 }  // namespace verification

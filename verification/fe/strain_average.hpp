@@ -1,4 +1,4 @@
-// A length for bodies whose material has none: what resists a strain that differs from its average.
+// An internal length of bodies: a resistance to strains that differ from their average.
 #pragma once
 
 #include "fe/conditions/side_loads.hpp"
@@ -13,17 +13,17 @@ struct AverageOptions {
   double modulus = 0.1;  // H, of the modulus at the start [-]
 };
 
-// The average A of the displacement gradient g is its implicit gradient, A - l^2 div grad A = g with
-// natural conditions on the sides, and the energy H/2 (g : (g - A)) per area: nothing for a strain that is the
-// same everywhere, H l^2/2 |grad g|^2 (second gradient) for one that varies over many l, H/2 |g|^2 for one that
-// varies within l. The packing has F itself; to its P comes H (g - A), whose mean over the body is 0.
+// Energy H/2 (g : (g - A)) per area, with the displacement gradient g and its implicit average A -
+// l^2 div grad A = g, natural at the sides. A uniform strain has none. A strain that varies over
+// many l has H l^2/2 |grad g|^2 (second gradient), one that varies within l has H/2 |g|^2. The
+// packing has F itself; its P gains H (g - A), whose mean over the body is 0.
 //
-// An average in place of F would not do: of a softening material, whose P falls with a strain of every wave
-// length alike, it only divides the tangent by 1 + l^2 k^2 and leaves its sign.
+// F from an average would not help. P of a softening material falls with strains of every wave
+// length; an average divides the tangent by 1 + l^2 k^2 and leaves its sign.
 //
-// A follows linearly from the displacement, so that all this is one constant, symmetric and positive stiffness,
-// the same for both components: exact in Newton, and unchanged by a rotation of the body. It is full: for
-// meshes of some thousand nodes.
+// A is linear in the displacement. The stiffness is thus constant, symmetric, positive, one for
+// both components: exact in Newton and invariant under rotations. It is a full matrix, for meshes
+// of some thousand nodes.
 class StrainAverage {
  public:
   StrainAverage() = default;
@@ -33,7 +33,7 @@ class StrainAverage {
   void add_stiffness(Triplets& triplets) const;
 
  private:
-  Eigen::MatrixXd stiffness_;  // by nodes [Pa]; none without a length
+  Eigen::MatrixXd stiffness_;  // per pair of nodes [Pa]; empty without a length
 };
 
 }  // namespace verification

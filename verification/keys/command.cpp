@@ -11,7 +11,7 @@
 namespace verification {
 namespace {
 
-// Words in quotes are read more easily without "one of".
+// Quoted words without the leading "one of".
 std::string range_of(const Key& key) {
   std::string text = key.asked.expected;
   constexpr std::string_view needless = "one of \"";
@@ -20,7 +20,7 @@ std::string range_of(const Key& key) {
   return text;
 }
 
-// Without the links of a page.
+// Text without the links of a page.
 std::string plain(std::string_view text) {
   std::string result;
   for (std::size_t at = 0; at < text.size(); ++at) {

@@ -13,7 +13,7 @@ namespace {
 using grainlaw::core::AskedKey;
 using grainlaw::core::KeyLog;
 
-// Together they ask for every key: what a reader asks for depends on dimension, generator, law and
+// Examples that together ask for every key: readers depend on dimension, generator, law and
 // boundary.
 constexpr std::string_view discs = R"(
 dimension = 2
@@ -92,13 +92,13 @@ KeyLog log_of(std::string_view example) {
   try {
     static_cast<void>(grainlaw::core::parse_material(example, "", "example", &log));
   } catch (const grainlaw::core::Error& error) {
-    // Of files that are not there; by then every key has been asked for.
+    // Missing files are ignored: every key has been asked for by then.
     if (error.status != GRAINLAW_FILE_ERROR) throw;
   }
   return log;
 }
 
-// What examples of discs and of spheres expect, where they differ.
+// Expectation of discs and of spheres, where they differ.
 std::string both(const std::string& of_discs, const std::string& of_spheres) {
   if (of_discs.find(of_spheres) != std::string::npos) return of_discs;
   if (of_discs.empty()) return of_spheres;
@@ -107,7 +107,7 @@ std::string both(const std::string& of_discs, const std::string& of_spheres) {
 
 std::string table_of(const std::string& path) { return path.substr(0, path.rfind('.')); }
 
-// Behind the last key of the same table.
+// Inserts a key after the last one of its table.
 void merge(KeyLog& all, const AskedKey& key) {
   const auto same = [&](const AskedKey& other) { return other.path == key.path; };
   const auto known = std::ranges::find_if(all, same);

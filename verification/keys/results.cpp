@@ -1,4 +1,4 @@
-// What the results are made of: columns of tables, measures, statuses.
+// Content of the results: columns of tables, measures, statuses.
 #include "app/library.hpp"
 #include "app/record.hpp"
 #include "fe/output/balance.hpp"
@@ -13,7 +13,7 @@ namespace verification {
 namespace {
 
 struct ColumnText {
-  std::string_view name;  // of tensors without their indices
+  std::string_view name;  // without indices of tensors
   std::string_view meaning;
 };
 
@@ -73,7 +73,7 @@ constexpr ColumnText balance_texts[] = {
     {"history_advanced", "evaluations that ended by advancing history"},
 };
 
-// "sigma12[Pa]" -> "sigma", "Pa".
+// Name and unit of a column: "sigma12[Pa]" -> "sigma", "Pa".
 struct Column {
   std::string name, unit;
 };
@@ -108,7 +108,7 @@ std::string columns_of(std::vector<std::string> names, std::span<const ColumnTex
 
 std::string record_table() {
   std::vector<std::string> names = record_columns<2>();
-  // Those that spheres alone have stand where they stand there.
+  // Columns of spheres alone keep their place.
   for (std::size_t at = 0; const std::string& name : record_columns<3>()) {
     const auto found = std::ranges::find(names, name);
     if (found == names.end()) names.insert(names.begin() + static_cast<std::ptrdiff_t>(at), name);

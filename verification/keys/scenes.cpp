@@ -16,7 +16,7 @@ namespace {
 
 using Reader = std::function<void(const SceneFile&)>;
 
-// What every example begins with.
+// Beginning of every example.
 constexpr std::string_view discs = "material = { dimension = 2 }\n";
 constexpr std::string_view spheres = "material = { dimension = 3 }\n";
 constexpr std::string_view point = R"(
@@ -156,7 +156,7 @@ std::vector<Key> scene_keys(std::string_view command) {
     try {
       examples.read(file);
     } catch (const InputError&) {
-      // What does not go together is told after the keys were asked for.
+      // Conflicts are reported after the keys were asked for, and ignored.
     }
   }
   std::vector<Key> keys;

@@ -1,4 +1,4 @@
-// `grainlaw pack RECIPE.toml`: make a packing, say what it is, and write it.
+// `grainlaw pack RECIPE.toml`: generate a packing, describe and write it.
 
 #include "app/bounds.hpp"
 #include "app/commands.hpp"
@@ -37,13 +37,12 @@ struct PackArguments {
   bool vtk = false;
 };
 
-// One packing, made and written.
 struct Made {
   State state;
   PackingStart start;
-  std::optional<WrittenPacking> discs;  // none: spheres
+  std::optional<WrittenPacking> discs;  // absent for spheres
   std::filesystem::path stem;
-  double seconds;  // of CPU, to make the material
+  double seconds;  // CPU time of the material
 
   [[nodiscard]] double scalar(grainlaw_measure what) const {
     return measure_scalar(state.get(), what);
@@ -125,7 +124,7 @@ bool draw(const Made& made) {
   return draw_snapshots({{"", files.take(made.state.get())}}, 0, title, made.stem);
 }
 
-// One line for each seed, to choose one; each is written as NAME_sSEED.
+// Prints one line per seed for comparison; each packing is written as NAME_sSEED.
 void compare_seeds(PackArguments arguments, long first) {
   const std::string name = name_of(arguments);
   const Interrupt interrupt;

@@ -15,11 +15,11 @@ namespace {
 
 constexpr double millimetre = 1e3;  // mm per m
 
-// Gnuplot data blocks, in mm.
+// Gnuplot data blocks in mm.
 struct Drawing {
   std::string inner, boundary;  // discs
   std::string bars;
-  std::string outline;  // of the frame or of the cell
+  std::string outline;  // outline of the frame or cell
   Eigen::Vector2d low = Eigen::Vector2d::Constant(1e300);
   Eigen::Vector2d high = Eigen::Vector2d::Constant(-1e300);
 
@@ -32,7 +32,7 @@ struct Drawing {
     fmt::format_to(std::back_inserter(text), "{:.5g} {:.5g}\n", place.x() * millimetre,
                    place.y() * millimetre);
   }
-  // A rectangle from one centre to the other, as a closed polygon.
+  // A rectangle between two centres, as a closed polygon.
   void bar(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width) {
     const Eigen::Vector2d along = (to - from).normalized() * 0.5 * width;
     const Eigen::Vector2d across(-along.y(), along.x());
@@ -100,7 +100,7 @@ Drawing make_drawing(const WrittenPacking& packing) {
   return drawing;
 }
 
-// A data block may not be empty.
+// A data block, which gnuplot does not accept empty.
 std::string block(const char* name, const std::string& lines) {
   return fmt::format("${} << EOD\n{}EOD\n", name, lines.empty() ? "NaN NaN NaN\n" : lines);
 }
@@ -109,7 +109,7 @@ std::string block(const char* name, const std::string& lines) {
 
 bool draw_packing(const WrittenPacking& packing, const std::filesystem::path& stem,
                   const std::string& title) {
-  constexpr int size = 760;  // of the picture's side [points]
+  constexpr int size = 760;  // side of the picture [points]
   constexpr int rose_size = 400;
   constexpr int head = 46;
   const Drawing drawing = make_drawing(packing);

@@ -1,5 +1,5 @@
-// A picture of a packing: its discs, its frame, its contact forces as bars as wide as the force, and
-// the rose diagram of its contact normals.
+// Picture of a packing: discs, frame, contact forces as bars of proportional width, and the rose
+// diagram of contact normals.
 #pragma once
 
 #include "pack/written.hpp"
@@ -9,8 +9,8 @@
 
 namespace verification {
 
-// Draws stem.svg and stem.png. With a periodic cell the discs across its sides are drawn again.
-// Returns what run_gnuplot does, and fails as it does.
+// Draws stem.svg and stem.png; discs across the sides of a periodic cell are drawn on both. Returns
+// and throws as run_gnuplot() does.
 bool draw_packing(const WrittenPacking& packing, const std::filesystem::path& stem,
                   const std::string& title);
 

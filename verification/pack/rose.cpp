@@ -29,7 +29,7 @@ Rose contact_rose(const WrittenPacking& packing, int sectors) {
     fabric += contact.weight * normal * normal.transpose();
     total += contact.weight;
     for (const double sign : {1.0, -1.0}) {
-      // Sectors are centred on the axes; a half beyond the last belongs to the first.
+      // Sectors are centred on the axes; the half beyond the last belongs to the first.
       const double turn = std::atan2(sign * normal.y(), sign * normal.x()) / full_turn;
       const long k = std::lround(turn * sectors);
       rose.density[static_cast<std::size_t>((k + sectors) % sectors)] += contact.weight;
@@ -61,7 +61,7 @@ std::string plot_rose(const Rose& rose) {
   const double d = 0.5 * rose.anisotropy / (2 + rose.anisotropy);
   for (int n = 0; n <= 180; ++n) {
     const double angle = full_turn * n / 180;
-    // Density 1 + a cos 2(angle - direction) has the fabric 1/2 +- a / 4.
+    // The density 1 + a cos 2(angle - direction) has fabric eigenvalues 1/2 + a/4 and 1/2 - a/4.
     point(curve, std::isfinite(d) ? 1 + 4 * d * std::cos(2 * (angle - rose.direction)) : 0, angle);
     point(circle, 1, angle);
   }

@@ -1,4 +1,4 @@
-// Rose diagram: how many contact normals point in which direction.
+// Rose diagram of contact normals.
 #pragma once
 
 #include "pack/written.hpp"
@@ -9,18 +9,17 @@
 namespace verification {
 
 struct Rose {
-  std::vector<double>
-      density;            // per sector of the full turn, over that of an isotropic packing [-]
-  double anisotropy = 0;  // largest / smallest eigenvalue of the fabric - 1 [-]
-  double direction = 0;   // of the larger eigenvalue against x [rad]
+  std::vector<double> density;  // per sector of 2 pi, over that of an isotropic packing [-]
+  double anisotropy = 0;        // largest / smallest eigenvalue of the fabric - 1 [-]
+  double direction = 0;         // of the major direction from x [rad]
 };
 
-// Every contact counts with its normal and the opposite one (Liu, Bosco & Suiker 2019, eq. 39);
-// copies in a frame count once.
+// Counts every contact with both normals (Liu, Bosco & Suiker 2019, eq. 39); copies in a frame
+// count once.
 Rose contact_rose(const WrittenPacking& packing, int sectors = 36);
 
-// Gnuplot commands that draw it into the current plot of a multiplot, with the second-order density
-// that has the same fabric.
+// Gnuplot commands for the current plot of a multiplot, with the second-order density of this
+// fabric.
 std::string plot_rose(const Rose& rose);
 
 }  // namespace verification

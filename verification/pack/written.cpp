@@ -10,9 +10,9 @@
 namespace verification {
 namespace {
 
-// Contacts of a frame that are images of one another, apart by lattice vectors, share their weight.
+// Images of one contact, apart by lattice vectors, share its weight.
 void weigh_copies(WrittenPacking& packing) {
-  constexpr double places = 1e6;  // per cell: midpoints that agree so far are the same
+  constexpr double places = 1e6;  // per cell side: resolution of equal midpoints
   const Eigen::Matrix2d to_cell = packing.cell.inverse();
   std::map<std::tuple<long, long, long, long>, std::vector<std::size_t>> groups;
   for (std::size_t c = 0; c < packing.contacts.size(); ++c) {
@@ -41,7 +41,7 @@ WrittenPacking read_written(const std::string& prefix) {
   packing.radius = table["r"];
   const bool framed =
       std::find(table.names.begin(), table.names.end(), "frame_order") != table.names.end();
-  std::map<int, std::size_t> number;  // of an id
+  std::map<int, std::size_t> number;  // index of an id
   std::vector<Eigen::Vector2i> wrap;
   std::map<double, std::size_t> boundary;
   for (std::size_t p = 0; p < table.rows(); ++p) {
@@ -58,7 +58,7 @@ WrittenPacking read_written(const std::string& prefix) {
     WrittenContact contact;
     contact.i = number.at(static_cast<int>(contacts["i"][c]));
     contact.j = number.at(static_cast<int>(contacts["j"][c]));
-    // The written shift belongs to positions that are not wrapped.
+    // The written shift refers to unwrapped positions.
     const Eigen::Vector2d shift(contacts["shift_x"][c], contacts["shift_y"][c]);
     contact.shift = shift.cast<int>() + wrap[contact.j] - wrap[contact.i];
     contact.normal_force = contacts["fn"][c];

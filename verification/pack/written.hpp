@@ -1,4 +1,5 @@
-// A packing as the library writes it: prefix_particles.csv, prefix_contacts.csv, prefix_cell.csv.
+// A packing read from the library's files: prefix_particles.csv, prefix_contacts.csv,
+// prefix_cell.csv.
 #pragma once
 
 #include <Eigen/Dense>
@@ -20,7 +21,7 @@ struct WrittenPacking {
   std::vector<Eigen::Vector2d> centre;  // wrapped into a periodic cell [m]
   std::vector<double> radius;           // [m]
   std::vector<WrittenContact> contacts;
-  std::vector<std::size_t> boundary;  // of a frame, anticlockwise; empty: periodic
+  std::vector<std::size_t> boundary;  // boundary of a frame, anticlockwise; empty: periodic
 
   [[nodiscard]] bool periodic() const { return boundary.empty(); }
   [[nodiscard]] Eigen::Vector2d branch(const WrittenContact& contact) const {
@@ -28,7 +29,7 @@ struct WrittenPacking {
   }
 };
 
-// Throws InputError.
+// Reads the three files. Throws InputError.
 WrittenPacking read_written(const std::string& prefix);
 
 }  // namespace verification

@@ -37,7 +37,7 @@ bool has_member(const Ensemble& ensemble, const std::string& name) {
          ensemble.members.end();
 }
 
-// All that the scene can write, intermediate files of the runs too; series of steps end in numbers.
+// All outputs of the scene, including intermediate files; series of steps end in numbers.
 std::vector<Output> outputs_of(const SceneFile& file, const std::string& prefix,
                                const std::vector<PointScene>& scenes,
                                const std::vector<Ensemble>& ensembles) {
@@ -63,13 +63,13 @@ std::vector<Output> outputs_of(const SceneFile& file, const std::string& prefix,
   return outputs;
 }
 
-// The scene's cases that were asked for, all without a wish. A case with seeds is named without them, too.
+// Requested cases of the scene, all by default. A case with seeds may be requested without them.
 std::vector<PointScene> chosen(std::vector<PointScene> scenes, const std::string& prefix,
                                const std::vector<Ensemble>& ensembles,
                                const std::vector<std::string>& wanted) {
   if (wanted.empty()) return scenes;
   std::vector<PointScene> result;
-  const auto add = [&](const PointScene& scene) {  // once, however often it was asked for
+  const auto add = [&](const PointScene& scene) {  // each case once
     if (std::none_of(result.begin(), result.end(),
                      [&](const PointScene& one) { return one.name == scene.name; }))
       result.push_back(scene);
@@ -139,7 +139,7 @@ void run_command(const PointArguments& arguments) {
     write_ends(scenes, ends, output_stem(arguments.output, prefix + "_cases.csv"));
   for (Ensemble ensemble : ensembles) {
     const PointScene* of_it = nullptr;
-    std::vector<std::string> begun;  // have a table of this run; others may have an old one
+    std::vector<std::string> begun;  // cases with a table of this run
     for (std::size_t k = 0; k < scenes.size(); ++k) {
       if (!has_member(ensemble, scenes[k].name)) continue;
       of_it = &scenes[k];

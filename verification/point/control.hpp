@@ -1,4 +1,4 @@
-// What a path prescribes at a point, and its derivative with respect to F.
+// Quantities that a path prescribes at a point, and their derivatives by F.
 #pragma once
 
 #include "app/library.hpp"
@@ -21,20 +21,20 @@ using Conditions = std::array<Target, D * D>;
 template <int D>
 Conditions<D> conditions_of(const Segment& segment);
 
-// Of stresses their values, else the component of F. A stress that is to equal another one is their
-// difference.
+// The controlled quantity per component: a stress where one is prescribed, else the component of F.
+// A stress that equals another one is controlled by their difference.
 template <int D>
 Controlled<D> controlled(const Conditions<D>& conditions, const TensorOf<D>& deformation,
                          const EvaluationOf<D>& evaluation);
 
-// F with the components of the diagonal that follow multiplied by one factor, so that its determinant
-// is this one. F at which none is stays as it comes out: it is refused when it is evaluated.
+// Scales the diagonal components that follow by one factor, so that det F becomes this volume. An F
+// without such a factor is returned unchanged; its evaluation will refuse it.
 template <int D>
 TensorOf<D> with_volume(TensorOf<D> deformation, const std::array<bool, 3>& follows,
                         double determinant);
 
-// Rows of `derivative` of the components that follow: of the first of them det F, of the others the
-// difference from the first, over their values at the start; rows beside them stay.
+// Replaces the rows of components that follow: the first by det F, the others by their difference
+// from the first, over the values at the start.
 template <int D>
 void follow_volume(TangentOf<D>& derivative, const TensorOf<D>& deformation,
                    const std::array<bool, 3>& follows);

@@ -13,27 +13,27 @@
 namespace verification {
 namespace {
 
-// An attempt ends when this many iterations in a row have not halved the residual: P(F) has jumps
-// after the peak, where contacts collapse, and Newton then goes to and fro across one. A smaller
-// step, or another one, usually passes beside it.
+// Iterations in a row without halving the residual that end an attempt. After the peak P(F) jumps
+// where contacts collapse, and Newton alternates between its two sides. A smaller step usually
+// avoids the jump.
 constexpr int patience = 4;
 
 }  // namespace
 
-// What one (part of a) step is to reach.
+// Goal of one (part of a) step.
 template <int D>
 struct PointDriverOf<D>::Goal {
   Conditions<D> condition{};
   ComponentsOf<D> value = ComponentsOf<D>::Zero();
-  double scale = 1;  // of the stress residual [Pa]
+  double scale = 1;  // scale of the stress residual [Pa]
   bool mixed = false;
-  std::array<bool, 3> follows{};  // of a mixed one: what of F keeps its determinant at `volume`
+  std::array<bool, 3> follows{};  // mixed control: diagonal components that keep det F at `volume`
   double volume = 1;
 
   [[nodiscard]] bool stress(int k) const {
     return condition[static_cast<std::size_t>(k)].control != Control::deformation;
   }
-  // Beside stresses the determinant is kept by the components that follow.
+  // Whether components follow; with prescribed stresses these keep the determinant.
   [[nodiscard]] bool follow() const { return mixed && (follows[0] || follows[1] || follows[2]); }
   void steer(TangentOf<D>& matrix, ComponentsOf<D>& residual,
              const TensorOf<D>& deformation) const {
@@ -48,7 +48,7 @@ template <int D>
 struct PointDriverOf<D>::Iterate : Attempt {
   TensorOf<D> deformation = TensorOf<D>::Identity();
   EvaluationOf<D> evaluation;
-  // The iterate furthest from where the tangent of the last step has it, and how far [Pa].
+  // Iterate with the largest stress error of the last step's tangent, and that error [Pa].
   TensorOf<D> far_deformation = TensorOf<D>::Identity();
   double far = -1;
 };
@@ -89,16 +89,15 @@ typename PointDriverOf<D>::Goal PointDriverOf<D>::goal_at(const Segment& segment
   return goal;
 }
 
-// Newton on the components of F whose stress is prescribed. The first iterate carries the
-// prescribed increment over to the unknowns by the tangent of the last step. An exact tangent is
-// renewed at every iterate; any other serves as the start of Broyden's updates, which need no more
-// than a fair matrix.
+// Newton on the components of F whose stress is prescribed. The first iterate extrapolates the
+// prescribed increment with the tangent of the last step. An exact tangent is renewed at every
+// iterate; any other starts Broyden updates, for which a rough matrix suffices.
 template <int D>
 typename PointDriverOf<D>::Iterate PointDriverOf<D>::iterate(const Goal& goal, double tolerance) {
   Iterate result;
   const unsigned want = goal.mixed ? options_.tangent : 0;
   const Controlled<D> before = controlled<D>(goal.condition, deformation_, evaluation_);
-  TangentOf<D> matrix = before.derivative;  // rows of prescribed components of F are rows of I
+  TangentOf<D> matrix = before.derivative;  // rows of prescribed F are rows of I
   ComponentsOf<D> residual = goal.value - before.value;
   goal.steer(matrix, residual, deformation_);
   ComponentsOf<D> correction = matrix.fullPivLu().solve(residual);
@@ -164,8 +163,7 @@ typename PointDriverOf<D>::Iterate PointDriverOf<D>::iterate(const Goal& goal, d
   return result;
 }
 
-// The last step may have been under strain control alone, without a tangent; stress control starts
-// from one.
+// Computes the tangent for stress control, which a last step of pure strain control lacks.
 template <int D>
 void PointDriverOf<D>::renew_tangent() {
   const EvaluationOf<D> again = evaluate_of<D>(state_, deformation_, options_.tangent);
@@ -188,7 +186,7 @@ void PointDriverOf<D>::accept(const Iterate& iterate, bool has_tangent) {
   has_tangent_ = has_tangent;
 }
 
-// From an attempt that stalled before a jump, and from what it saw beyond.
+// Crosses jumps from a stalled attempt and its iterate furthest beyond.
 template <int D>
 typename PointDriverOf<D>::Iterate PointDriverOf<D>::cross_jumps(const Goal& goal, Iterate last) {
   for (int crossing = 0; crossing < most_crossings && last.stalled; ++crossing) {
@@ -202,7 +200,7 @@ typename PointDriverOf<D>::Iterate PointDriverOf<D>::cross_jumps(const Goal& goa
     ++effort_.crossed;
     last = iterate(goal, options_.tolerance);
   }
-  if (last.stalled) last.converged = last.loose = true;  // the next part goes on from here
+  if (last.stalled) last.converged = last.loose = true;  // the next part continues from here
   return last;
 }
 

@@ -1,4 +1,4 @@
-// One integration point led along a path of mixed strain and stress control.
+// One integration point driven along a path of mixed strain and stress control.
 #pragma once
 
 #include "app/library.hpp"
@@ -13,23 +13,23 @@ namespace verification {
 struct PointOptions {
   unsigned tangent = GRAINLAW_WANT_TANGENT_EXACT;  // matrix of the stress control
   double tolerance = 1e-8;  // largest stress residual / |sigma| at the start of the step [-]
-  int max_iterations = 20;  // of one attempt, then the step is cut
-  int max_cuts = 12;        // halvings of one step, at most, before the run is given up
-  // Where P(F) jumps across the target no step size helps. 0: the jump is crossed: what lies beyond is
-  // committed out of balance, and brought to balance from there. Else, once a step is at its smallest,
-  // this tolerance holds instead of the first, and the record counts it as a loose step [-].
+  int max_iterations = 20;  // per attempt; then the step is cut
+  int max_cuts = 12;        // halvings of a step before the run ends
+  // Residual accepted at the smallest part of a step, counted as a loose step [-]. Where P(F) jumps
+  // across the target no smaller step helps. 0: the jump is crossed: the state beyond is committed
+  // out of balance, then balanced.
   double loose_tolerance = 0;
-  int max_steps = 0;  // after which a path is left; 0: none
+  int max_steps = 0;  // after which a path ends; 0: no limit
 };
 
-// What an observer sees at the end of every full step, before the trial is committed.
+// View of an observer at the end of every full step, before the commit.
 template <int D>
 struct PointStepOf {
   State& state;                       // committed: the (part of a) step before; trial: this one
   TensorOf<D> committed_deformation;  // F of the committed state
   const EvaluationOf<D>& evaluation;  // of the trial
   const RecordOf<D>& record;
-  double fraction;  // of the segment, 0..1
+  double fraction;  // progress in the segment, 0..1
 };
 template <int D>
 using PointObserverOf = std::function<void(const PointStepOf<D>&)>;
@@ -40,20 +40,20 @@ class PointDriverOf {
   using PointStep = PointStepOf<D>;
   using PointObserver = PointObserverOf<D>;
 
-  // Starts at F = I. The material must outlive nothing: the state keeps it alive.
+  // Starts at F = I. The state shares ownership of the material.
   PointDriverOf(const Material& material, const PointOptions& options);
 
-  // Runs one segment. Throws StepError, saying where, when a step fails at its smallest cut;
-  // the parts before it stay done.
+  // Runs one segment. Throws StepError with its place when a step fails at its smallest part;
+  // earlier parts stay done.
   TestEnd run(const Segment& segment, const PointObserver& observe,
               const CutObserver& observe_cut = {});
 
-  // Whether as many steps were made as the options allow.
+  // Whether max_steps is reached.
   [[nodiscard]] bool left() const {
     return options_.max_steps > 0 && record_.step >= options_.max_steps;
   }
   [[nodiscard]] const RecordOf<D>& record() const { return record_; }
-  // Of the step that did not end, after an error.
+  // Effort of a step that failed.
   [[nodiscard]] const Effort& unfinished() const { return effort_; }
   [[nodiscard]] const grainlaw_state* state() const { return state_.get(); }
 
@@ -73,11 +73,11 @@ class PointDriverOf {
   State state_;
   double volume_;               // at F = I [m3]
   TensorOf<D> deformation_;     // committed F
-  EvaluationOf<D> evaluation_;  // that led to it
-  RecordOf<D> record_;          // of the last step
-  Effort effort_;               // of the step that is being made
+  EvaluationOf<D> evaluation_;  // evaluation of the committed F
+  RecordOf<D> record_;          // record of the last step
+  Effort effort_;               // effort of the present step
   bool has_tangent_ = true;
-  double work_ = 0;  // external, since F = I [J]
+  double work_ = 0;  // external work since F = I [J]
 };
 
 using PointStep = PointStepOf<2>;

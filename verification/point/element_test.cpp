@@ -11,7 +11,7 @@ namespace {
 
 constexpr int most_legs = 100000;
 
-// One test on its way. `way` is the strain that leads it, axial or shear, since its start.
+// One test in progress; `way` is the driving strain, axial or shear, since its start.
 template <int D>
 class Course {
  public:
@@ -35,7 +35,7 @@ class Course {
       else
         loop();
     } catch (const StepError& error) {
-      constexpr double weak = 0.1;  // of the pressure at the start: what is left does not carry
+      constexpr double weak = 0.1;  // share of the initial pressure that no longer bears load
       if (!(test_.stop.liquefied > 0) || pressure() > weak * p_) throw;
       end_ = {fmt::format(
                   "liquefied: no equilibrium after a mean pressure of {:.4g} Pa, {:.2g} of that at "
@@ -57,7 +57,7 @@ class Course {
                          : record().axial_stress() - record().lateral_stress();
   }
 
-  // What stops the test after a step, or "".
+  // Reason to stop after a step; "" to continue.
   [[nodiscard]] TestEnd stopped(const RecordOf<D>& before) const {
     const TestStop& stop = test_.stop;
     const auto passed = [](double from, double to, double wanted) {
@@ -84,7 +84,7 @@ class Course {
     return {};
   }
 
-  // The step that brings the leading strain, or the share of a stress, there.
+  // The step to a driving strain, or to a share of a stress.
   [[nodiscard]] Segment step_to(double way, double pressure) const {
     Segment step;
     const auto stress = [&](int k, double value) {
@@ -120,7 +120,7 @@ class Course {
     return step;
   }
 
-  // False when the test is over.
+  // Makes a step; returns false when the test has ended.
   bool make(double way, double pressure = 0) {
     const RecordOf<D> before = record();
     driver_.run(step_to(way, pressure), observe_, observe_cut_);
@@ -129,7 +129,7 @@ class Course {
     return end_.text.empty() && !driver_.left();
   }
 
-  // In equal steps to a strain.
+  // Drives to a strain in equal steps.
   bool lead(double to) {
     const double from = way_;
     const int count =
@@ -139,9 +139,9 @@ class Course {
     return true;
   }
 
-  // Until q is what is wanted, in this direction; the steps before are shorter, so that it is met.
+  // Drives in this direction until q reaches the wanted value; the last steps are shorter.
   bool lead_to_q(double wanted, double direction) {
-    constexpr double near = 1e-3, least = 0.02;  // of the amplitude; of a step
+    constexpr double near = 1e-3, least = 0.02;  // tolerance over amplitude; least part
     const double goal = direction * wanted, close = near * test_.amplitude;
     double share = 1;
     for (int k = 0; k < most_legs; ++k) {

@@ -16,7 +16,8 @@ struct Name {
   TestKind kind;
   double step, end;  // defaults
 };
-// A tenth of strain in a hundred steps; of stress-led ones twice the pressure in twenty.
+// Defaults: a tenth of strain in a hundred steps; twice the pressure in twenty steps of
+// stress-driven tests.
 constexpr std::array<Name, 8> names{
     {{"isotropic", TestKind::isotropic, 0.05, 0},
      {"oedometric", TestKind::oedometric, 5e-4, 0.02},
@@ -36,7 +37,7 @@ Name read_name(SceneTable& table) {
 }
 
 void read_stop(SceneTable& table, ElementTest& test) {
-  // Where volume is kept effective stress can vanish, which ends such a test by itself.
+  // At constant volume the effective stress can vanish; by default that ends the test.
   if (test.kind == TestKind::undrained || test.kind == TestKind::shear_volume)
     test.stop.liquefied = 0.01;
   if (!table.has("stop")) return;
@@ -112,7 +113,7 @@ ElementTest read_element_test(SceneTable& table) {
   } else {
     constexpr Range size{0, 0.1, true, "a strain of one step, above 0 and up to 0.1"};
     test.step = table.number_or("step", test.step, size);
-    // Over the whole way, or the quarter of a loop.
+    // Driving strain of the whole test, or of a quarter cycle.
     const double way =
         test.cycles > 0 && !test.amplitude_of_q ? test.amplitude : std::abs(test.end);
     if (table.has("steps")) test.step = way / table.integer("steps", 1);

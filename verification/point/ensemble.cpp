@@ -17,8 +17,8 @@ namespace {
 
 struct Spread {
   std::vector<std::string> names;
-  std::vector<int> runs;                             // that reached the row
-  std::vector<std::vector<double>> mean, deviation;  // of each column
+  std::vector<int> runs;                             // runs that reached the row
+  std::vector<std::vector<double>> mean, deviation;  // per column
 
   [[nodiscard]] std::size_t column(std::string_view name) const {
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());

@@ -1,4 +1,4 @@
-// Cases that are many packings of one recipe: their mean and how far they spread.
+// Ensembles of packings from one recipe: mean and spread.
 #pragma once
 
 #include "app/scene.hpp"
@@ -15,13 +15,14 @@ struct Ensemble {
   std::vector<std::string> members;
 };
 
-// Of a scene whose results begin with `prefix`: those with two seeds or more.
+// Ensembles with at least two seeds in a scene whose results begin with `prefix`.
 std::vector<Ensemble> ensembles_of(const SceneFile& file, const std::string& prefix);
 
-// From the tables of the members in that directory, which have to be of this run: NAME_ensemble.csv, per step
-// the number of runs that reached it, and of every column the mean and the standard deviation over these; and
-// the same as curves in bands of one standard deviation in NAME_ensemble.svg, .png. Tells what it wrote.
-// Members without a table are left out; fewer than two make no ensemble, and of an old one it says that it is.
+// Writes NAME_ensemble.csv from this run's tables of the members: per step the number of runs that
+// reached it, and mean and standard deviation of every column over these. NAME_ensemble.svg and
+// .png show curves with bands of one standard deviation. Prints what it wrote. Members without a
+// table are left out. With fewer than two nothing is written, and an old ensemble is reported as
+// old.
 void write_ensemble(const Ensemble& ensemble, const std::filesystem::path& directory,
                     const std::string& abscissa, bool figure);
 

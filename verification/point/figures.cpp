@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kilopascal = 1e-3;
 
-// Compression positive, in kPa.
+// Stresses in kPa, compression positive.
 struct Stresses {
   std::vector<double> axial, lateral, shear, mean;
 };

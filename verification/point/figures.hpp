@@ -1,4 +1,4 @@
-// Pictures that soil mechanics looks at: of a finished path, from its table.
+// Figures of soil mechanics for a finished path, from its table.
 #pragma once
 
 #include "app/csv.hpp"
@@ -12,12 +12,13 @@ namespace verification {
 
 inline const std::vector<std::string_view> path_figures{"p-q", "e-log-p", "stress-path"};
 
-// What a name of them adds to the name of a result: "_p_q".
+// Suffix of a figure's file name: "_p_q".
 std::string figure_end(std::string_view name);
 
-// p-q: deviatoric stress, or the shear stress of a shear, against the mean pressure; e-log-p: void ratio
-// against the logarithm of the mean pressure; stress-path: axial against lateral stress, of a shear the
-// shear stress against the normal stress on its planes. False without a picture.
+// Draws a figure by name; returns false without a picture. p-q: deviatoric stress, or shear stress
+// of a shear, against mean pressure. e-log-p: void ratio against the logarithm of mean pressure.
+// stress-path: axial against lateral stress, or shear against normal stress on the planes of a
+// shear.
 bool draw_path_figure(std::string_view name, const CsvTable& table, bool shear,
                       const std::string& title, const std::filesystem::path& stem);
 

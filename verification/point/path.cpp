@@ -21,7 +21,7 @@ constexpr std::array<Key, 4> keys{{{"F", {Control::deformation, false, 0}},
                                    {"P", {Control::piola, false, 0}},
                                    {"sigma", {Control::cauchy, false, 0}}}};
 
-// "11", "12" and so on, row by row.
+// "11", "12" and so on, by rows.
 std::vector<std::string> component_names(int dimension) {
   std::vector<std::string> names;
   for (int i = 1; i <= dimension; ++i)
@@ -29,7 +29,7 @@ std::vector<std::string> component_names(int dimension) {
   return names;
 }
 
-// The place of "sigma22" among the components, or nothing.
+// Index of "sigma22" among the components, or nothing.
 std::optional<int> stress_named(std::string_view text, int dimension) {
   const std::vector<std::string> names = component_names(dimension);
   for (std::size_t k = 0; k < names.size(); ++k)
@@ -37,8 +37,8 @@ std::optional<int> stress_named(std::string_view text, int dimension) {
   return std::nullopt;
 }
 
-// Whether stresses that equal each other lead from this one back to it, so that none is prescribed;
-// sigma12 is sigma21.
+// Whether equal stresses form a cycle through this one, so that none is prescribed; sigma12 is
+// sigma21.
 bool goes_round(SceneTable& segment, const std::string& name) {
   const auto same = [&](const std::string& other) {
     return std::is_permutation(other.begin(), other.end(), name.begin(), name.end());
@@ -51,7 +51,7 @@ bool goes_round(SceneTable& segment, const std::string& name) {
   return false;
 }
 
-// A stress that equals another one, or F that is found for the mean pressure.
+// Reads a stress that equals another one, or F that is found for the mean pressure.
 Target read_words(SceneTable& segment, const std::string& name, int dimension) {
   const std::string text = segment.text(name);
   if (name[0] == 's') {
@@ -88,7 +88,7 @@ Target read_target(SceneTable& segment, const std::string& index, int dimension)
   return target;
 }
 
-// Follows a stretch through the segments, as far as it is prescribed.
+// Tracks a stretch through the segments as far as it is prescribed.
 class Stretch {
  public:
   void follow(const SceneTable& segment, const std::string& index, const Target& target) {
@@ -115,7 +115,7 @@ class Stretch {
                              index));
   }
 
-  // What it comes to is found.
+  // The stretch becomes an unknown.
   void lose() { reached_.reset(); }
 
  private:
@@ -132,7 +132,7 @@ void check_tension(const SceneTable& segment, const std::string& index, const Ta
                   -target.value));
 }
 
-// One component of F is found for it.
+// Fails unless exactly one component of F is free for the mean pressure.
 void check_mean_pressure(SceneTable& segment, const Segment& read) {
   const auto free = std::count_if(read.target.begin(), read.target.end(), [](const Target& target) {
     return target.control == Control::mean;
@@ -143,7 +143,7 @@ void check_mean_pressure(SceneTable& segment, const Segment& read) {
                  "one, which is found: F11 = \"free\"");
 }
 
-// A component of spheres in a scene of discs.
+// Fails for a component of spheres in a scene of discs.
 void check_dimension(SceneTable& segment, int dimension) {
   if (dimension == 3) return;
   for (const std::string& index : component_names(3))
@@ -154,7 +154,7 @@ void check_dimension(SceneTable& segment, int dimension) {
                      "one of 11, 12, 21, 22: the material has dimension = 2");
 }
 
-// What of F follows in a segment with isochoric = true.
+// Components of F that follow in a segment with isochoric = true.
 std::array<bool, 3> read_following(SceneTable& segment, const Segment& read, int dimension) {
   if (!segment.flag_or("isochoric", false)) return {};
   std::array<bool, 3> following{};

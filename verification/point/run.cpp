@@ -26,7 +26,7 @@ double abscissa(const PointScene& scene, const RecordOf<D>& record) {
   return record.deformation(scene.abscissa[1] - '1', scene.abscissa[2] - '1');
 }
 
-// What is written and drawn beside the history of a run.
+// Writer of snapshots and pictures beside the history of a run.
 class Observer {
  public:
   Observer(const PointScene& scene, const std::filesystem::path& stem, Written& written)
@@ -54,7 +54,7 @@ class Observer {
     const double strain = abscissa(scene_, record);
     const bool backwards = !scene_.pictures.empty() && scene_.pictures.back() < 0;
     while (panels_.size() < scene_.pictures.size()) {
-      // Of negative abscissae the first one to come is the largest.
+      // Negative abscissae are passed from the largest to the smallest.
       const double wanted = backwards ? scene_.pictures[scene_.pictures.size() - 1 - panels_.size()]
                                       : scene_.pictures[panels_.size()];
       if (backwards ? strain > wanted + rounding : strain < wanted - rounding) break;
@@ -141,14 +141,14 @@ void run_path(const PointScene& scene, const std::filesystem::path& stem, PointE
   };
   start = cpu_seconds();
   std::exception_ptr stopped;
-  std::vector<std::string> reached;  // by tests that stop before their strain or stress
+  std::vector<std::string> reached;  // by tests that stop before their end
   try {
     for (const Segment& segment : scene.segments) {
       const TestEnd test = driver.run(segment, observe, observe_cut);
       if (!test.text.empty()) reached.push_back(test.text);
       if (test.liquefied) break;
     }
-    // Where tests stop is known when they do.
+    // The number of steps is known once tests have stopped.
     if (has_tests(scene) && !driver.left()) end.steps_wanted = driver.record().step;
     if (!reached.empty()) end.text = fmt::format("{}", fmt::join(reached, "; "));
   } catch (const StepError& error) {

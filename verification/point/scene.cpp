@@ -24,7 +24,7 @@ std::vector<double> read_pictures(SceneTable& table) {
   return pictures;
 }
 
-// What of a test is looked at where the scene does not say.
+// Default figures of the tests in a path.
 std::vector<std::string> usual_figures(const std::vector<Segment>& segments) {
   std::vector<std::string> figures;
   const auto add = [&](const char* name) {

@@ -15,7 +15,7 @@
 namespace verification {
 namespace {
 
-// Beyond them somebody is more likely to have mixed up units than to mean it.
+// Values beyond these bounds are more likely mistaken units than meant.
 constexpr double least_stiffness = 30, most_stiffness = 1e7;  // kn / p [-]
 constexpr double least_pressure = 1, most_pressure = 1e9;     // [Pa]
 constexpr double most_friction = 1.5;                         // tan(56 degrees) [-]
@@ -62,7 +62,7 @@ double mean_diameter(const Snapshot& snapshot) {
   return 2 * sum / static_cast<double>(snapshot.size());
 }
 
-// Where the diagonal of a tensor is among its components.
+// Indices of the diagonal among a tensor's components.
 std::vector<std::size_t> diagonal(int dimension) {
   return dimension == 3 ? std::vector<std::size_t>{0, 4, 8} : std::vector<std::size_t>{0, 3};
 }
@@ -112,7 +112,7 @@ PackingStart look_at_start(const grainlaw_state* state, const MaterialSource& so
 }
 
 std::vector<std::string> far_targets(const PackingStart& start, const std::vector<Segment>& path) {
-  constexpr double far = 100;  // times the pressure, or a hundredth
+  constexpr double far = 100;  // ratio to the pressure, or its inverse
   std::vector<std::string> texts;
   for (const Segment& segment : path)
     for (const std::size_t k : diagonal(start.dimension)) {

@@ -1,5 +1,4 @@
-// What a packing is like before its path begins: what is unusual in it, and what a failure near the
-// start says of it.
+// State of a packing before its path: unusual values, and causes of failures near the start.
 #pragma once
 
 #include "app/material.hpp"
@@ -11,40 +10,41 @@
 
 namespace verification {
 
-// Whether contacts of the material hold in tension.
+// Whether contacts of the material bear tension.
 bool carries_tension(const MaterialSource& source);
 
 struct PackingStart {
   int dimension = 2;
-  int particles = 0;      // all copies of a frame
-  double pressure = 0;    // mean, of the Cauchy stress at F = I [Pa]
-  double stiffness = 0;   // kn / (pressure x thickness), of spheres x mean diameter, kn the mean of
-                          // the contacts; Hertz-Mindlin: their secant; 0 without pressure [-]
+  int particles = 0;      // including copies of a frame
+  double pressure = 0;    // mean pressure of the Cauchy stress at F = I [Pa]
+  double stiffness = 0;   // kn / (pressure x thickness), of spheres x mean diameter, with kn the
+                          // contacts' mean, secant of Hertz-Mindlin; 0 without pressure [-]
   double void_ratio = 0;  // [-]
-  double overlap = 0;     // mean, of the contacts' mean radius [-]
+  double overlap = 0;     // mean overlap over the contacts' mean radius [-]
   std::vector<std::string> unusual;  // one text each
 
-  // "mean pressure 1e+05 Pa, kn/p 300 [-], void ratio 0.2 [-]", and the same with
-  // ", mean overlap 0.5 % of a radius; unusual: ..."
+  // brief(): "mean pressure 1e+05 Pa, kn/p 300 [-], void ratio 0.2 [-]". The full text adds ", mean
+  // overlap 0.5 % of a radius; unusual: ...".
   [[nodiscard]] std::string brief() const;
   [[nodiscard]] std::string text() const;
 };
 
-// Of a state at its start. Writes and removes files that begin with `stem`. Throws ComputationError.
+// Measures of a state at its start. Writes and removes files that begin with `stem`. Throws
+// ComputationError.
 PackingStart look_at_start(const grainlaw_state* state, const MaterialSource& source,
                            const std::filesystem::path& stem);
 
-// What of a path goes far from where the packing starts, one text each.
+// Targets of a path that lie far from the start of the packing, one text each.
 std::vector<std::string> far_targets(const PackingStart& start, const std::vector<Segment>& path);
 
-// Tells what is unusual on stderr.
+// Prints unusual values to stderr.
 void warn(const std::string& name, const PackingStart& start);
-// One line on stdout, "NAME: starts at mean pressure ...", and what is unusual.
+// Prints one line, "NAME: starts at mean pressure ...", and unusual values to stdout.
 void tell_start(const std::string& name, const PackingStart& start);
 
-// What a failure in one of the first steps may come of, and what to try; "" after them.
+// Probable cause of a failure in one of the first steps, and its cure; "" after them.
 std::string why_at_start(const PackingStart& start, int steps_done, const std::string& to_try);
-// For a path: smaller steps, when these are large for contacts so stiff.
+// Cure of a path: smaller steps, when these are large for contacts so stiff.
 std::string smaller_steps(const PackingStart& start, const Segment& segment);
 
 }  // namespace verification

@@ -1,4 +1,4 @@
-// `grainlaw wave SCENE.toml`: a pulse through a specimen of particles, and through meshes of the same
+// `grainlaw wave SCENE.toml`: a pulse through a specimen of particles, and through meshes of its
 // representative volumes.
 
 #include "app/cases.hpp"
@@ -71,7 +71,7 @@ bool draw_case(const WaveCase& one, const std::vector<WaveRun>& runs,
   return draw(figure, stem);
 }
 
-// Particles first: meshes are compared with them as they finish.
+// Runs the particles first; each mesh is compared with them as it finishes.
 void run_case(const WaveCase& one, const std::string& directory) {
   const auto stem = output_stem(directory, one.name);
   const WaveDomain domain = wave_domain(one);
@@ -87,7 +87,7 @@ void run_case(const WaveCase& one, const std::string& directory) {
   CsvWriter table(stem.string() + "_cost.csv", columns);
   Written written(stem);
   written.add("_cost.csv");
-  // Tells of a run, and whether it is whole.
+  // Prints a run; returns whether it is complete.
   const auto finish = [&](const WaveRun& run) {
     const bool particles = run.points == 0;
     const std::string end = particles ? "_dns.csv" : "_fe" + run.name + ".csv";

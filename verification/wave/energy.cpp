@@ -1,4 +1,4 @@
-// Energies of particles in motion, and what of the motion is of cross-sections.
+// Energies of moving particles, and the part of the cross-sections' mean motion.
 
 #include "contact/contact_point.hpp"
 #include "wave/motion.hpp"
@@ -8,7 +8,7 @@
 
 namespace verification {
 
-// By the place at rest, so that nodes do not change over.
+// Assigns nodes to cross-sections by their position at rest, which keeps them there.
 void WaveMotion::find_slices(double width, Slices& slices) const {
   const double left = specimen_->right_end() - specimen_->length;
   const auto last = static_cast<std::size_t>(specimen_->length / width) + 2;
@@ -22,7 +22,7 @@ void WaveMotion::find_slices(double width, Slices& slices) const {
   }
 }
 
-// Velocities at the present positions, with `half_step` half a time step; 0: as they are stored.
+// Adds velocities at the present positions, with `half_step` half a time step; 0: as stored.
 void WaveMotion::add_to_slices(double half_step, Slices& slices) const {
   slices.velocity.assign(slices.mass.size(), {});
   for (std::size_t q = 0; q < mass_.size(); ++q) {
@@ -65,7 +65,7 @@ WaveEnergy WaveMotion::energy(double slice) const {
   energy.dissipated = dissipated_;
   energy.stored = grainlaw::core::stored_energy(list_, coordinates(), particles_.size(), law_);
   for (std::size_t q = 0; q < mass_.size(); ++q) {
-    // Velocities half a step before and behind the positions: their product is what is conserved.
+    // The product of velocities half a step before and after the positions is conserved.
     const auto& v = velocity_[q];
     const auto& f = forces_[q];
     const auto& w = inverse_mass_[q];

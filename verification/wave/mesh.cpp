@@ -1,4 +1,4 @@
-// The meshes' side of a wave run: one row of elements with one point each, as the thesis has them.
+// Meshes of a wave run: one row of elements with one point each, as in the thesis.
 
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
@@ -31,7 +31,7 @@ Model make_model(const WaveCase& one, const WaveDomain& domain, int divisions) {
   return model;
 }
 
-// Nodes of the bottom and the top go together, from left to right.
+// Gauges of a mesh; nodes of bottom and top are paired, from left to right.
 class MeshGauges {
  public:
   MeshGauges(const WaveCase& one, const WaveDomain& domain, const Mesh& mesh)
@@ -69,7 +69,7 @@ class MeshGauges {
     return (1 - share) * value(k) + share * value(k + 1);
   }
 
-  // Mean P22 of the elements, by how much of them lies in the window.
+  // Mean P22 of the elements, weighted by their part in the window.
   [[nodiscard]] double stress_in(double from, double to, const Solver& solver) const {
     const PointField& points = solver.points();
     double sum = 0;
@@ -103,7 +103,7 @@ WaveRun run_mesh(const WaveCase& one, const WaveDomain& domain, int divisions) {
   const int finest = *std::max_element(one.divisions.begin(), one.divisions.end());
   const double row_time = one.duration / static_cast<double>(one.rows);
   const double longest = one.mesh_time_step * finest / divisions;
-  // Rows are whole numbers of time steps apart.
+  // Rows are a whole number of time steps apart.
   run.time_step = row_time / std::ceil(row_time / longest - 1e-9);
   DynamicsOptions options;
   options.duration = one.duration;

@@ -17,7 +17,7 @@ using ForceRecord = grainlaw::core::ForceRecord<2>;
 
 namespace {
 
-constexpr double gap_in_radii = 0.5;  // wide, so that a passing wave does not list at every turn
+constexpr double gap_in_radii = 0.5;  // so wide that a passing wave seldom renews the list
 
 }  // namespace
 
@@ -79,7 +79,7 @@ void WaveMotion::list_contacts() {
   const std::vector<double> z = coordinates();
   for (std::size_t p = 0; p < n; ++p) listed_[p] = {z[p], z[n + p]};
   search_.find(n, z.data(), specimen_->radius.data(), nullptr, gap_, pairs_);
-  if (law_.bonds()) {  // hold however far they are stretched
+  if (law_.bonds()) {  // bonds bear at any distance
     const auto before = [](const auto& a, const auto& b) {
       return std::tie(a.i, a.j) < std::tie(b.i, b.j);
     };
@@ -110,7 +110,7 @@ void WaveMotion::keep_list() {
   }
   if (!std::isfinite(largest)) throw ComputationError("a particle has left all bounds");
   if (4 * largest <= gap_ * gap_) return;
-  // The list starts from where the particles are: its contacts become the history.
+  // The new list's contacts start with the present history.
   history_.clear();
   moments_.clear();
   const bool keeps_gaps = !gaps_.empty();
@@ -133,7 +133,7 @@ void WaveMotion::find_forces() {
   if (law_.bonds()) break_bonds();
 }
 
-// Bonds beyond their strength break where the particles are, and the forces are found again.
+// Breaks bonds beyond their capacity at the present positions, and computes the forces again.
 void WaveMotion::break_bonds() {
   const grainlaw::core::Bond& bond = law_.bond;
   std::vector<std::size_t> broken;
@@ -166,7 +166,7 @@ void WaveMotion::break_bonds() {
 
 void WaveMotion::settle() {
   constexpr long most_steps = 50000;
-  // A thousandth of the forces of a strain of 1 %.
+  // Tolerance: a thousandth of the forces at a strain of 1 %.
   const double r = specimen_->mean_radius();
   const double rest = 1e-5 * law_.stiffness(r, r) * r;
   double largest = 0;
@@ -175,7 +175,7 @@ void WaveMotion::settle() {
     for (std::size_t q = 0; q < velocity_.size(); ++q) {
       const ForceRecord &f = forces_[q], &w = inverse_mass_[q];
       ForceRecord& v = velocity_[q];
-      // What moves against its force stops.
+      // Zeroes the velocity of what moves against its force.
       const auto move = [&](double& velocity, double force, double by_mass) {
         if (by_mass == 0) return;
         largest = std::max(largest, std::abs(force));
@@ -234,7 +234,7 @@ void WaveMotion::move_particles() {
   }
 }
 
-// Of the contacts, in x.
+// Contact forces on the right end in x.
 double WaveMotion::force_on_right_end() const {
   double sum = 0;
   for (const std::size_t p : right_)
@@ -260,15 +260,15 @@ int WaveMotion::touching() const {
   return count;
 }
 
-// Stiffness of all listed contacts, whether they touch or not.
+// Stiffness of all listed contacts, touching or not.
 void WaveMotion::find_largest_time_step() {
   const std::size_t n = velocity_.size();
   std::vector<double> translation(n, 0), rotation(n, 0);
   for (std::size_t c = 0; c < list_.size(); ++c) {
     const double kn = list_.normal_stiffness[c], kt = list_.tangential_stiffness[c];
     const double kr = list_.bending_stiffness.empty() ? 0 : list_.bending_stiffness[c];
-    // A row of |K|: twice the normal and tangential stiffness to itself and the neighbour, kt to
-    // both rotations as R theta.
+    // A row of |K|: twice the normal and tangential stiffness for a node and its neighbour, kt for
+    // both rotations R theta.
     for (const std::int32_t end : {list_.i[c], list_.j[c]}) {
       const auto p = static_cast<std::size_t>(end);
       const double r = specimen_->radius[p];

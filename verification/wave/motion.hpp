@@ -1,5 +1,5 @@
-// The particles of a specimen in motion (Liu's thesis, eq. 4.21): explicit integration with the
-// contact laws of the library, without damping.
+// Motion of a specimen's particles (Liu's thesis, eq. 4.21): explicit integration with the contact
+// laws of the library, without damping.
 #pragma once
 
 #include "contact/contact_list.hpp"
@@ -13,51 +13,51 @@
 
 namespace verification {
 
-// Energies of the specimen; work + stored at the start = kinetic + stored + dissipated.
+// Energies of the specimen: work + stored at the start = kinetic + stored + dissipated.
 struct WaveEnergy {
-  double work = 0;        // done by the right end since the start [J]
+  double work = 0;        // by the right end since the start [J]
   double kinetic = 0;     // [J]
-  double coherent = 0;    // of it, in the mean motion of cross-sections [J]
+  double coherent = 0;    // kinetic energy of the mean motion of cross-sections [J]
   double stored = 0;      // in contacts [J]
   double dissipated = 0;  // by friction, broken bonds and damping [J]
 };
 
-// Damping that single grains feel and waves do not: the velocity of every particle decays towards
-// the mean of its cross-section at this rate. Momentum is conserved.
+// Damping of single grains that leaves waves alone. The velocity of each particle decays to the
+// mean of its cross-section at this rate; momentum is conserved.
 struct AgitationDamping {
   double rate = 0;   // [1/s]
   double slice = 0;  // width of cross-sections [m]
 };
 
-// First-order finite differences as in eqs. 4.18-4.20, which are central ones with velocities half a
-// step behind: accelerations from the positions, velocities from the accelerations, positions from
-// the velocities.
+// Finite differences of first order, eqs. 4.18-4.20: accelerations from positions, velocities from
+// accelerations, positions from velocities. They equal central differences with velocities half a
+// step behind.
 class WaveMotion {
  public:
-  // Throws InputError when the time step [s] is beyond the limit of stability.
+  // Throws InputError when the time step [s] exceeds the limit of stability.
   WaveMotion(const WaveSpecimen& specimen, const grainlaw::core::ContactLaw& law, double time_step);
 
-  // One time step; at its end the right end stands at this displacement [m]. Throws
-  // ComputationError when positions are lost.
+  // Advances one time step, after which the right end has this displacement [m]. Throws
+  // ComputationError for a position that is not finite.
   void step(double end_displacement);
 
-  // Bring to rest what the supports left unbalanced, before the first step. Throws ComputationError
-  // when that takes too long.
+  // Relaxes forces that the supports left unbalanced, before the first step. Throws
+  // ComputationError when that takes too long.
   void settle();
   void damp(const AgitationDamping& damping) { damping_ = damping; }
 
   [[nodiscard]] const WaveSpecimen& specimen() const { return *specimen_; }
-  [[nodiscard]] double displacement(std::size_t p) const {  // in x, since it was at rest [m]
+  [[nodiscard]] double displacement(std::size_t p) const {  // in x, relative to rest [m]
     return particles_[p].x - rest_[p];
   }
-  // Sums of the contact forces on every particle in y, copies apart [N].
+  // Contact forces in y on every particle, copies counted separately [N].
   [[nodiscard]] std::vector<double> vertical_forces() const;
-  // Cross-sections are `slice` wide [m].
+  // Energies, with cross-sections `slice` wide [m].
   [[nodiscard]] WaveEnergy energy(double slice) const;
   [[nodiscard]] int touching() const;
 
  private:
-  // Mean velocities of cross-sections, and which one a particle is in.
+  // Mean velocities of cross-sections, and the cross-section of each node.
   struct Slices {
     std::vector<std::array<double, 2>> velocity;
     std::vector<double> mass;
@@ -73,7 +73,7 @@ class WaveMotion {
   [[nodiscard]] std::size_t node(std::size_t p) const {
     return static_cast<std::size_t>(specimen_->node[p]);
   }
-  // A bound of the largest stable time step [s]: 2 / the largest of the frequencies by Gershgorin.
+  // Lower bound of the largest stable time step [s]: 2 over a Gershgorin bound of the frequencies.
   void find_largest_time_step();
   void find_slices(double width, Slices& slices) const;
   void add_to_slices(double half_step, Slices& slices) const;
@@ -83,19 +83,19 @@ class WaveMotion {
   grainlaw::core::ContactLaw law_;
   double time_step_;
   AgitationDamping damping_;
-  Slices slices_;  // of the damping
-  double gap_;     // neighbours are listed within it [m]
+  Slices slices_;  // cross-sections of the damping
+  double gap_;     // largest gap of listed neighbours [m]
   double end_ = 0;
   double work_ = 0, dissipated_ = 0, largest_time_step_ = 0;
   std::vector<grainlaw::core::ParticleRecord<2>> particles_;
-  // Of the nodes; roll: R theta.
+  // Forces, velocities and inverse masses of nodes; `roll` is R theta.
   std::vector<grainlaw::core::ForceRecord<2>> forces_, velocity_, inverse_mass_;
   std::vector<double> mass_;              // of the nodes [kg]
-  std::vector<std::size_t> particle_of_;  // one of each node
+  std::vector<std::size_t> particle_of_;  // one particle of each node
   std::vector<std::array<double, 2>> listed_;
-  std::vector<double> rest_;  // x where the wave starts [m]
+  std::vector<double> rest_;  // x at rest, before the wave [m]
   std::vector<std::size_t> right_;
-  // What the next list starts from.
+  // Contact history from which the next list starts.
   std::vector<grainlaw::core::ContactHistory<2>> history_;
   std::vector<double> moments_, gaps_;
   grainlaw::core::NeighbourSearch<2> search_;

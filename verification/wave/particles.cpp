@@ -1,4 +1,4 @@
-// The particles' side of a wave run: from a material to the rows of a table.
+// Particles of a wave run: from a material to the rows of a table.
 
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
@@ -30,7 +30,7 @@ std::shared_ptr<const grainlaw::core::Material<2>> inner_material(const Material
   }
 }
 
-// Particles near a place, counted from the right end.
+// Particles between two distances from the right end.
 std::vector<std::size_t> particles_in(const WaveSpecimen& specimen, double from, double to) {
   const double end = specimen.right_end();
   std::vector<std::size_t> found;
@@ -65,7 +65,7 @@ class Gauges {
     }
   }
 
-  // Means over the cross-section, by mass; the sum of the forces on the top supports.
+  // Reads mass-weighted means over cross-sections, and forces on the top supports.
   void read(const WaveMotion& motion, WaveRow& row) const {
     for (const auto& section : sections_) {
       double mass = 0, sum = 0;

@@ -1,4 +1,4 @@
-// What a wave run writes down, of particles and of meshes alike.
+// Results of a wave run, for particles and meshes.
 #pragma once
 
 #include "wave/scene.hpp"
@@ -12,7 +12,7 @@
 
 namespace verification {
 
-// Processor and elapsed time since it was made.
+// Processor and elapsed time since construction.
 class CostClock {
  public:
   CostClock();
@@ -28,13 +28,13 @@ struct WaveRow {
   double time = 0;                   // [s]
   double end = 0;                    // displacement of the right end, inwards [m]
   std::vector<double> displacement;  // at the sections, inwards [m]
-  std::vector<double> stress;        // normal to the top, in the windows, tension positive [Pa]
-  double work = 0;                   // done by the right end [J]
+  std::vector<double> stress;        // normal to the top in the windows, tension positive [Pa]
+  double work = 0;                   // by the right end [J]
   double kinetic = 0;                // [J]
-  double coherent = 0;               // of it, in the mean motion of cross-sections [J]
-  double stored = 0;                 // in contacts, more than at the start [J]
-  double dissipated = 0;  // by friction, broken bonds, damping; of meshes all but stored [J]
-  double contacts = 0;    // that touch; of meshes the mean of a point
+  double coherent = 0;               // kinetic energy of the mean motion of cross-sections [J]
+  double stored = 0;                 // in contacts, relative to the start [J]
+  double dissipated = 0;  // by friction, broken bonds, damping; meshes: all but stored [J]
+  double contacts = 0;    // touching contacts; meshes: mean per point
 };
 
 struct WaveRun {
@@ -46,13 +46,13 @@ struct WaveRun {
   double cpu = 0;        // of all threads [s]
   double wall = 0;       // [s]
   std::vector<WaveRow> rows;
-  std::exception_ptr stopped;  // by an error or Interrupted; the rows are those before
+  std::exception_ptr stopped;  // error or Interrupted; rows are those before
 
-  // Why it was stopped, empty when it was not.
+  // Reason of an early end; empty without one.
   [[nodiscard]] std::string reason() const;
 };
 
-// Calls lead(), and keeps what ends it early.
+// Calls lead() and stores the exception that ends it early.
 template <class Lead>
 void lead_wave(WaveRun& run, Lead&& lead) {
   const CostClock cost;
@@ -65,22 +65,22 @@ void lead_wave(WaveRun& run, Lead&& lead) {
   run.wall = cost.wall();
 }
 
-// The particles (wave/motion.hpp), made of the material's representative volumes.
+// Runs the particles (wave/motion.hpp), built from the material's representative volumes.
 WaveRun run_particles(const WaveCase& one);
 
-// What a mesh has to know of the particles' specimen.
+// Data of the particles' specimen that a mesh needs.
 struct WaveDomain {
   double length = 0, height = 0, thickness = 0;  // [m]
   double density = 0;                            // [kg/m3]
-  double volume = 0;                             // of a representative volume [m3]
-  std::size_t particles = 0;                     // in one
+  double volume = 0;                             // of one representative volume [m3]
+  std::size_t particles = 0;                     // per representative volume
 };
 WaveDomain wave_domain(const WaveCase& one);
 
-// Finite elements, `divisions` along x and one over the height (wave_mesh.cpp).
+// Runs finite elements, `divisions` along x and one over the height (wave_mesh.cpp).
 WaveRun run_mesh(const WaveCase& one, const WaveDomain& domain, int divisions);
 
-// Times at which rows are written are step numbers nearest to an even division.
+// Clock of table rows: the steps nearest to an even division of time.
 class RowClock {
  public:
   RowClock(long steps, std::size_t rows) : steps_(steps), rows_(static_cast<long>(rows)) {}
@@ -94,9 +94,9 @@ class RowClock {
 
 void write_rows(const WaveRun& run, const WaveCase& one, const std::filesystem::path& path);
 
-// Difference of displacements at section k, over the rows of `run`, relative to the amplitude.
+// Difference of the displacements at section k from those of `run`, over the amplitude.
 struct WaveError {
-  double largest = 0, mean_square = 0;  // [-]; the latter under the root
+  double largest = 0, mean_square = 0;  // [-]; mean_square is the root of the mean square
 };
 WaveError difference(const WaveRun& run, const WaveRun& reference, std::size_t section,
                      double amplitude);

@@ -17,7 +17,7 @@ namespace {
 using Configuration = grainlaw::core::Configuration<2>;
 using grainlaw::core::Packing;
 
-// Which sides a particle of the representative volume is on.
+// Bits of the sides of a particle in the representative volume.
 enum Side : unsigned char { bottom = 1, top = 2, left = 4, right = 8 };
 
 std::vector<unsigned char> sides_of_frame(const Packing& packing) {
@@ -34,7 +34,7 @@ std::vector<unsigned char> sides_of_frame(const Packing& packing) {
   return side;
 }
 
-// Discs within a radius of the outermost centre; the right end has none of its own.
+// Sides of a cell: discs within a radius of the outermost centre; the right end has none.
 std::vector<unsigned char> sides_of_cell(const Packing& packing,
                                          const std::vector<double>& position) {
   const std::size_t n = packing.size();
@@ -54,7 +54,7 @@ std::vector<unsigned char> sides_of_cell(const Packing& packing,
   return side;
 }
 
-// The particles of the row of volumes: which one particle p of tile k is.
+// Numbering of the specimen's particles by particle p of tile k.
 class Numbering {
  public:
   Numbering(const Packing& packing, const std::vector<unsigned char>& side, std::size_t tiles)
@@ -79,14 +79,14 @@ class Numbering {
 
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-  // none: outside the specimen.
+  // Index of a particle; none: outside the specimen.
   [[nodiscard]] std::size_t at(std::ptrdiff_t tile, std::size_t p) const {
     if (tile < 0 || tile > static_cast<std::ptrdiff_t>(tiles_)) return none;
     const auto k = static_cast<std::size_t>(tile);
     if (left_twin_[p] != none && k + 1 < tiles_) return at(tile + 1, left_twin_[p]);
     return id_[k * n_ + p];
   }
-  // Whether the particle is stored as that of this tile.
+  // Whether the particle is stored with this tile.
   [[nodiscard]] bool owned(std::size_t tile, std::size_t p) const {
     return id_[tile * n_ + p] != none;
   }
@@ -130,7 +130,7 @@ void place_particles(const grainlaw::core::Material<2>& material, const Numberin
     }
 }
 
-// Copies on the top move with their originals on the bottom.
+// Copies on the top share the node of their originals on the bottom.
 void join_copies(const Packing& packing, const Numbering& numbering, WaveSpecimen& specimen) {
   std::vector<int> original(specimen.size());
   std::iota(original.begin(), original.end(), 0);
@@ -171,7 +171,7 @@ void place_contacts(const grainlaw::core::Material<2>& material, const Numbering
       const std::size_t j = numbering.at(tile + (material.packing.frame ? 0 : contact.shift[0]),
                                          static_cast<std::size_t>(contact.j));
       if (across || i == Numbering::none || j == Numbering::none) continue;
-      // Seen from the other side the moment turns round, the tangential component stays.
+      // Seen from j, the moment is reversed and the tangential component stays.
       double moment = initial.moments.empty() ? 0 : initial.moments[c];
       if (i > j) moment = -moment;
       contact.i = static_cast<std::int32_t>(std::min(i, j));

@@ -1,4 +1,4 @@
-// A specimen of particles for waves: representative volumes side by side, with the same particles,
+// A specimen of particles for waves: representative volumes in a row, with their particles,
 // contacts and bonds, supported as in Liu's thesis (2018), figure 4.1.
 #pragma once
 
@@ -13,26 +13,25 @@
 
 namespace verification {
 
-// Bits of WaveSpecimen::held: directions in which a particle does not move by the forces on it.
+// Bits of WaveSpecimen::held: supported directions of a particle.
 enum Held : unsigned char { held_x = 1, held_y = 2, held_rotation = 4 };
 
-// Particles of the left end are held, those of the right end move with the pulse; bottom and top
-// are supported in y. When a frame's bottom and top are copies of each other, the specimen is a slice
-// of a layer without end, as its representative volumes are: copies share their motion, and each has
-// half of the mass and of the contacts along its side. When its material counts contacts whole
-// (contact_weight = "one"), bottom and top are free surfaces but for their supports.
+// A specimen whose left end is supported and whose right end follows the pulse; bottom and top are
+// supported in y. When bottom and top of a frame are copies, the specimen is a slice of an infinite
+// layer. Copies then share their motion, and each has half of the mass and of the contacts along
+// its side. With contact_weight = "one" bottom and top are free surfaces apart from their supports.
 struct WaveSpecimen {
   std::vector<double> position;  // component-major [m]
   std::vector<double> radius;    // [m]
   std::vector<double> mass;      // [kg]
   std::vector<int> node;         // particles of the same node move together
   std::size_t nodes = 0;
-  std::vector<unsigned char> held;  // bits of Held
-  std::vector<char> right;          // on the right end
+  std::vector<unsigned char> held;  // bits of Held: supported directions
+  std::vector<char> right;          // 1: on the right end
   std::vector<unsigned char> side;  // 1: on the bottom, 2: on the top
-  // What the contacts start from, ordered by (i, j).
+  // Initial contact histories, ordered by (i, j).
   std::vector<grainlaw::core::ContactHistory<2>> contacts;
-  std::vector<double> moments;  // empty for laws without
+  std::vector<double> moments;  // empty for laws without moments
   std::vector<double> gaps;     // empty unless bonds span gaps
   bool shared = false;          // bottom and top are copies that move together
   double length = 0;            // between the ends [m]
@@ -41,18 +40,18 @@ struct WaveSpecimen {
   std::size_t tiles = 0;
 
   [[nodiscard]] std::size_t size() const { return radius.size(); }
-  [[nodiscard]] double right_end() const;    // x there [m]
+  [[nodiscard]] double right_end() const;    // x of the right end [m]
   [[nodiscard]] double mean_radius() const;  // [m]
-  // Of the contact between two particles: 1/2 along a side that is shared.
+  // Weight of the contact between two particles: 1/2 along a shared side.
   [[nodiscard]] double weight(std::size_t i, std::size_t j) const {
     return shared && (side[i] & side[j]) != 0 ? 0.5 : 1;
   }
 };
 
-// `tiles` representative volumes of the material in a row along x, in their equilibrium at F = I.
-// Of a frame the sides are its own; of a periodic cell the discs within a radius of the outermost
-// centre, and the right end repeats the left one. Throws InputError for cells that are not
-// rectangular.
+// Repeats the material's representative volume `tiles` times along x, in its equilibrium at F = I.
+// Sides of a frame are its own. Sides of a periodic cell are the discs within a radius of the
+// outermost centre, and the right end repeats the left one. Throws InputError for a cell that is
+// not rectangular.
 WaveSpecimen repeat_along_x(const grainlaw::core::Material<2>& material, std::size_t tiles);
 
 // Mass of the representative volume over its volume [kg/m3], eq. 4.2.

@@ -5,7 +5,7 @@
 namespace verification {
 namespace {
 
-// The nodes that are farthest apart on a tie that turns.
+// The two nodes farthest apart on a rotating tie.
 std::pair<std::size_t, std::size_t> ends(const Tie& tie) {
   const auto [low, high] = std::minmax_element(tie.arms.begin(), tie.arms.end());
   return {static_cast<std::size_t>(low - tie.arms.begin()),

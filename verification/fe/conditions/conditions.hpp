@@ -16,44 +16,44 @@ struct PrescribedDisplacement {
   int component = 0;
   Program value;           // [m]
   std::string name;        // for tables, e.g. "top_y"
-  std::string set = {};    // the nodes' set
-  std::string place = {};  // in the scene, for messages
+  std::string set = {};    // set of the nodes
+  std::string place = {};  // place in the scene, for messages
 };
 
-// The nodes move by the same amount in this component, as if glued to a rigid smooth plate. As part
-// of a platen they may be prescribed, all together. A platen on a hinge turns as well, by a small
-// angle: u = motion of the hinge + angle * arm, and no moment acts on it.
+// Nodes with equal displacement in this component, as on a rigid smooth plate. In a platen they may
+// be prescribed together. A platen on a hinge also rotates by a small angle: u = displacement of
+// the hinge + angle * arm, with no moment on it.
 struct Tie {
   std::vector<int> nodes;
   int component = 0;
   std::string set = {};
   std::string place = {};
   bool platen = false;
-  std::vector<double> arms = {};  // of the nodes about the hinge, signed so that angles are
-                                  // anticlockwise [m]; empty: it does not turn
+  std::vector<double> arms = {};  // from the hinge, anticlockwise [m]; empty: no rotation
 };
 
-// Nodes with weights: what they stand for is the weighted sum of a displacement component.
+// Nodes with weights: a weighted sum of a displacement component.
 using Weights = std::vector<std::pair<int, double>>;
 
-// Motion of the hinge, or of any node where nothing turns; and the angle of a tie that turns [rad].
+// Weights of the hinge's displacement, or of any node where nothing rotates; and of the angle of a
+// rotating tie [rad].
 Weights hinge_weights(const Tie& tie);
 Weights angle_weights(const Tie& tie);
 
 // u(second) = u(first) + jump for every pair of nodes.
 struct Periodic {
   std::vector<std::pair<int, int>> pairs;
-  std::array<std::optional<Program>, 2> jump;  // [m], without: 0
+  std::array<std::optional<Program>, 2> jump;  // [m]; absent: 0
   std::string name;                            // for tables, e.g. "left_right"
   std::string place = {};
 };
 
-// Total force on nodes that move together in this component, per metre of thickness [N/m].
+// Total force on the nodes of a tie in this component, per metre of thickness [N/m].
 struct Resultant {
   std::string set;
   int component = 0;
   Program value;
-  Weights nodes;  // that carry it
+  Weights nodes;  // nodes that carry it
   std::string place = {};
 };
 

@@ -16,7 +16,7 @@ std::vector<std::string_view> names(const Sets& sets) {
   return result;
 }
 
-// The name of a set that the mesh has.
+// Name of a set of the mesh.
 template <class Sets>
 std::string read_set(SceneTable& table, const Sets& sets) {
   const std::string set = table.text("on");
@@ -51,7 +51,7 @@ void read_tie(SceneTable& table, Model& model) {
   model.ties.push_back({model.mesh.node_sets[set], component, set, table.place(), false});
 }
 
-// The direction in which the nodes do not extend, 0 or 1; -1: there is none.
+// Direction in which the nodes do not extend, 0 or 1; -1: none.
 int normal_component(const Mesh& mesh, const std::vector<int>& nodes) {
   Eigen::Vector2d low = mesh.nodes[static_cast<std::size_t>(nodes.front())], high = low;
   for (const int node : nodes) {
@@ -65,7 +65,7 @@ int normal_component(const Mesh& mesh, const std::vector<int>& nodes) {
   return -1;
 }
 
-// Of the nodes about the hinge, by default the middle of the platen.
+// Arms of the nodes about the hinge, by default the middle of the platen.
 std::vector<double> read_arms(SceneTable& table, const Mesh& mesh, const std::vector<int>& nodes,
                               int normal) {
   const int along = 1 - normal;
@@ -101,7 +101,7 @@ void read_platen(SceneTable& table, Model& model) {
           {nodes, i, set, table.place(), true, i == normal ? arms : std::vector<double>{}});
 }
 
-// Partners of the nodes of the first set: those of the second, all shifted by the same vector.
+// Partners of the first set's nodes in the second, all shifted by one vector.
 std::vector<std::pair<int, int>> match(SceneTable& table, const Mesh& mesh,
                                        const std::vector<int>& first,
                                        const std::vector<int>& second) {
@@ -112,7 +112,7 @@ std::vector<std::pair<int, int>> match(SceneTable& table, const Mesh& mesh,
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();
   for (std::size_t k = 0; k < first.size(); ++k) shift += place(second[k]) - place(first[k]);
   shift /= static_cast<double>(first.size());
-  constexpr double close = 1e-6;  // of the shift
+  constexpr double close = 1e-6;  // relative to the shift
   std::vector<std::pair<int, int>> pairs;
   for (const int node : first) {
     const auto partner = std::find_if(second.begin(), second.end(), [&](int other) {

@@ -69,7 +69,7 @@ std::size_t dof(int node, int component) { return static_cast<std::size_t>(2 * n
                                component_name(component), node + 1, found, expected));
 }
 
-// Links everything that the conditions say, one kind after the other.
+// Links all conditions, one kind after the other.
 class Linker {
  public:
   Linker(const Model& model, std::vector<Program>& programs)
@@ -77,7 +77,7 @@ class Linker {
         prescribed_by_(ground_, nullptr),
         tied_by_(ground_, nullptr),
         linkage_(ground_, programs) {
-    // Every program is there before the linkage looks at one.
+    // Collects all programs first, since the linkage refers to them.
     for (const auto& condition : model.displacements) programs.push_back(condition.value);
     for (const auto& condition : model.periodics)
       for (const auto& jump : condition.jump)
@@ -110,7 +110,7 @@ class Linker {
         refuse(tie.place, node, tie.component,
                fmt::format("bound by {} already", tied_by_[d]->place), "one tie or platen for it");
       tied_by_[d] = &tie;
-      // A platen that keeps its direction moves as the condition on any part of it says.
+      // A platen without rotation follows the condition on any of its nodes.
       const PrescribedDisplacement* other = prescribed_by_[d];
       const bool follows = tie.platen && (tie.arms.empty() || (other && other->set == tie.set));
       if (other != nullptr && !follows)
@@ -161,7 +161,7 @@ Dofs number_dofs(const Model& model) {
   Dofs dofs;
   const Linker linker(model, dofs.programs);
   const std::size_t ground = linker.ground();
-  std::vector<int> number(ground, -1);  // of the roots
+  std::vector<int> number(ground, -1);  // number of each root
   for (std::size_t d = 0; d < ground; ++d) {
     const auto [root, offset] = linker.linkage().find(d);
     if (root != ground && number[root] < 0) number[root] = dofs.unknowns++;

@@ -1,4 +1,4 @@
-// The unknowns of a finite element model: what is left of its displacement components.
+// The unknowns of a finite element model.
 #pragma once
 
 #include "fe/conditions/linkage.hpp"
@@ -11,28 +11,28 @@ namespace verification {
 
 struct Model;
 
-// Displacement components are numbered dof = 2 * node + component. Each is the value of one unknown
-// or of none, plus programs of prescribed displacements and jumps; tied components share an unknown.
-// Those of a platen that turns follow its angle too.
+// Displacement components are numbered dof = 2 * node + component. Each is at most one unknown plus
+// programs of prescribed displacements and jumps; tied components share an unknown. Those of a
+// rotating platen also depend on its angle.
 struct Dofs {
   struct Turn {
-    int angle = -1;  // number of its unknown, -1: none
+    int angle = -1;  // index of its unknown, -1: none
     double arm = 0;  // [m]
   };
 
   struct Prescribed {
     int dof;
-    std::size_t program;  // entry of `programs`
+    std::size_t program;  // index in `programs`
     double factor;
   };
 
-  std::vector<int> unknown;  // [dofs] number of its unknown, -1: none
+  std::vector<int> unknown;  // [dofs] index of the unknown, -1: none
   std::vector<Turn> turn;    // [dofs]
   std::vector<Prescribed> prescribed;
   std::vector<Program> programs;  // [m]
   int unknowns = 0;
 
-  // Calls visit(unknown, factor) for every unknown that the component follows.
+  // Calls visit(unknown, factor) for every unknown of the component.
   template <class Visit>
   void follow(std::size_t dof, Visit&& visit) const {
     if (unknown[dof] >= 0) visit(unknown[dof], 1.0);
@@ -41,21 +41,20 @@ struct Dofs {
 
   // Values of the unknowns as a field over all components, programs zero.
   [[nodiscard]] Eigen::VectorXd expand(const Eigen::VectorXd& reduced) const;
-  // Forces on the unknowns: the sum over the components that follow each.
+  // Forces on the unknowns: sums over the components of each.
   [[nodiscard]] Eigen::VectorXd reduce(const Eigen::VectorXd& full) const;
   // Masses of the unknowns, from those of the components. Couplings between the two unknowns of a
-  // platen that turns are left out: there are none when its mass is centred on the hinge.
+  // rotating platen are dropped: they vanish when its mass is centred on the hinge.
   [[nodiscard]] Eigen::VectorXd reduce_mass(const Eigen::VectorXd& full) const;
   [[nodiscard]] bool masses_coupled(const Eigen::VectorXd& full) const;
-  // Programs at this time, unknowns zero [m].
+  // Values of the programs at this time, unknowns zero [m].
   [[nodiscard]] Eigen::VectorXd prescribed_at(double time) const;
 };
 
-// Throws InputError for conditions that contradict each other.
+// Numbers the unknowns. Throws InputError for contradictory conditions.
 Dofs number_dofs(const Model& model);
 
-// Throws InputError for a load on sides all of which are prescribed in its direction: it would do
-// nothing.
+// Throws InputError for a load that acts on prescribed components alone and thus does nothing.
 void check_loads_act(const Model& model, const Dofs& dofs);
 
 }  // namespace verification

@@ -17,7 +17,7 @@ void add(Offset& sum, const Offset& offset, double factor) {
   }
 }
 
-// Times between which a program is smooth, and some more within a sine and behind its end.
+// Times between which a program is smooth, and further ones in a sine and after its end.
 std::vector<double> sample_times(const Program& program) {
   std::vector<double> times;
   for (const auto& point : program.points) times.push_back(point[0]);
@@ -47,12 +47,12 @@ Linkage::Place Linkage::find(std::size_t member) const {
 bool Linkage::link(std::size_t follower, std::size_t leader, const Offset& offset) {
   const Place from = find(follower);
   const Place to = find(leader);
-  // u[from.root] + from.offset = u[to.root] + to.offset + offset
+  // u[from.root] + from.offset = u[to.root] + to.offset + offset.
   Offset difference = to.offset;
   add(difference, offset, 1);
   add(difference, from.offset, -1);
   if (from.root == to.root) return vanishes(difference);
-  if (from.root + 1 == parent_.size()) {  // the ground stays where it is
+  if (from.root + 1 == parent_.size()) {  // the ground stays a root
     parent_[to.root] = from.root;
     add(offset_[to.root], difference, -1);
   } else {
@@ -65,7 +65,7 @@ bool Linkage::link(std::size_t follower, std::size_t leader, const Offset& offse
 bool Linkage::vanishes(const Offset& offset) const {
   std::vector<double> times;
   for (const auto& entry : offset) {
-    if (programs_[entry.first].steered != nullptr) return false;  // who knows where it goes
+    if (programs_[entry.first].steered != nullptr) return false;  // its values are not known yet
     const std::vector<double> more = sample_times(programs_[entry.first]);
     times.insert(times.end(), more.begin(), more.end());
   }

@@ -1,4 +1,4 @@
-// Displacement components that follow each other, and whether what is said of them contradicts.
+// Displacement components that are linked by conditions, with a check for contradictions.
 #pragma once
 
 #include "fe/conditions/program.hpp"
@@ -9,18 +9,18 @@
 
 namespace verification {
 
-// A sum of programs: number of the program, factor. Empty: zero.
+// A sum of programs: index of the program, factor. Empty: zero.
 using Offset = std::map<std::size_t, double>;
 
-// Union-find over numbers 0..count-1 whose members differ by offsets, and the ground, number count,
-// which is always a root: what is prescribed follows it.
+// Union-find over numbers 0..count-1 whose members differ by offsets. The ground, number count, is
+// always a root: prescribed components follow it.
 class Linkage {
  public:
-  // The programs must outlive the linkage.
+  // `programs` must outlive the linkage.
   Linkage(std::size_t count, const std::vector<Program>& programs);
 
-  // From now on u[follower] = u[leader] + offset. False, and nothing is linked, when this
-  // contradicts what was said before; saying the same twice does not.
+  // Links u[follower] = u[leader] + offset. Returns false and links nothing when this contradicts
+  // earlier links; repeating a link does not.
   bool link(std::size_t follower, std::size_t leader, const Offset& offset);
 
   struct Place {
@@ -33,7 +33,7 @@ class Linkage {
   [[nodiscard]] bool vanishes(const Offset& offset) const;
 
   std::vector<std::size_t> parent_;
-  std::vector<Offset> offset_;  // to the parent
+  std::vector<Offset> offset_;  // offset to the parent
   const std::vector<Program>& programs_;
 };
 

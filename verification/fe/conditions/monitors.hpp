@@ -1,4 +1,4 @@
-// What tables tell of every condition on displacements: how it moves, and the force that it takes.
+// Monitors of displacement conditions: the displacement and force of each, for tables.
 #pragma once
 
 #include "fe/conditions/conditions.hpp"
@@ -17,8 +17,8 @@ struct Monitor {
   int component = 0;
   Weights motion;      // weighted sum of displacements
   Weights force;       // weighted sum of the forces on the nodes
-  int resultant = -1;  // entry of Model::resultants that loads the nodes
-  bool angle = false;  // an angle and a moment instead
+  int resultant = -1;  // index in Model::resultants of its load
+  bool angle = false;  // an angle and a moment
 };
 
 struct Monitored {
@@ -26,15 +26,16 @@ struct Monitored {
   double force;         // per metre of thickness [N/m], or moment [N]
 };
 
-// Of every prescribed displacement, every tie or platen, and every jump of periodic sides (there
-// the force that the first side exerts on the second), in this order; after a platen that turns
-// "NAME_hinge", its angle and the moment on it.
+// Monitors of every prescribed displacement, tie or platen, and jump of periodic sides, in this
+// order. The force of a jump is that of the first side on the second. A rotating platen has a
+// second monitor "NAME_hinge" for its angle and moment.
 std::vector<Monitor> make_monitors(const Model& model);
 
-// What the columns of a table are called: the motion and the force.
+// Column names of the displacement and the force.
 std::array<std::string, 2> columns(const Monitor& monitor);
 
-// imbalance: external minus internal (and inertial) nodal forces at this time [N/m].
+// Values of a monitor. imbalance: external minus internal (and inertial) nodal forces at this time
+// [N/m].
 Monitored monitored(const Monitor& monitor, const Model& model, double time,
                     const Eigen::VectorXd& displacement, const Eigen::VectorXd& imbalance);
 

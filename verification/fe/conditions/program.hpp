@@ -1,4 +1,4 @@
-// How a prescribed quantity goes over the time of a run.
+// A prescribed quantity as a function of time.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace verification {
 
-// amplitude sin(2 pi (time - start) / period) from `start` on for so many periods, zero elsewhere.
+// amplitude sin(2 pi (time - start) / period) for so many periods from `start`, zero elsewhere.
 struct Sine {
   double amplitude = 0;
   double period = 1;
@@ -17,7 +17,7 @@ struct Sine {
   [[nodiscard]] double at(double time) const;
 };
 
-// A straight way between two times, for what a run decides as it goes.
+// A linear function between two times, set during the run.
 struct StraightWay {
   double start_time = 0, start_value = 0;
   double end_time = 0, end_value = 0;
@@ -25,17 +25,16 @@ struct StraightWay {
   [[nodiscard]] double at(double time) const;
 };
 
-// Piecewise linear in time, constant before the first and after the last point, plus a sine; or what
-// the owner of a segment makes of it. Time runs from 0 to 1 in quasi-static runs, and in seconds in
-// dynamic ones.
+// Piecewise linear in time, constant outside its points, plus a sine; or a segment that its owner
+// sets. Time is 0 to 1 in quasi-static runs, seconds in dynamic ones.
 struct Program {
   std::vector<std::array<double, 2>> points;  // (time, value), times increasing, at least one
   Sine sine{};
-  std::shared_ptr<const StraightWay> steered{};  // instead of the others
+  std::shared_ptr<const StraightWay> steered{};  // replaces points and sine
 
   [[nodiscard]] double at(double time) const;
 
-  // From `start` at time 0 to `end` at `duration`.
+  // Linear from `start` at time 0 to `end` at `duration`.
   static Program linear(double start, double end, double duration = 1);
 };
 

@@ -6,12 +6,12 @@
 
 namespace verification {
 
-// Where a program given by its `value` at the end starts, unless `start` says it.
+// Default start of a program that is given by its `value` at the end.
 enum class Rise { from_zero, none };
 
-// Reads one of `value` (and `start`), `path`, a list of [time, value] with increasing times within
-// 0..duration, `half_sine = { amplitude, period, start }`, a pulse of half a period, or `sine =
-// { amplitude, period, start, periods }`, to the end unless periods are given. Throws InputError.
+// Reads one of four forms. `value` (and `start`); `path`, a list of [time, value] with increasing
+// times within 0..duration; `half_sine = { amplitude, period, start }`, half a period; `sine = {
+// amplitude, period, start, periods }`, to the end by default. Throws InputError.
 Program read_program(SceneTable& table, double duration, Rise rise);
 
 }  // namespace verification

@@ -12,8 +12,7 @@
 namespace verification {
 namespace {
 
-// A combination of motions counts as free when the conditions resist it this much less than a
-// translation of one node.
+// Resistance relative to that of a translation below which a motion counts as free.
 constexpr double small = 1e-9;
 
 std::string motion_text(const Eigen::Vector3d& motion, double size, const Eigen::Vector2d& centre) {
@@ -45,7 +44,7 @@ void check_held(const Model& model, const std::string& place) {
     const Eigen::Vector2d arm = (nodes[d / 2] - centre) / size;
     return d % 2 == 0 ? Eigen::RowVector3d(1, 0, -arm.y()) : Eigen::RowVector3d(0, 1, arm.x());
   };
-  // What of a rigid motion the components cannot follow: least squares over the unknowns.
+  // Part of a rigid motion that the components cannot follow, by least squares over the unknowns.
   const auto count = static_cast<Eigen::Index>(dofs.unknown.size());
   Triplets triplets;
   Eigen::MatrixX3d motions(count, 3);

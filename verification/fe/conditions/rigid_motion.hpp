@@ -1,4 +1,4 @@
-// Whether the conditions of a model hold it against moving as a whole.
+// Check of a model's supports against rigid motions.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@ namespace verification {
 
 struct Model;
 
-// Throws InputError naming a rigid motion that no condition prevents. Statics only: a body that is
-// pushed may fly. `place`: the scene.
+// Throws InputError that names a rigid motion which no condition prevents. For statics only: a body
+// in motion needs no supports. `place`: the scene.
 void check_held(const Model& model, const std::string& place);
 
 }  // namespace verification

@@ -6,8 +6,8 @@
 namespace verification {
 namespace {
 
-// integral of N_a dN_b/dxi over a side; the shape functions of a side of two nodes are linear,
-// those of one of three quadratic (ends, then the middle).
+// Integral of N_a dN_b/dxi over a side with linear (two nodes) or quadratic (ends, then the middle)
+// shape functions.
 double coupling(std::size_t nodes, std::size_t a, std::size_t b) {
   constexpr std::array<std::array<double, 2>, 2> linear{{{-0.5, 0.5}, {-0.5, 0.5}}};
   constexpr std::array<std::array<double, 3>, 3> quadratic{
@@ -15,7 +15,7 @@ double coupling(std::size_t nodes, std::size_t a, std::size_t b) {
   return nodes == 2 ? linear[a][b] : quadratic[a][b];
 }
 
-// The outward normal times length is the integral of (dy, -dx) along the side.
+// Adds a pressure; the outward normal times length is the integral of (dy, -dx) along the side.
 void add_pressure(const Pressure& pressure, double value, const Mesh& mesh,
                   const Eigen::VectorXd& displacement, Eigen::VectorXd& force,
                   Triplets* stiffness) {
@@ -33,7 +33,7 @@ void add_pressure(const Pressure& pressure, double value, const Mesh& mesh,
       }
 }
 
-// integral of N_a over the reference length of a side [m], by Gauss's rule with three points.
+// Integral of N_a over the reference length of a side [m], by three Gauss points.
 std::array<double, 3> lengths(const Side& side, const Mesh& mesh) {
   constexpr std::array<double, 3> weight{5.0 / 9, 8.0 / 9, 5.0 / 9};
   const std::array<double, 3> place{-std::sqrt(0.6), 0, std::sqrt(0.6)};

@@ -11,13 +11,13 @@
 
 namespace verification {
 
-// As Cauchy pressure it stays normal to the deformed sides and acts on their length; as a dead load
-// it keeps the force it has on the undeformed ones.
+// A Cauchy pressure is normal to the deformed sides and acts on their length; a dead load keeps its
+// force on the undeformed sides.
 struct Pressure {
   std::vector<Side> sides;
   Program value;  // [Pa]
   bool follows = true;
-  std::string place = {};  // in the scene, for messages
+  std::string place = {};  // place in the scene, for messages
 };
 
 // Dead load: force per reference area.
@@ -25,7 +25,7 @@ struct Traction {
   std::vector<Side> sides;
   int component = 0;
   Program value;           // [Pa]
-  std::string place = {};  // in the scene, for messages
+  std::string place = {};  // place in the scene, for messages
 };
 
 struct Loads {
@@ -35,8 +35,8 @@ struct Loads {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-// Adds the nodal forces of the loads at this time [N/m] and, when wanted, minus
-// their derivative with respect to the displacements, which is exact.
+// Adds the nodal forces of the loads at this time [N/m] and, when wanted, minus their exact
+// derivative by the displacements.
 void add_loads(const Loads& loads, double time, const Mesh& mesh,
                const Eigen::VectorXd& displacement, Eigen::VectorXd& force, Triplets* stiffness);
 

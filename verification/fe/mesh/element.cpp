@@ -6,7 +6,7 @@
 namespace verification {
 namespace {
 
-// Corners of the square, then the middles of its sides.
+// Corners of the square, then mid-sides.
 const std::vector<Eigen::Vector2d> square_nodes{{-1, -1}, {1, -1}, {1, 1}, {-1, 1},
                                                 {0, -1},  {1, 0},  {0, 1}, {-1, 0}};
 
@@ -51,7 +51,7 @@ Shape linear(const Eigen::Vector2d& xi) {
   return shape;
 }
 
-// Points in rows of increasing xi, but the 2 x 2 points anticlockwise as the corners.
+// Points in rows of increasing xi; 2 x 2 points anticlockwise, like the corners.
 std::vector<LocalPoint> square_points(int per_direction) {
   if (per_direction == 1) return {{{0, 0}, 4}};
   std::vector<LocalPoint> points;

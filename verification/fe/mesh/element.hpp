@@ -1,4 +1,4 @@
-// Finite elements of the driver: shape functions and quadrature points of every kind.
+// Finite elements: shape functions and quadrature points of every kind.
 #pragma once
 
 #include <Eigen/Dense>
@@ -8,13 +8,15 @@
 
 namespace verification {
 
-// q4: bilinear quadrilateral, 2 x 2 Gauss points. q4r: the same with one point, which leaves its two
-// hourglass modes without stiffness (see fe/hourglass.hpp). q8: serendipity quadrilateral, 3 x 3
-// points. t3: linear triangle, one point. q4fbar: q4 whose points share the area ratio of the centre
-// (see fe/mean_volume.hpp).
+// Kinds of elements:
+//   q4      bilinear quadrilateral, 2 x 2 Gauss points;
+//   q4r     bilinear quadrilateral, one point and two hourglass modes (fe/hourglass.hpp);
+//   q8      serendipity quadrilateral, 3 x 3 points;
+//   t3      linear triangle, one point;
+//   q4fbar  q4 whose points share the area ratio of the centre (fe/mean_volume.hpp).
 enum class ElementKind { q4, q4r, q8, t3, q4fbar };
 
-// Coordinates, gradients: one row per node, at most eight.
+// Coordinates or gradients: one row per node, at most eight.
 using NodeRows = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::ColMajor, 8, 2>;
 using NodeValues = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 8, 1>;
 
@@ -28,8 +30,7 @@ struct LocalPoint {
   double weight;
 };
 
-// Nodes: the corners anticlockwise, then the mid-side nodes in the order of the sides, the first one
-// between corners 0 and 1.
+// Nodes: corners anticlockwise, then mid-side nodes by sides, the first between corners 0 and 1.
 struct ElementType {
   std::string_view name;
   int nodes;
@@ -41,14 +42,15 @@ struct ElementType {
 
 const ElementType& element_type(ElementKind kind);
 
-// A quadrature point of an element in its reference configuration.
+// A quadrature point in the reference configuration of its element.
 struct QuadPoint {
   NodeRows gradient;  // dN_a/dX_J [1/m]
-  double weight;      // reference area it stands for [m2]
+  double weight;      // reference area [m2]
   NodeValues shape;   // N_a
 };
 
-// nodes [number of nodes of the kind]: reference positions [m].
+// Quadrature points of an element with these nodes [number of nodes of the kind], reference
+// positions [m].
 std::vector<QuadPoint> quad_points(ElementKind kind, const std::vector<Eigen::Vector2d>& nodes);
 
 }  // namespace verification

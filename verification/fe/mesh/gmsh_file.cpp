@@ -14,7 +14,7 @@
 namespace verification {
 namespace {
 
-// Gmsh's numbers of element types.
+// Gmsh's element types.
 enum GmshType : int { line2 = 1, triangle3 = 2, quadrangle4 = 3, line3 = 8, quadrangle8 = 16 };
 
 class Reader {
@@ -60,7 +60,7 @@ class Reader {
     }
   }
 
-  // In the order of their tags.
+  // Numbers nodes in the order of their tags.
   void number_nodes(const std::set<std::size_t>& used) {
     std::unordered_map<std::size_t, std::size_t> place;
     for (std::size_t k = 0; k < content_.node_tags.size(); ++k) place[content_.node_tags[k]] = k;
@@ -105,8 +105,8 @@ class Reader {
   std::filesystem::path path_;
   GmshContent content_;
   Mesh mesh_;
-  std::unordered_map<std::size_t, int> number_;  // of a node by its tag
-  std::set<std::pair<int, int>> ways_;           // along the sides, elements on the left
+  std::unordered_map<std::size_t, int> number_;  // number of a node by its tag
+  std::set<std::pair<int, int>> ways_;           // directed sides, elements on the left
 };
 
 }  // namespace

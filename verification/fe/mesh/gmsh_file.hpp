@@ -1,4 +1,4 @@
-// Meshes made by Gmsh.
+// Meshes of Gmsh.
 #pragma once
 
 #include "fe/mesh/mesh.hpp"
@@ -7,9 +7,9 @@
 
 namespace verification {
 
-// A plane mesh of 3-node triangles, or of 4- or 8-node quadrilaterals, in any format of Gmsh. Named
-// physical groups of curves become sets of nodes and of sides, those of points sets of nodes. Nodes
-// that no element has are left out. Throws InputError.
+// Reads a plane mesh of 3-node triangles, or of 4- or 8-node quadrilaterals, in any format of Gmsh.
+// Named physical groups of curves become sets of nodes and of sides, those of points sets of nodes.
+// Nodes without an element are dropped. Throws InputError.
 Mesh read_gmsh_mesh(const std::filesystem::path& path);
 
 }  // namespace verification

@@ -20,7 +20,7 @@ class Gmsh {
   Gmsh() : handle_(dlopen(GRAINLAW_GMSH_LIBRARY, RTLD_NOW | RTLD_LOCAL)) {
     if (handle_ == nullptr) throw InputError(fmt::format("Gmsh cannot be loaded: {}", dlerror()));
     int error = 0;
-    // Later versions ask whether to run what the command line says.
+    // Later versions have an argument for running the command line.
     const auto initialize = [&](auto* function) {
       if constexpr (std::is_invocable_v<decltype(function), int, char**, int, int*>)
         function(0, nullptr, 0, &error);
@@ -37,7 +37,7 @@ class Gmsh {
   Gmsh(const Gmsh&) = delete;
   Gmsh& operator=(const Gmsh&) = delete;
 
-  // Calls a function of Gmsh's C interface; the last argument, its error, is ours.
+  // Calls a function of Gmsh's C interface and supplies its last argument, the error.
   template <class Function, class... Arguments>
   void call(const char* name, Arguments... arguments) const {
     int error = 0;
@@ -67,7 +67,7 @@ class Gmsh {
   }
   void free(void* memory) const { symbol<decltype(&gmshFree)>("gmshFree")(memory); }
 
-  void* handle_;  // stays loaded: Gmsh does not unload cleanly
+  void* handle_;  // never closed: Gmsh does not unload cleanly
 };
 
 #define GRAINLAW_CALL(function, ...) gmsh.call<decltype(&function)>(#function, __VA_ARGS__)

@@ -1,5 +1,5 @@
-// Gmsh's own library, loaded when a scene names a mesh file: it takes a tenth of a second and ninety
-// libraries with it, which no other scene should pay for.
+// Gmsh's own library, loaded at run time when a scene names a mesh file. It costs a tenth of a
+// second and ninety libraries, which other scenes do not pay.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace verification {
 
-// Elements of one Gmsh type: the tags of their nodes, `nodes` per element.
+// Elements of one Gmsh type: tags of their nodes, `nodes` per element.
 struct GmshElements {
   int type = 0;
   std::size_t nodes = 1;
@@ -29,7 +29,7 @@ struct GmshContent {
   std::vector<GmshGroup> groups;                   // named physical groups
 };
 
-// Throws InputError for a file that Gmsh cannot read, and where the program was built without Gmsh.
+// Throws InputError for a file that Gmsh cannot read, and in a program built without Gmsh.
 GmshContent read_gmsh(const std::filesystem::path& path);
 
 }  // namespace verification

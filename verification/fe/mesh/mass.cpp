@@ -3,7 +3,7 @@
 namespace verification {
 
 Eigen::VectorXd lumped_mass(const Mesh& mesh, double density) {
-  // One point cannot tell the squares of the shape functions apart.
+  // Squared shape functions need more than the one point of q4r.
   const ElementKind rule = mesh.kind == ElementKind::q4r ? ElementKind::q4 : mesh.kind;
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * mesh.nodes.size()));
   for (const auto& element : mesh.elements) {

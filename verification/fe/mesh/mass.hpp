@@ -5,8 +5,8 @@
 
 namespace verification {
 
-// Mass of every displacement component [kg/m], for a density in mass per reference volume [kg/m3]:
-// the mass of an element shared in the ratio of the integrals of its squared shape functions
+// Mass of every displacement component [kg/m] from a density in mass per reference volume [kg/m3].
+// The mass of an element is shared in proportion to the integrals of its squared shape functions
 // (thesis eq. 4.17, liu2019_biaxial eq. 24).
 Eigen::VectorXd lumped_mass(const Mesh& mesh, double density);
 

@@ -11,12 +11,12 @@ std::vector<Eigen::Vector2d> Mesh::positions(const std::vector<int>& element) co
 Mesh rectangle_mesh(const std::array<double, 2>& size, const std::array<int, 2>& divisions,
                     ElementKind kind) {
   const bool quadratic = kind == ElementKind::q8;
-  const int stride = quadratic ? 2 : 1;  // lines of nodes per cell
+  const int stride = quadratic ? 2 : 1;  // node lines per cell
   const int columns = stride * divisions[0];
   const int rows = stride * divisions[1];
   Mesh mesh;
   mesh.kind = kind;
-  // Number of the node at line i, j; the middles of serendipity cells have none.
+  // Node number at line i, j; the middle of a serendipity cell has none.
   std::vector<int> number(static_cast<std::size_t>((columns + 1) * (rows + 1)), -1);
   const auto node = [&](int i, int j) -> int& {
     return number[static_cast<std::size_t>(j * (columns + 1) + i)];

@@ -12,8 +12,8 @@
 
 namespace verification {
 
-// Nodes of an element side: its ends, the element on the left of the way from the first to the
-// second, then the node in its middle where the element has one.
+// Nodes of an element side: its ends, with the element on the left, then its mid-side node where
+// there is one.
 using Side = std::vector<int>;
 
 struct Mesh {
@@ -26,10 +26,10 @@ struct Mesh {
   [[nodiscard]] std::vector<Eigen::Vector2d> positions(const std::vector<int>& element) const;
 };
 
-// size [m] and number of cells along x and y. A cell is one quadrilateral, or two triangles on either
-// side of its diagonal from bottom left to top right: the one on the right first, as FreeFEM's
-// `square` has them. Sets: "left", "right", "bottom", "top", nodes by increasing coordinate; and the
-// corner nodes "bottom_left", "bottom_right", "top_right", "top_left".
+// A rectangle of this size [m] with so many cells along x and y. A cell is one quadrilateral, or
+// two triangles divided by the diagonal from bottom left to top right. The right triangle comes
+// first, as in FreeFEM's `square`. Sets: "left", "right", "bottom", "top", nodes by increasing
+// coordinate; corners "bottom_left", "bottom_right", "top_right", "top_left".
 Mesh rectangle_mesh(const std::array<double, 2>& size, const std::array<int, 2>& divisions,
                     ElementKind kind);
 

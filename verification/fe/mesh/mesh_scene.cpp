@@ -28,7 +28,7 @@ Mesh read_rectangle(SceneTable& table) {
                         read_element_kind(table));
 }
 
-// The file says the kind of its elements; of its q4 the scene may ask for one point or one area ratio.
+// Reads a file, which has the kind of its elements; for q4 the scene may ask for q4r or q4fbar.
 Mesh read_file(SceneTable& table) {
   for (const char* key : {"size", "divisions"})
     if (table.has(key)) table.fail(key, fmt::format("both file and {}", key), "one of them");

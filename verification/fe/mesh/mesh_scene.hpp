@@ -6,8 +6,9 @@
 
 namespace verification {
 
-// The scene's `mesh`: element with size and divisions, or a file of Gmsh, relative to the scene.
-// Throws InputError, also for badly shaped elements. Leaves other keys to the caller, who closes the table.
+// Reads the scene's `mesh`: element with size and divisions, or a Gmsh file relative to the scene.
+// The caller reads other keys and closes the table. Throws InputError, also for badly shaped
+// elements.
 Mesh read_mesh(SceneTable& table);
 
 }  // namespace verification

@@ -10,8 +10,7 @@
 namespace verification {
 namespace {
 
-// The area per local area (det dX/dxi) may be this much smaller than its mean at a node, and the
-// angle at a corner may have this sine: about 2 degrees.
+// Least det dX/dxi at a node over its mean, and least sine of a corner's angle, about 2 degrees.
 constexpr double smallest = 0.03;
 
 struct Quality {
@@ -54,7 +53,7 @@ void check_shapes(const Mesh& mesh, const std::string& place) {
   const ElementType& type = element_type(mesh.kind);
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const Quality found = quality(type, mesh.positions(mesh.elements[e]));
-    // Written so that NaN is refused.
+    // Written so that NaN fails.
     std::string what;
     if (!(found.area > 0))
       what = fmt::format("an inverted or flat one (area {:.3g} m2)", found.area);

@@ -1,4 +1,4 @@
-// Elements that cannot be computed with are found before anything else is done.
+// Check of element shapes before a run.
 #pragma once
 
 #include "fe/mesh/mesh.hpp"
@@ -7,8 +7,8 @@
 
 namespace verification {
 
-// Throws InputError naming the first element that is inverted, has a side folded onto another, or
-// whose area shrinks to nothing somewhere. `place`: where the mesh stands in its scene.
+// Throws InputError that names the first element which is inverted, folded, or whose area vanishes
+// somewhere. `place`: the mesh in its scene.
 void check_shapes(const Mesh& mesh, const std::string& place);
 
 }  // namespace verification

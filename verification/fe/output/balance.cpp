@@ -23,7 +23,7 @@ std::vector<double> balance_values(const LoadStep& step) {
 
 std::string balance_summary(const CsvTable& table) {
   if (table.rows() == 0) return {};
-  // Step 0 is the start and no load step.
+  // Step 0 is the start, not a load step.
   const auto first = table["step"].front() == 0 ? 1 : 0;
   std::vector<double> iterations(table["iterations"].begin() + first, table["iterations"].end());
   if (iterations.empty()) return {};

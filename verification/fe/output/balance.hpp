@@ -1,4 +1,4 @@
-// How well every load step of a static run is balanced, and what that took.
+// Balance of every load step of a static run, and its effort.
 #pragma once
 
 #include "app/csv.hpp"
@@ -13,8 +13,8 @@ namespace verification {
 std::vector<std::string> balance_columns();
 std::vector<double> balance_values(const LoadStep& step);
 
-// Of a whole table: steps that are balanced, the worst, percentiles of the iterations. One line with
-// its end; none of a table without load steps.
+// One line about a table: balanced steps, the worst, percentiles of the iterations. Empty for a
+// table without load steps.
 std::string balance_summary(const CsvTable& table);
 
 }  // namespace verification

@@ -63,7 +63,7 @@ std::string cost_summary(const CsvTable& table, std::size_t points) {
     const std::vector<double>& values = table[name];
     return std::accumulate(values.begin() + static_cast<std::ptrdiff_t>(first), values.end(), 0.0);
   };
-  // Step 0 is the start and no load step; it counts in the totals alone.
+  // Step 0 is the start, not a load step; it counts in the totals alone.
   const std::size_t first = table["step"].front() == 0 ? 1 : 0;
   const auto steps = static_cast<double>(std::max<std::size_t>(table.rows() - first, 1));
   const double cpu = sum("core_time");

@@ -1,4 +1,4 @@
-// What the load steps of a run cost: a table, and its sum for the user.
+// Cost of the load steps of a run: a table, and its summary.
 #pragma once
 
 #include "app/csv.hpp"
@@ -10,17 +10,17 @@
 
 namespace verification {
 
-// Columns of STEM_cost.csv. Times are the only numbers of a run that a repetition does not repeat.
+// Columns of STEM_cost.csv. Times are the only numbers of a run that are not reproducible.
 std::vector<std::string> cost_columns();
 
 class CostReport {
  public:
-  // The clock starts here. The solver must outlive it.
+  // Starts the clock. `solver` must outlive the report.
   explicit CostReport(const Solver& solver);
 
-  // One row: what was spent since the last one.
+  // Adds a row: cost since the last one.
   void add(const LoadStep& step, CsvWriter& table);
-  // The same of a step that did not end, whose points are as they were.
+  // Adds the row of a failed step, whose points are unchanged.
   void add_unfinished(int step, const Effort& effort, CsvWriter& table);
 
  private:
@@ -36,8 +36,7 @@ class CostReport {
   int without_contacts_ = 0;  // points, after the last step
 };
 
-// Of a whole table: cost per point and load step, where the time went, what it took. Lines, each with
-// its end.
+// Lines about a table: cost per point and load step, time by stages, totals.
 std::string cost_summary(const CsvTable& table, std::size_t points);
 
 }  // namespace verification

@@ -9,6 +9,6 @@
 namespace verification {
 
 std::vector<std::string> energy_columns();
-std::vector<double> energy_values(const LoadStep& step);  // of a step that has energies
+std::vector<double> energy_values(const LoadStep& step);  // for a step with energies
 
 }  // namespace verification

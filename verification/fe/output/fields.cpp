@@ -80,7 +80,7 @@ const std::vector<Field>& fields() {
        }},
       {"rotation", "rad", "mean particle rotation", 1, first_component<GRAINLAW_MEAN_ROTATION>},
       {"contacts", "-", "contacts", 1, first_component<GRAINLAW_CONTACTS>},
-      // 0: direct, 1: the friction history was advanced, 2: no contact is left.
+      // 0: direct; 1: the friction history was advanced; 2: no contact is left.
       {"status", "-", "status", 1, [](const PointView& p, double* out) {
          const bool loose = measure_scalar(p.state, GRAINLAW_CONTACTS) == 0;
          out[0] = loose ? 2 : p.report.history_advanced != 0 ? 1 : 0;

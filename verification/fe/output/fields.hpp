@@ -1,5 +1,4 @@
-// Fields at the integration points: what is written for ParaView, drawn on the mesh, and followed in
-// tables.
+// Fields at integration points, for ParaView, pictures and tables.
 #pragma once
 
 #include "fe/model.hpp"
@@ -19,7 +18,7 @@ struct PointView {
 };
 PointView point_view(const PointField& points, std::size_t point);
 
-// A quantity at a point: one value, or the components 11, 12, 21, 22 of a tensor.
+// A quantity at a point: a number, or the components 11, 12, 21, 22 of a tensor.
 struct Field {
   std::string_view name;
   std::string_view unit;
@@ -28,10 +27,10 @@ struct Field {
   void (*value)(const PointView& point, double* out);
 };
 
-// All there are. Tension is positive in stress and strain, compression in mean_stress. Strains, p and
-// q are those of Guo & Zhao (2014): eqs. 6, 7, 10, 12, 13.
+// All fields. Tension is positive in stress and strain, compression in mean_stress. Strains, p and
+// q are those of Guo & Zhao (2014), eqs. 6, 7, 10, 12, 13.
 const std::vector<Field>& fields();
-// Throws InputError with the names there are.
+// Field of this name. Throws InputError with all names.
 const Field& field(std::string_view name);
 // "name[unit]" of every component.
 std::vector<std::string> columns(const Field& field);
@@ -39,7 +38,7 @@ std::vector<std::string> columns(const Field& field);
 // values[point * components + component] of all points.
 std::vector<double> values(const Field& field, const PointField& points);
 
-// Where a point is, in the reference and at these displacements [m].
+// Position of a point, in the reference and with these displacements [m].
 Eigen::Vector2d reference_position(const Mesh& mesh, const PointField& points, std::size_t point);
 Eigen::Vector2d current_position(const Mesh& mesh, const PointField& points, std::size_t point,
                                  const Eigen::VectorXd& displacement);

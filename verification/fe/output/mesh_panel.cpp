@@ -7,14 +7,14 @@
 namespace verification {
 namespace {
 
-// Where the patches of points in a row end, between -1 and 1: as wide as the weights of the points.
+// Ends of the patches in a row of points, in -1..1, in proportion to the weights.
 std::vector<double> patch_ends(int per_direction) {
   if (per_direction == 1) return {-1, 1};
   if (per_direction == 2) return {-1, 0, 1};
   return {-1, -4.0 / 9, 4.0 / 9, 1};
 }
 
-// In the element's coordinates, anticlockwise.
+// Patch of a point in local coordinates, anticlockwise.
 Polygon local_patch(const ElementType& type, const LocalPoint& point) {
   if (type.corners == 3) return {{0, 0}, {1, 0}, {0, 1}};
   const auto count = static_cast<int>(std::lround(std::sqrt(type.points.size())));
@@ -29,7 +29,7 @@ Polygon local_patch(const ElementType& type, const LocalPoint& point) {
   return {{left, bottom}, {right, bottom}, {right, top}, {left, top}};
 }
 
-// Sides of curved elements are drawn in two parts.
+// Outline of an element; curved sides have two parts.
 Polygon local_outline(const ElementType& type) {
   Polygon outline;
   for (int side = 0; side < type.corners; ++side) {

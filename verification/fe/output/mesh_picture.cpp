@@ -13,7 +13,7 @@
 namespace verification {
 namespace {
 
-constexpr int levels = 64;  // of colour
+constexpr int levels = 64;  // levels of colour
 constexpr double millimetre = 1e3;
 
 struct Box {
@@ -39,7 +39,7 @@ std::array<double, 2> colour_range(const MeshPanel& panel) {
   if (values.empty()) return {0, 1};
   std::sort(values.begin(), values.end());
   double low = values.front(), high = values.back();
-  // Where a few values alone take most of the scale, they have the colours of its ends.
+  // Ignores a few extreme values that would take most of the scale; they have its end colours.
   const std::size_t few = values.size() / 200;
   const double most = values[values.size() - 1 - few] - values[few];
   if (few > 0 && high - low > 2 * most && most > 0) {
@@ -50,7 +50,7 @@ std::array<double, 2> colour_range(const MeshPanel& panel) {
   return high - low > room ? std::array{low, high} : std::array{low - room, high + room};
 }
 
-// Letters of the longest number beside the scale, whose ticks are as far apart as a fifth of it or so.
+// Characters of the longest tick label of a scale with about five ticks.
 std::size_t longest_label(const std::array<double, 2>& range) {
   const double tick = std::pow(10, std::floor(std::log10((range[1] - range[0]) / 4)));
   std::size_t longest = 0;
@@ -68,8 +68,8 @@ void append_closed(std::string& text, const Polygon& polygon) {
   text += "\n";
 }
 
-// Data blocks $m<panel>_<level> of the patches, one block of outlines, and how to plot them. Patches
-// without a finite value are left grey.
+// Data blocks $m<panel>_<level> of patches, one block of outlines, and their plot commands. Patches
+// without a finite value are grey.
 std::string plot(const MeshPanel& panel, std::size_t number, const std::array<double, 2>& range,
                  std::string& data) {
   std::vector<std::string> blocks(levels + 1);
@@ -94,7 +94,7 @@ std::string plot(const MeshPanel& panel, std::size_t number, const std::array<do
   for (const Polygon& element : panel.elements) append_closed(outlines, element);
   data += fmt::format("$e{} << EOD\n{}EOD\n", number, outlines);
   items.push_back(fmt::format("$e{} with lines lc rgb '#555555' lw 0.5", number));
-  // Draws nothing; it makes gnuplot show the scale of the colours.
+  // Plots nothing, but makes gnuplot show the colour scale.
   items.push_back("'+' using (NaN):(NaN):(NaN) with points palette");
   return fmt::format("plot {}\n", fmt::join(items, ", "));
 }

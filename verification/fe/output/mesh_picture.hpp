@@ -1,4 +1,4 @@
-// Pictures of a deformed mesh, coloured by a field.
+// Pictures of a deformed mesh coloured by a field.
 #pragma once
 
 #include "fe/output/fields.hpp"
@@ -12,21 +12,21 @@ namespace verification {
 
 using Polygon = std::vector<Eigen::Vector2d>;  // [m]
 
-// A mesh with a value on the patch of the element around every integration point.
+// A mesh with one value per integration point, on its patch of the element.
 struct MeshPanel {
   std::string title;
   std::vector<Polygon> patches;
   std::vector<double> values;  // of the patches
   std::vector<Polygon> elements;
-  std::array<double, 2> range{};  // of the colours; equal: from the least to the largest value
+  std::array<double, 2> range{};  // of the colours; equal ends: the range of the values
 };
 
-// A field with one component at these displacements.
+// Panel of a field with one component at these displacements.
 MeshPanel mesh_panel(const Mesh& mesh, const PointField& points,
                      const Eigen::VectorXd& displacement, const Field& field);
 
-// stem.svg and stem.png: panels side by side at one scale, each with the scale of its colours.
-// Returns what run_gnuplot does.
+// Draws stem.svg and stem.png: panels side by side at one scale, each with its colour scale.
+// Returns what run_gnuplot() does.
 bool draw_mesh(const std::vector<MeshPanel>& panels, const std::string& title,
                const std::filesystem::path& stem);
 

@@ -10,7 +10,7 @@
 namespace verification {
 namespace {
 
-// A list of integers in 0..last, rising, each once.
+// Reads an increasing list of distinct integers in 0..last.
 std::vector<int> read_integers(SceneTable& table, std::string_view key, int last,
                                std::string_view expected) {
   std::vector<int> result;

@@ -1,4 +1,4 @@
-// What a scene wants to be written beside its tables.
+// Outputs of a scene besides its tables.
 #pragma once
 
 #include "app/scene.hpp"
@@ -10,23 +10,23 @@
 
 namespace verification {
 
-// Integration points are numbered from 0, element by element.
+// Options of outputs; integration points are numbered from 0, by elements.
 struct OutputOptions {
-  int checkpoint_every = 0;              // load steps; 0: only when the run is interrupted
+  int checkpoint_every = 0;              // load steps; 0: only at an interrupt
   int vtk_every = 0;                     // load steps; 0: never
-  std::vector<std::size_t> packings;     // points whose particles are in the series
+  std::vector<std::size_t> packings;     // points whose particles are written
   std::vector<std::size_t> points;       // with a table of their own
-  std::vector<std::string> every_point;  // fields with a table of all points
+  std::vector<std::string> every_point;  // fields with a table over all points
   struct Pictures {
-    std::vector<std::string> fields;    // of the mesh
+    std::vector<std::string> fields;    // drawn on the mesh
     std::vector<std::size_t> packings;  // points whose particles and force chains are drawn
-    std::vector<std::string>
-        extremes;  // fields: so are the points where they are least and largest
+    std::vector<std::string> extremes;  // fields whose extreme points are drawn too
     std::vector<int> steps;
   } pictures;
 };
 
-// Keys checkpoint_every, vtk_every, packings, points, every_point and the table picture. Throws InputError.
+// Reads checkpoint_every, vtk_every, packings, points, every_point and the table picture. Throws
+// InputError.
 OutputOptions read_output(SceneTable& scene, const Mesh& mesh, int steps);
 
 }  // namespace verification

@@ -1,4 +1,4 @@
-// Displacement histories of chosen places.
+// Displacement histories at chosen places.
 #pragma once
 
 #include "fe/solver/solver.hpp"
@@ -13,11 +13,11 @@ struct DisplacementProbe {
   std::vector<int> nodes;
 };
 
-// Mean displacement over the nodes [m].
+// Mean displacement of the nodes [m].
 Eigen::Vector2d mean_displacement(const DisplacementProbe& probe,
                                   const Eigen::VectorXd& displacement);
 
-// A row of their table: step, time of the run, and two components for every probe.
+// Columns of the probes' table: step, time, and two components per probe.
 std::vector<std::string> probe_columns(const std::vector<DisplacementProbe>& probes);
 std::vector<double> probe_values(const std::vector<DisplacementProbe>& probes, const LoadStep& step,
                                  const Eigen::VectorXd& displacement);

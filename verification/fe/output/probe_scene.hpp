@@ -6,7 +6,7 @@
 
 namespace verification {
 
-// Reads `name` and one of `on`, a set of nodes, or `x` or `y` [m], the nodes on that line of the
+// Reads `name` and one of: `on`, a set of nodes; `x` or `y` [m], the nodes on this line of the
 // undeformed mesh. Throws InputError.
 DisplacementProbe read_probe(SceneTable& table, const Mesh& mesh);
 

@@ -23,7 +23,7 @@ std::vector<std::string> force_columns(const Model& model) {
   return names;
 }
 
-// Those that lead the body: a prescribed displacement, or a platen under a load.
+// Driving conditions: prescribed displacements, and platens under a load.
 std::vector<std::string> leading_conditions(const Model& model) {
   std::vector<std::string> names;
   for (const PrescribedDisplacement& condition : model.displacements)
@@ -42,7 +42,7 @@ std::vector<std::string> point_columns() {
 
 }  // namespace
 
-// Tables of a kind are shown by one name.
+// Opens a table; tables of a kind are printed under one name.
 CsvWriter& RunOutput::open(const std::string& suffix, const std::vector<std::string>& columns,
                            const char* shown) {
   CsvWriter& table = tables_.open(suffix, columns);

@@ -1,4 +1,4 @@
-// The files of a run, written step by step.
+// Files of a run, written step by step.
 #pragma once
 
 #include "app/written.hpp"
@@ -14,21 +14,21 @@ namespace verification {
 
 class RunOutput {
  public:
-  // Opens the tables. Scene and solver must outlive it. Errors as RunTables has them.
+  // Opens the tables. Scene and solver must outlive it. Throws as RunTables does.
   RunOutput(const FiniteElementScene& scene, RunTables tables, const Solver& solver);
 
-  // `ends_before`: the last step of a run that ends before the scene's number of steps; it is drawn.
+  // Adds a step. `ends_before`: the last step of a run that ends early; it is drawn.
   void add(const LoadStep& step, bool ends_before = false);
-  // What a step took that did not end.
+  // Adds the effort of a failed step.
   void add_unfinished(int step, const Effort& effort);
-  // Draws what shows the whole run.
+  // Draws the pictures of the whole run.
   void finish();
 
   void save_tables(CheckpointWriter& out) const { tables_.save(out); }
   void save(CheckpointWriter& out) const { series_.save(out); }
   void restore(CheckpointReader& in) { series_.restore(in); }
 
-  // For the user: what the run took, and which files there are.
+  // Cost and files of the run, for the user.
   [[nodiscard]] std::string summary(const Effort& unfinished) const;
   [[nodiscard]] std::string written() const { return written_.text(); }
 
@@ -48,9 +48,9 @@ class RunOutput {
   CsvWriter& forces_;
   CsvWriter& costs_;
   CostReport cost_;
-  CsvWriter* energies_ = nullptr;  // of dynamic runs
-  CsvWriter* balance_ = nullptr;   // of the others
-  CsvWriter* probes_ = nullptr;    // of scenes with probes
+  CsvWriter* energies_ = nullptr;  // dynamic runs
+  CsvWriter* balance_ = nullptr;   // static runs
+  CsvWriter* probes_ = nullptr;    // scenes with probes
   std::vector<CsvWriter*> points_;
   std::vector<CsvWriter*> every_point_;
   VtkSeries series_;

@@ -18,14 +18,14 @@ void append(std::vector<double>& points, const Eigen::Vector2d& point) {
   points.insert(points.end(), {point.x(), point.y(), 0.0});
 }
 
-// Nodal vectors with the third component that ParaView wants.
+// Nodal vectors with a third component for ParaView.
 VtkArray nodal(const char* name, const Eigen::VectorXd& vector) {
   VtkArray array{name, 3, {}};
   for (Eigen::Index k = 0; k < vector.size(); k += 2) append(array.values, vector.segment<2>(k));
   return array;
 }
 
-// Points of an element follow one another.
+// Area-weighted means by element; points of an element are consecutive.
 std::vector<double> element_means(const PointField& points, std::size_t elements,
                                   std::size_t components, const std::vector<double>& values) {
   const std::size_t per_element = points.size() / elements;

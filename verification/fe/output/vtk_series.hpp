@@ -1,4 +1,4 @@
-// The time series of a run for ParaView: open the .pvd files.
+// Time series of a run for ParaView: open the .pvd files.
 #pragma once
 
 #include "fe/output/vtk_file.hpp"
@@ -9,13 +9,14 @@
 
 namespace verification {
 
-// STEM_mesh.pvd: the deformed mesh with displacement and reaction force (internal minus applied, per
-// metre of thickness) at the nodes, and the means of all fields over each element, weighted by the
-// area of its points. STEM_points.pvd: the integration points with all fields. STEM_packingN.pvd: the
-// particles and force chains of point N.
+// Writer of the series.
+//   STEM_mesh.pvd      the deformed mesh: displacement and reaction force at nodes (internal minus
+//                      applied, per metre of thickness), area-weighted means of fields by element;
+//   STEM_points.pvd    the integration points with all fields;
+//   STEM_packingN.pvd  particles and force chains of point N.
 class VtkSeries {
  public:
-  // The model must outlive it.
+  // `model` must outlive the series.
   VtkSeries(const Model& model, std::filesystem::path stem, std::vector<std::size_t> packings);
 
   void add(const LoadStep& step, const Solver& solver);

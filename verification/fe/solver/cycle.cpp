@@ -10,8 +10,8 @@
 namespace verification {
 namespace {
 
-constexpr int most_corrections = 8;  // of a step that went beyond the limit
-constexpr double shortest = 0.02;    // part that a correction leaves of it
+constexpr int most_corrections = 8;  // of a step beyond the limit
+constexpr double shortest = 0.02;    // least factor of a correction
 
 }  // namespace
 
@@ -91,18 +91,18 @@ LoadStep CycleControl::advance(Solver& solver, int number) {
 }
 
 double CycleControl::target() const {
-  constexpr double rounding = 1e-9;  // of a step, by which steps that add up miss an end
+  constexpr double rounding = 1e-9;  // rounding of summed steps, over a step
   const double goal = displacement_ + direction_ * cycle_.step;
   const auto up_to = [&](double end) {
     return direction_ * (end - goal) < rounding * cycle_.step ? end : goal;
   };
-  // The last way back ends at zero, where displacements turn at their limit.
+  // The last half cycle ends at zero; displacements reverse at their limit.
   const bool last_way = reversals_ >= 2 * cycle_.cycles;
   if (last_way && std::isinf(cycle_.limit_force) && displacement_ < 0) return up_to(0);
   return up_to(direction_ * cycle_.limit_displacement);
 }
 
-// Turns or ends where the limits say so.
+// Reverses or ends at the limits.
 void CycleControl::look(double force, double mean_stress) {
   force_ = force;
   const bool last_way = reversals_ >= 2 * cycle_.cycles;

@@ -1,5 +1,5 @@
-// Cyclic tests: a side is driven to and fro, and turns where its displacement or its force reaches a
-// limit. Control by displacement gets through liquefaction, where a prescribed force has no answer.
+// Cyclic tests: a side is driven until its displacement or force reaches a limit, then reversed.
+// Displacement control passes liquefaction, where a prescribed force has no solution.
 #pragma once
 
 #include "app/scene.hpp"
@@ -16,24 +16,24 @@ struct Cycle {
   double step = 0;    // displacement per load step [m]
   double limit_displacement = std::numeric_limits<double>::infinity();  // [m]
   double limit_force = std::numeric_limits<double>::infinity();         // [N/m]
-  double tolerance = 0.01;  // of limit_force by which the force may miss it where it turns [-]
-  int cycles = 1;           // from zero to both limits and back to zero
+  double tolerance = 0.01;  // allowed error of the force at a reversal, over limit_force [-]
+  int cycles = 1;           // from zero to both limits and to zero
   double end_displacement = std::numeric_limits<double>::infinity();  // ends the run [m]
-  double end_mean_stress = 0;  // ends the run where the specimen's compression falls below it [Pa]
-  std::shared_ptr<StraightWay> segment;  // that the drive's program follows
+  double end_mean_stress = 0;  // least mean compression of the specimen; ends the run [Pa]
+  std::shared_ptr<StraightWay> segment;  // program of the drive
 };
 
 // Reads [cycle]: on, component, step, limit_displacement, limit_force, tolerance, cycles,
-// end_displacement, end_mean_stress; and adds the displacement that it drives to the model. Throws InputError.
+// end_displacement, end_mean_stress. Adds the driven displacement to the model. Throws InputError.
 Cycle read_cycle(SceneTable table, Model& model);
 
-// Where a cyclic test stands. The solver's model must have the cycle's displacement.
+// State of a cyclic test. The solver's model must contain the cycle's displacement.
 class CycleControl {
  public:
   CycleControl(const Cycle& cycle, const Model& model, double time_step);
 
-  // The next load step; step 0 is the start. A step whose force goes beyond the limit is taken
-  // back and done shorter.
+  // Makes the next load step; step 0 is the start. A step whose force exceeds the limit is reverted
+  // and repeated with a shorter part.
   LoadStep advance(Solver& solver, int number);
 
   [[nodiscard]] bool finished() const { return finished_; }
@@ -57,7 +57,7 @@ class CycleControl {
   bool finished_ = false;
 };
 
-// Load steps from this one on, until the test is finished or so many steps are done.
+// Makes load steps from `first` until the test or the number of steps ends.
 void run_cycles(CycleControl& control, Solver& solver, int steps, const LoadObserver& observe,
                 int first = 0);
 

@@ -12,24 +12,24 @@
 namespace verification {
 namespace {
 
-constexpr int most_halvings = 10;  // of one time step
+constexpr int most_halvings = 10;  // per time step
 
-// All that the next time step depends on, besides the committed points.
+// State on which the next time step depends, besides the committed points.
 struct Motion {
   double time = 0;                 // [s]
-  double last_step = 0;            // from the time before [s]
+  double last_step = 0;            // last time step [s]
   Eigen::VectorXd displacement;    // at `time` [m]
-  Eigen::VectorXd velocity;        // half of the last step earlier [m/s]
+  Eigen::VectorXd velocity;        // half of the last step before `time` [m/s]
   Eigen::VectorXd internal_force;  // at `time` [N/m]
   Energies
-      work;  // up to half of the last step earlier for external and damped, `time` for internal
-  double turnover = 0;       // sum of |increments of external work| and energy at the start [J/m]
+      work;  // external, damped: until half of the last step before `time`; internal: until `time`
+  double turnover = 0;       // initial energy + sum of |increments of external work| [J/m]
   double critical_step = 0;  // [s]
 };
 
-// What happens at the present time: the velocity jumps from half a step before to half a step after.
+// Change at the present time: the velocity jumps from half a step before to half a step after.
 struct Kick {
-  Eigen::VectorXd velocity;  // half of the next step later [m/s]
+  Eigen::VectorXd velocity;  // half of the next step after `time` [m/s]
   Eigen::VectorXd force;     // of loads and supports [N/m]
   Eigen::VectorXd support;   // of supports alone [N/m]
   Eigen::VectorXd damping;   // [N/m]
@@ -78,7 +78,7 @@ class DynamicsSolver final : public Solver {
       double length = left / parts;
       const bool last = parts == 1;
       int halvings = 0;
-      // The tangents at the end serve the next estimate of the time step.
+      // The tangents at the end give the next estimate of the time step.
       while (!attempt(length, last && halvings == 0 ? to : motion_.time + length,
                       last ? tangent() : 0)) {
         points_.revert();
@@ -94,7 +94,7 @@ class DynamicsSolver final : public Solver {
     }
     if (tangent() != 0 && time_steps > 0) {
       const double found = critical_step();
-      if (std::isfinite(found)) motion_.critical_step = found;  // else nothing bears any more
+      if (std::isfinite(found)) motion_.critical_step = found;  // not finite: no contact bears
     }
     report(step);
     step.time = to;
@@ -138,14 +138,15 @@ class DynamicsSolver final : public Solver {
     return options_.time_step > 0 ? 0U : unsigned{GRAINLAW_WANT_TANGENT_ELASTIC};
   }
 
-  // By the tangents of the last evaluation; damping with central differences does not lower it.
+  // Critical step from the tangents of the last evaluation; damping with central differences does
+  // not lower it.
   [[nodiscard]] double critical_step() const {
     return tangent() == 0 ? 0 : 2 / highest_frequency(points_, dofs_, mass_);
   }
 
-  // M (v+ - v-) / h + alpha M (v+ + v-) / 2 = F for the momentum of the unknowns, h the mean of the
-  // steps before and after; supports move as they are told until the end of the run, and on as they
-  // did after it.
+  // Momentum of the unknowns, M (v+ - v-) / h + alpha M (v+ + v-) / 2 = F, with h the mean of the
+  // steps before and after. Supports follow their programs to the end of the run, and continue
+  // their motion afterwards.
   [[nodiscard]] Kick kick(double length) const {
     const Motion& now = motion_;
     const double h = 0.5 * (now.last_step + length);
@@ -173,14 +174,14 @@ class DynamicsSolver final : public Solver {
     return kick;
   }
 
-  // One time step; false, with nothing changed but the trials, when a point refuses it.
+  // Makes one time step; returns false when a point refuses it, and then changes the trials alone.
   bool attempt(double length, double next, unsigned want) {
     const Kick now = kick(length);
     const Eigen::VectorXd change = length * now.velocity;
     const Eigen::VectorXd displacement = motion_.displacement + change;
     points_.set_time_step(length);
     if (points_.evaluate(displacement, want, threads_) != GRAINLAW_OK) return false;
-    // The work of the present forces: over half of the way here and half of the way on.
+    // Work of the present forces over half of the last and half of the next displacement.
     const Eigen::VectorXd way = 0.5 * (motion_.last_step * motion_.velocity + change);
     const double external = now.force.dot(way);
     motion_.work.external += external;
@@ -198,8 +199,9 @@ class DynamicsSolver final : public Solver {
     return true;
   }
 
-  // In a stable run the energy that swings from one time step to the next, (omega dt)^2 / 4 < 1 of
-  // the energy of each mode, is less than all that was ever brought in.
+  // Throws when energies swing too far. In a stable run the energy that alternates between time
+  // steps is below (omega dt)^2 / 4 < 1 of each mode's energy. It is thus below all energy
+  // supplied.
   void refuse_instability(const Kick& now, double length) const {
     if (now.zigzag <= motion_.turnover && std::isfinite(now.zigzag)) return;
     throw ComputationError(fmt::format(
@@ -209,7 +211,7 @@ class DynamicsSolver final : public Solver {
   }
 
   void report(LoadStep& step) const {
-    // The next time step is not known: it is taken as the last.
+    // The next time step is unknown and taken as the last.
     const Motion& now = motion_;
     step.energies = now.work;
     const double length = now.last_step > 0 ? now.last_step : longest_step();

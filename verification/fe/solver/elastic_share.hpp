@@ -1,19 +1,20 @@
-// How much of the elastic stiffness Newton's method adds to the tangent.
+// Share of the elastic stiffness in Newton's matrix.
 #pragma once
 
 #include <algorithm>
 
 namespace verification {
 
-// Share of it in the next solve, by the residuals before and after the last correction: none while
-// they fall, more where they rise, less again where they fall fast or, held back by it, slowly.
+// Share in the next solve, from the residuals before and after the last correction. It is zero
+// while residuals fall and grows where they rise. It shrinks where they fall fast, or slowly
+// because of it.
 class ElasticShare {
  public:
-  explicit ElasticShare(double first) : first_(first) {}  // the least but none [-]
+  explicit ElasticShare(double first) : first_(first) {}  // least nonzero share [-]
 
   void update(double before, double after) {
     constexpr double more = 4, less = 1.0 / 3;
-    constexpr double slow = 0.7, fast = 0.3;  // of the residual is left
+    constexpr double slow = 0.7, fast = 0.3;  // ratios of the residual
     if (after >= before || (share_ == 0 && after > slow * before)) {
       share_ = std::min(1.0, std::max(first_, more * share_));
     } else if (after > slow * before) {

@@ -10,7 +10,8 @@ double highest_frequency(const PointField& points, const Dofs& dofs, const Eigen
   Eigen::SparseMatrix<double> stiffness(mass.size(), mass.size());
   stiffness.setFromTriplets(triplets.begin(), triplets.end());
   const Eigen::VectorXd scale = dofs.reduce_mass(mass).cwiseSqrt().cwiseInverse();
-  // Neighbouring nodes with opposite signs, the shape of the highest modes, and a little of all.
+  // Start vector: neighbouring nodes with opposite signs, the shape of the highest modes, plus a
+  // part of all modes.
   Eigen::VectorXd vector(dofs.unknowns);
   for (Eigen::Index k = 0; k < vector.size(); ++k)
     vector(k) = (k / 2 % 2 == 0 ? 1 : -1) * (1 + 0.5 * std::sin(3.0 * static_cast<double>(k * k)));

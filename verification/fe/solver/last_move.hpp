@@ -1,4 +1,4 @@
-// What the last part of a load step moved, as a first guess of the next.
+// Displacement of the last part of a load step, as first guess of the next.
 #pragma once
 
 #include "fe/checkpoint.hpp"
@@ -9,20 +9,21 @@
 
 namespace verification {
 
-// Grains with drag expect to go on as they went (solver.viscous_inertia), and the committed tangent is
-// that of an increment, not of standing still: the last move once more is the nearer guess.
+// Guess by repetition. Drag expects grains to continue (solver.viscous_inertia), and the committed
+// tangent is that of an increment. Repeating the last displacement is then the better guess.
 class LastMove {
  public:
-  // All components [m], and what of them was prescribed.
+  // Keeps a displacement of all components [m], and its prescribed part.
   void keep(Eigen::VectorXd move, Eigen::VectorXd prescribed) {
     move_ = std::move(move);
     prescribed_ = std::move(prescribed);
   }
 
-  // As much of it as now is prescribed; empty where that does not go on the same way.
+  // The last displacement scaled to the present prescription; empty where that has another
+  // direction.
   [[nodiscard]] Eigen::VectorXd once_more(const Eigen::VectorXd& prescribed) const {
-    constexpr double longest = 3;         // as far as drag follows [-]
-    constexpr double another_way = 1e-9;  // more than rounding turns a direction by [-]
+    constexpr double longest = 3;         // limit of the drag's expectation [-]
+    constexpr double another_way = 1e-9;  // rounding of a direction [-]
     const double square = prescribed_.squaredNorm();
     if (!(square > 0)) return {};
     const double ratio = prescribed.dot(prescribed_) / square;

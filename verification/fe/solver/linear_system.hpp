@@ -1,4 +1,4 @@
-// The equations of one Newton iteration over all displacement components.
+// Equations of one Newton iteration over all displacement components.
 #pragma once
 
 #include "fe/conditions/dofs.hpp"
@@ -8,7 +8,7 @@
 
 namespace verification {
 
-// Residual and stiffness of all displacement components at one displacement and one load.
+// Residual and stiffness over all displacement components.
 struct System {
   Eigen::VectorXd residual;  // external minus internal force [N/m]
   Eigen::SparseMatrix<double> stiffness;
@@ -17,8 +17,8 @@ struct System {
 System assemble(const Model& model, const PointField& points, const Eigen::VectorXd& displacement,
                 double time);
 
-// Change of displacement that the linearised system asks for, the prescribed part given. NaN where
-// the stiffness is singular.
+// Displacement change of the linearised system with its prescribed part given; NaN for a singular
+// stiffness.
 Eigen::VectorXd solve(const Eigen::SparseMatrix<double>& stiffness, const Eigen::VectorXd& residual,
                       const Dofs& dofs, const Eigen::VectorXd& prescribed);
 

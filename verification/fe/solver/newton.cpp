@@ -15,8 +15,8 @@
 namespace verification {
 namespace {
 
-constexpr int jump_patience = 2;    // as NewtonOptions::patience, at a residual that may stay
-constexpr double slow_ratio = 0.5;  // a correction that leaves more than this of it
+constexpr int jump_patience = 2;    // like NewtonOptions::patience, within jump_tolerance
+constexpr double slow_ratio = 0.5;  // a correction that leaves more is slow
 
 class NewtonSolver final : public Solver {
  public:
@@ -35,7 +35,7 @@ class NewtonSolver final : public Solver {
     system_ = assemble(model_, points_, displacement_, 0);
     elastic_ = system_.stiffness;
     points_.commit();
-    points_.record();  // the start is not part of step 0's effort
+    points_.record();  // excludes the start from step 0
   }
 
   LoadStep advance(double to, int number) override {
@@ -96,10 +96,9 @@ class NewtonSolver final : public Solver {
   [[nodiscard]] const Eigen::VectorXd& displacement() const override { return displacement_; }
 
  private:
-  // Without a last move to go on with, increments of prescribed displacement enter through the
-  // right-hand side of the first solve, which extrapolates the committed equilibrium by its tangent;
-  // boundary values never jump ahead alone. What a bounded correction leaves of them is made in the
-  // next.
+  // Finds the equilibrium at a time. Without a last displacement, prescribed increments enter the
+  // right-hand side of the first solve. It extrapolates the committed equilibrium, so that boundary
+  // values never jump alone. The part that a bounded correction leaves comes in the next.
   Attempt equilibrate(double time, double tolerance, std::vector<double>& residuals) {
     Eigen::VectorXd displacement = displacement_;
     System system = system_;
@@ -173,7 +172,7 @@ class NewtonSolver final : public Solver {
     return options_.loose_tolerance == 0 && options_.jump_tolerance == 0;
   }
 
-  // Keeps the iterate whose forces are furthest from where the committed stiffness has them.
+  // Keeps the iterate whose forces differ most from those of the committed stiffness.
   void see_far(const Eigen::VectorXd& displacement, const System& system) {
     const double distance =
         (system.residual - system_.residual + system_.stiffness * (displacement - displacement_))
@@ -183,7 +182,7 @@ class NewtonSolver final : public Solver {
     far_displacement_ = displacement;
   }
 
-  // From an attempt that stalled before a jump, and from what it saw beyond.
+  // Crosses jumps from a stalled attempt and its iterate furthest beyond.
   Attempt cross_jumps(double time, Attempt last, std::vector<double>& residuals, int& crossed) {
     for (int crossing = 0; crossing < most_crossings && last.stalled; ++crossing) {
       const Eigen::VectorXd beyond = far_displacement_;
@@ -204,8 +203,8 @@ class NewtonSolver final : public Solver {
     return last;
   }
 
-  // Goes the way of the correction. With halvings left, a way that a point refuses or that ends at a
-  // larger residual than `before` is halved; without any to begin with it is gone whole.
+  // Applies a correction. It is halved while a point refuses or the residual exceeds `before`, if
+  // there are halvings; with none at the start it is applied whole.
   Attempt correct(Eigen::VectorXd& displacement, System& system, const Eigen::VectorXd& correction,
                   double time, double before, int halvings) {
     double fraction = 1;
@@ -228,13 +227,13 @@ class NewtonSolver final : public Solver {
     }
   }
 
-  // How much of a correction may be made, 1: all of it.
+  // Largest allowed share of a correction, at most 1.
   [[nodiscard]] double bound(const Eigen::VectorXd& correction) const {
     if (options_.largest_correction == 0) return 1;
     return std::min(1.0, options_.largest_correction / points_.largest_change(correction));
   }
 
-  // The committed system carries the load of its own time; the difference to the new one.
+  // Adds the load increment: the committed system has the load of its own time.
   void add_load_increment(System& system, double time) const {
     Triplets now, before;
     Eigen::VectorXd force = Eigen::VectorXd::Zero(system.residual.size());
@@ -261,8 +260,8 @@ class NewtonSolver final : public Solver {
   System system_;                        // at the committed displacement and load
   double time_ = 0;                      // committed
   LastMove last_move_;
-  Eigen::VectorXd far_displacement_;  // what the last attempt saw furthest from there
-  double far_ = -1;                   // how far [N/m]; -1: nothing
+  Eigen::VectorXd far_displacement_;  // iterate of the last attempt furthest from equilibrium
+  double far_ = -1;                   // its distance [N/m]; -1: none
 };
 
 }  // namespace

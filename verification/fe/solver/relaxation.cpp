@@ -13,12 +13,12 @@
 namespace verification {
 namespace {
 
-// All that the next load step depends on, besides the committed points.
+// State on which the next load step depends, besides the committed points.
 struct Rest {
   double time = 0;
   Eigen::VectorXd displacement;  // [m]
   Eigen::VectorXd imbalance;     // external minus internal force [N/m]
-  Eigen::VectorXd rate;          // of the unknowns in the last part, per unit of time [m]
+  Eigen::VectorXd rate;          // velocity of the unknowns in the last part, per unit of time [m]
 };
 
 class RelaxationSolver final : public Solver {
@@ -38,7 +38,7 @@ class RelaxationSolver final : public Solver {
     check(points_.evaluate(rest_.displacement, 0, threads_),
           "evaluating the integration points at F = I");
     points_.commit();
-    points_.record();  // the start is not part of step 0's effort
+    points_.record();  // excludes the start from step 0
   }
 
   LoadStep advance(double to, int number) override {
@@ -100,13 +100,13 @@ class RelaxationSolver final : public Solver {
     return result;
   }
 
-  // How supports and jumps are told to move, from the committed time on [m].
+  // Prescribed displacement and jumps since the committed time [m].
   [[nodiscard]] Eigen::VectorXd told(double time) const {
     return dofs_.prescribed_at(time) - dofs_.prescribed_at(rest_.time);
   }
 
   Attempt relax(double time, std::vector<double>& residuals, int& iterations) {
-    // From the committed equilibrium on as in the last part.
+    // Extrapolates the committed equilibrium at the velocity of the last part.
     const Eigen::VectorXd origin =
         rest_.displacement + told(time) + (time - rest_.time) * rest_.rate;
     Eigen::VectorXd place = origin;
@@ -133,7 +133,7 @@ class RelaxationSolver final : public Solver {
         highest = highest_frequency(points_, dofs_, mass_);
         if (highest == 0) return {.reason = "the packings have no stiffness"};
       }
-      // Rayleigh quotient (eq. 26) of the motion since the start, the supports at rest.
+      // Rayleigh quotient (eq. 26) of the displacement since the start, without the supports'.
       const Eigen::VectorXd moved = place - origin;
       const double inertia = moved.dot(mass_.cwiseProduct(moved));
       const double work = moved.dot(now.internal - first_internal);

@@ -1,4 +1,4 @@
-// What the three solvers of a finite element model have in common.
+// Common interface of the three solvers of a finite element model.
 #pragma once
 
 #include "app/parts.hpp"
@@ -23,21 +23,21 @@ struct Energies {
   [[nodiscard]] double balance() const { return kinetic + internal + damped - external; }
 };
 
-// One solved load step. Residuals: of every attempt one after the other; entry 0 of an attempt is
-// the imbalance after the load increment, entry k the one after k corrections.
+// One solved load step. `residuals` has those of all attempts: the first of an attempt is the
+// imbalance after the load increment, entry k that after k corrections.
 struct LoadStep {
   Record record;  // means over the integration points
   double time = 0;
   std::vector<double> residuals;
-  std::vector<std::size_t> attempts;  // entry of the first residual of each
-  double balance = 0;  // of static solvers: largest residual that a part of the step ended at [-]
-  // Of every monitor of the model: how far it has moved [m], and the force on its nodes [N/m].
+  std::vector<std::size_t> attempts;  // index of each attempt's first residual
+  double balance = 0;                 // static solvers: largest final residual of a part [-]
+  // Displacement [m] and force on the nodes [N/m] of every monitor of the model.
   std::vector<double> displacements;
   std::vector<double> reactions;
-  std::optional<Energies> energies;  // of dynamic runs
+  std::optional<Energies> energies;  // dynamic runs only
 };
 
-// A model on its way through a run: everything up to the committed time is done.
+// A model during a run, solved up to the committed time.
 class Solver {
  public:
   Solver() = default;
@@ -45,19 +45,19 @@ class Solver {
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
 
-  // From the committed time to this one (at time 0: brings the loads of time 0 to equilibrium), in
-  // as many parts as it takes. Throws ComputationError, saying where, when that is not possible.
+  // Advances to a time in as many parts as needed; time 0 brings its loads to equilibrium. Throws
+  // ComputationError with the place when it cannot.
   virtual LoadStep advance(double to, int number) = 0;
 
-  // How long a load step is, the unit of the time steps that static solvers tell their points: its
-  // parts are the shorter for them. Dynamics tells seconds.
+  // Sets the length of a load step, the unit of time steps that static solvers pass to their
+  // points. Dynamics passes seconds.
   void set_load_step(double length) { load_step_ = length; }
 
-  // Of the load steps that static solvers make in parts.
+  // Sets the observer of cuts in static solvers.
   void observe_cuts(CutObserver observer) { observe_cut_ = std::move(observer); }
 
-  // Everything that the next `advance` depends on, between two calls of it: a solver of the same
-  // scene that restores it goes on to the same bits. Throws as CheckpointReader does.
+  // Saves everything on which the next `advance` depends, between two calls. A solver of an equal
+  // scene that restores it continues to the same bits. Throws as CheckpointReader does.
   virtual void save(CheckpointWriter& out) const = 0;
   virtual void restore(CheckpointReader& in) = 0;
 
@@ -65,7 +65,7 @@ class Solver {
   [[nodiscard]] virtual const Eigen::VectorXd& displacement() const = 0;  // committed [m]
 
  protected:
-  // Time of a part as its points are told it; one load step where time stands still.
+  // Time of a part for its points; one load step where time stands still.
   [[nodiscard]] double told_time(double part) const { return part > 0 ? part / load_step_ : 1; }
 
   CutObserver observe_cut_;
@@ -76,8 +76,9 @@ class Solver {
 
 using LoadObserver = std::function<void(const LoadStep&, const Solver&)>;
 
-// Step 0 brings the loads at time 0 to equilibrium; steps 1..steps divide the duration evenly.
-// Stops after step `last`; a restored solver goes on with the step after the one it was saved at.
+// Makes load steps: step 0 brings the loads at time 0 to equilibrium; steps 1..steps divide the
+// duration evenly. Stops after step `last`; a restored solver continues with the step after the
+// saved one.
 void run_load_steps(Solver& solver, double duration, int steps, int last,
                     const LoadObserver& observe, int first = 0);
 

@@ -17,19 +17,18 @@ struct SolverOptions {
   RelaxationOptions relaxation;
   DynamicsOptions dynamics;
   int steps = 1;                // load steps of the run
-  double particle_density = 0;  // of the grains; 0: the dynamic options give the density [kg/m3]
+  double particle_density = 0;  // density of the grains; 0: from the dynamic options [kg/m3]
 
-  // Of the run: 1, or seconds in dynamics.
+  // Duration of the run: 1, or seconds in dynamics.
   [[nodiscard]] double duration() const {
     return kind == SolverKind::dynamics ? dynamics.duration : 1;
   }
 };
 
-// Reads `solver` and the table of that name; tables of other solvers are refused as unknown keys.
-// Throws InputError.
+// Reads `solver` and its table; tables of other solvers are unknown keys. Throws InputError.
 SolverOptions read_solver(SceneTable& scene, const MaterialSource& material);
 
-// Errors as the solvers have them. The model must outlive the solver.
+// Makes the solver, which throws as its kind does. `model` must outlive it.
 std::unique_ptr<Solver> make_solver(const SolverOptions& options, const Model& model,
                                     const Material& material, int threads);
 
