@@ -97,7 +97,7 @@ class Biaxial {
   }
 
  private:
-  // Of the dead load on a node of the sides, along x [N/m].
+  // Dead load on a node of the sides, along x [N/m].
   static double side_force(const Point<2>& X) {
     const bool left = X[0]<1e-9, right = X[0]> width - 1e-9;
     if (!left && !right) return 0;

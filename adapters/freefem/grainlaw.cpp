@@ -195,7 +195,7 @@ long destroy(const long& number) {
 
 string* text_of_last_error() { return &last_error; }
 
-// As much of it as there is room for, and zeros.
+// Copies as much of its text as there is room for, then zeros.
 long error_text(const Vector& numbers) {
   for (long k = 0; k < numbers->N(); ++k) {
     const auto at = static_cast<std::size_t>(k);

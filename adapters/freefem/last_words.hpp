@@ -15,7 +15,7 @@ class LastWords : public std::streambuf {
   explicit LastWords(std::streambuf* to) : to_(to) {}
   [[nodiscard]] std::streambuf* to() const { return to_; }
 
-  // Of the error, also of exit(n), by which the script ends; 0: of none.
+  // Code of the error, or of exit(n), by which the script ends; 0: there is none.
   [[nodiscard]] int code() const {
     constexpr std::string_view before = " err code ", after = " ,  mpirank ";
     if (end_.find(after) == std::string::npos) return 0;

@@ -14,10 +14,10 @@ namespace grainlaw::adapters {
 
 class MaterialFile {
  public:
-  // path as written into the library that holds the address in_library. The environment variable
-  // GRAINLAW_MATERIAL_<name> goes before it. A relative path starts at that library's folder, the
-  // variable's at the working directory in which the adapter was loaded, wherever the host is by
-  // now.
+  // `path` is as written into the library that holds the address in_library. The environment
+  // variable GRAINLAW_MATERIAL_<name> goes before it. A relative path starts at that library's
+  // folder. The variable's starts at the working directory in which the adapter was loaded, wherever
+  // the host is by now.
   MaterialFile(const char* name, const char* path, const void* in_library);
 
   // Reads the file at the first call; threads that come meanwhile wait. Throws grainlaw::StatusError

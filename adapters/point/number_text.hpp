@@ -9,7 +9,7 @@
 
 namespace grainlaw::adapters {
 
-// As printf's %.*g in the C locale.
+// Text that printf writes for %.*g in the C locale.
 inline std::string shown(double value, int digits = 6) {
   std::array<char, 40> text;
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value,

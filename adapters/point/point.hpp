@@ -31,7 +31,7 @@ class Point {
   // for the host when F is not finite or not plane strain, grainlaw::StatusError for the library's own.
   Answer evaluate(const Tensor2& F, unsigned want, Response& response);
 
-  // The same for a host that takes S, Cauchy stress or a tangent of theirs: also throws, and forgets
+  // Evaluates for a host that takes S, Cauchy stress or a tangent of theirs: also throws, and forgets
   // the trial, where F^-1 P is not symmetric.
   Answer evaluate_symmetric(const Tensor2& F, unsigned want, Response& response);
 

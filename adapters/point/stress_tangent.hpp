@@ -25,8 +25,8 @@ struct Response {
 // discs (dimension 2) wants F33 = 1 and F13, F23, F31, F32 = 0, each to 1e-9.
 int reduce(int dimension, const Tensor2& F, double* reduced);
 
-// P[dim*dim] and A[dim^4] (or NULL) of the packing, completed to three dimensions. Out of the plane
-// of discs S is zero and does not depend on the strain, so that P = F S turns with F and
+// Completes P[dim*dim] and A[dim^4] (or NULL) of the packing to three dimensions. Out of the plane of
+// discs S is zero and does not depend on the strain. P = F S then turns with F, and
 // dP_3J/dF_3L = S_LJ is all that the tangent has there.
 void complete(int dimension, const double* P, const double* A, Response& response);
 

@@ -191,7 +191,7 @@ TEST(state, a_report_tells_what_was_done) {
 }
 
 TEST(state, a_smaller_known_report_is_filled_to_its_size) {
-  // Of version 0.1 the fields, without the padding at the end.
+  // Size of the fields of version 0.1, without the padding at the end.
   constexpr std::size_t size = offsetof(grainlaw_report, message) + 256;
   grainlaw_report report;
   std::memset(&report, 0x5a, sizeof report);

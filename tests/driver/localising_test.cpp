@@ -65,10 +65,10 @@ TEST(localising, meshes_of_a_symmetric_packing_agree_in_their_displacements) {
   EXPECT_LT((fine.corner - coarse.corner).norm(), 1e-7 * coarse.corner.norm());
 }
 
-// A packing that is not symmetric shears by itself between smooth platens. Uniform deformation then
-// asks for P21 = P12 F22 / F11 - P22 F12 / F11 on the sides, by the balance of moments, and the
-// membranes give p F12: what is missing, the deviatoric stress times F12, bends the sides of a mesh
-// that has nodes there.
+// A packing that is not symmetric shears by itself between smooth platens. By the balance of moments
+// a uniform deformation then asks for P21 = P12 F22 / F11 - P22 F12 / F11 on the sides. The membranes
+// give p F12. What is missing, the deviatoric stress times F12, bends the sides of a mesh that has
+// nodes there.
 TEST(localising, meshes_of_a_packing_that_shears_differ_by_what_membranes_do_not_balance) {
   const NewtonOptions options{.tolerance = 1e-8};
   const Result coarse = compress(1, options), fine = compress(2, options);

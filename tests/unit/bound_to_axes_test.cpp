@@ -1,6 +1,6 @@
-// Conditions that are bound to the axes of space, as a test rig is (different rules in x and y, rigid rows,
-// prescribed stresses), do not turn with F. What holds instead: the whole problem turned by a quarter or mirrored,
-// packing, rules, stresses and Q F Q^T, has the turned or mirrored answer.
+// Conditions that are bound to the axes of space, as a test rig is, do not turn with F: different rules in x and
+// y, rigid rows, prescribed stresses. What holds instead: the whole problem turned by a quarter or mirrored has
+// the turned or mirrored answer. The whole problem is packing, rules, stresses and Q F Q^T.
 #include "boundary_support.hpp"
 
 #include <algorithm>

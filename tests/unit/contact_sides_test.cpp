@@ -49,7 +49,7 @@ struct Scene {
     return result;
   }
 
-  // The same by a step from rest, which moves particles by gain r / m.
+  // Residual r by a step from rest, which moves particles by gain r / m.
   [[nodiscard]] std::vector<ForceRecord> step() {
     auto before = places();
     sides.move(before);

@@ -129,8 +129,8 @@ TEST(drag, fades_with_the_time_of_an_increment) {
   }
 }
 
-// An increment and its halves of half the time each lead to about the same, where increments that
-// take the same time however long would not: more of them would take longer.
+// An increment, and two halves of half its time, lead to about the same P. Increments of one time,
+// however long they are, would not: more of them would take longer.
 TEST(drag, parts_of_an_increment_take_its_time_together) {
   MaterialDescription whole = with_drag(describe(small_packing(), rough_law()), 3);
   MaterialDescription in_parts = whole;

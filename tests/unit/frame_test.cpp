@@ -26,7 +26,7 @@ Packing yade_packing() {
   return read_packing({data + "particles.csv", data + "contacts.csv", data + "cell.csv"});
 }
 
-// The same packing seen in a sheared cell, particles moved to other cells.
+// The packing seen in a sheared cell, with particles moved to other cells.
 Packing disguised(Packing packing, const std::array<int, 4>& lattice) {
   const auto h = packing.cell;
   const auto& m = lattice;  // new vectors in terms of the old, det 1

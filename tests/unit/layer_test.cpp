@@ -33,7 +33,7 @@ TEST(layer, returns_the_prescribed_stress_whatever_f22_is_given) {
 
 TEST(layer, found_deformation_gives_the_prescribed_stress_when_it_is_given) {
   State found(make_material(describe_layer(small_packing(), pressure)));
-  // The same boundary with F22 given: the packing as it stands is loaded by the path found above.
+  // Here F22 is given: the packing as it stands is loaded by the path found above.
   auto description = describe_layer(small_packing(), pressure);
   description.boundary.stress = {};
   State given(make_material(description));

@@ -57,7 +57,7 @@ TEST(level_order, has_every_node_once) {
   }
 }
 
-// Of a lattice of side n no level has more than 2 n nodes.
+// A level of a lattice of side n has at most 2 n nodes, and neighbours are at most a level apart.
 TEST(level_order, keeps_neighbours_near_each_other) {
   constexpr std::size_t side = 20;
   std::mt19937 random(42);

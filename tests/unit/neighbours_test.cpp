@@ -219,7 +219,7 @@ Eigen::Vector3d place(const Spheres& spheres, std::size_t p) {
   return {spheres.position[p], spheres.position[n + p], spheres.position[2 * n + p]};
 }
 
-// As that of discs; in the order (i, j, shift).
+// Every pair tried with every shift that could matter; in the order (i, j, shift).
 std::vector<NeighbourPair<3>> brute_force(const Spheres& spheres, const Cell3* h, double gap) {
   const std::size_t n = spheres.radius.size();
   const Eigen::Matrix3d cell = h != nullptr ? matrix_of(*h) : Eigen::Matrix3d::Identity();

@@ -73,10 +73,11 @@ TEST(sphere_lattices, rest_at_the_pressure_wanted) {
       }
 }
 
-// 6 x 6 by (11, 22, 33, 23, 13, 12) with engineering shears, over sqrt(2) / d or 1 / d. Under a stretch U
-// every contact of an affine lattice gives l l (kn n n n n + s n n (1 - n n)) / V, with s = kt - fn / d: what
-// the force fn turns with the branch counts like a softer spring. No sphere turns, since the sum of n n is
-// isotropic. Summed by hand over the 3 and 6 contacts that a sphere has.
+// Stiffness, 6 x 6 by (11, 22, 33, 23, 13, 12) with engineering shears, of affine lattices under a stretch U.
+// Every contact gives
+//   l l (kn n n n n + s n n (1 - n n)) / V, s = kt - fn / d:
+// the force fn turns with the branch, which counts like a softer spring. No sphere turns, since the sum of n n
+// is isotropic. Summed by hand over the 3 and 6 contacts that a sphere has.
 struct Constants {
   double c11, c12, c13, c33, c44, c66;
 };

@@ -85,7 +85,7 @@ TEST(two_spheres, turned_as_one_feel_no_moment) {
   }
 }
 
-// Of unequal radii bound to each other, three in a row along x without overlap.
+// Four equal spheres in a row along x, bonded without overlap.
 Spheres beam() {
   return Spheres(bonded_law(), {1, 1, 1, 1}, {0, 2, 4, 6, 0, 0, 0, 0, 0, 0, 0, 0},
                  {{0, 1, {}}, {1, 2, {}}, {2, 3, {}}});
@@ -282,7 +282,7 @@ TEST(moments_of_spheres, turn_with_the_packing) {
   }
 }
 
-// Of which a hundred evaluations take no time.
+// So small that a hundred evaluations take little time.
 const Packing& small_packing() {
   static const Packing packing = [] {
     GeneratorOptions options;

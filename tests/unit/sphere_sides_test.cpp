@@ -65,7 +65,7 @@ struct Scene {
     return result;
   }
 
-  // The same by a step from rest, which moves particles by gain r / m.
+  // Residual r by a step from rest, which moves particles by gain r / m.
   [[nodiscard]] std::vector<ForceRecord<3>> step() {
     increment.sum_masses();
     auto before = places();

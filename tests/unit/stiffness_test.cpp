@@ -1,4 +1,4 @@
-// The stiffness is the derivative of the residual, solves with it invert it, and what it keeps for
+// The stiffness is the derivative of the residual, and solves with it invert it. What it keeps for
 // the rest of an increment changes no bit of another.
 #include "support.hpp"
 

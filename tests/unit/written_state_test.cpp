@@ -56,7 +56,7 @@ const Goal compressed{"compressed", {0.97, 0, 0, 0.97}};
 const Goal flattened{"flattened", {1.1, 0, 0, 0.88}, 0, 24};
 const Goal turned{"turned", {0.995, 0.02, 0, 0.99}, 1};
 
-// As far as there is an equilibrium: some boundaries let go before the end.
+// Leads as far as there is an equilibrium: some boundaries lose contact before the end.
 void lead(State& state, const Goal& goal) {
   for (int k = 1; k <= goal.steps; ++k) {
     const double share = static_cast<double>(k) / goal.steps;

@@ -67,7 +67,7 @@ toml::table packing_table(const std::string& prefix, bool contacts) {
   return table;
 }
 
-// Of --material, else of the options; without [packing].
+// Material by --material, else by the options; without [packing].
 MaterialSource description(const ImportArguments& arguments, const ForeignPacking& packing,
                            std::vector<std::string>& notes) {
   MaterialSource source;

@@ -11,8 +11,8 @@ namespace verification {
 
 using Shift = std::array<int, 3>;
 
-// Of the images of j within twice the sum of radii, those that touch i, or else the nearest. Of two
-// sides of one particle's contact with its own image the first.
+// Images of j within twice the sum of radii: those that touch i, or else the nearest. A particle
+// touches its own image on two opposite sides, of which one is taken.
 std::vector<Shift> images_in_touch(const ForeignPacking& packing, std::size_t i, std::size_t j);
 
 // The one whose branch is `apart` or its opposite; nothing where none or two are.

@@ -22,7 +22,7 @@ std::string_view unquoted(std::string_view text) {
   return text;
 }
 
-// Of a unit in brackets at the end, but not of the places of LAMMPS' vectors: c_pair[1].
+// Where a unit in brackets begins; the number of a component of LAMMPS, c_pair[1], is no unit.
 std::size_t unit_begin(std::string_view name) {
   const auto bracket = name.find_first_of("[(");
   const bool numbered = bracket != std::string_view::npos && bracket + 1 < name.size() &&

@@ -58,8 +58,8 @@ class Columns {
  public:
   Columns(const SourceTable& table, ColumnChoice choice);
 
-  // Finds the column: as chosen, else by one of the names that other programs have for it, else, in a
-  // table without a header, at this place (1, 2, ...; 0: nowhere).
+  // Finds the column as chosen, else by one of the names that other programs have for it. In a
+  // table without a header it is, failing both, the one at this place (1, 2, ...; 0: nowhere).
   void find(const std::string& name, const std::vector<std::string>& others,
             Quantity quantity = Quantity::number, std::size_t place = 0);
   [[nodiscard]] bool has(const std::string& name) const { return found_.contains(name); }
@@ -99,7 +99,7 @@ std::optional<double> number_in(std::string_view field);
 std::string plain_name(std::string_view field);
 std::string unit_of_name(std::string_view field);
 
-// The same of LAMMPS, whose files say what they are.
+// Files of LAMMPS say what they are.
 bool is_lammps_dump(std::string_view text);
 bool is_lammps_data(std::string_view text);
 void read_lammps_dump(SourceTable& table);

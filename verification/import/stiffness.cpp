@@ -27,7 +27,7 @@ std::vector<Pair> pairs_of(const ForeignPacking& packing) {
 }  // namespace
 
 FoundStiffness found_stiffness(const ForeignPacking& packing) {
-  // Of all contacts together, so that small overlaps of rounded centres weigh little.
+  // Ratios of sums over all contacts, so that small overlaps of rounded centres weigh little.
   const std::vector<Pair> pairs = pairs_of(packing);
   double force = 0, overlap = 0, scaled = 0, kn = 0, kt = 0;
   for (const Pair& pair : pairs) {

@@ -99,7 +99,8 @@ bool cut(grainlaw::State state, const std::vector<Call>& calls) {
   return refused > 0 && std::abs(steps.back().F[1] - 0.8) < 1e-12 && worst <= 1e-12;
 }
 
-// The same drained compression of one packing: F11 such that the Cauchy stress along 1 is -100 kPa.
+// Drained compression of the packing alone: F11, by Newton's method, such that the Cauchy stress
+// along 1 is -100 kPa. Its axial stresses have to be those of CalculiX.
 bool newton(grainlaw::State state, const std::vector<Call>& calls) {
   bool good = true;
   double before = 1;

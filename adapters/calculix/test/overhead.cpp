@@ -11,7 +11,7 @@
 
 namespace {
 
-// Of this thread [ns]; other work on the machine does not count.
+// CPU time of this thread [ns]; other work on the machine does not count.
 double cpu_time() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

@@ -1,5 +1,5 @@
-/* For the tests in the solver: the material of the file named by GRAINLAW_MATERIAL_SAND, and a line
- * in the file GRAINLAW_RECORD for every call at the first point of the first element. */
+/* For the tests in the solver: the material of the file named by GRAINLAW_MATERIAL_SAND. Every call
+ * at the first point of the first element adds a line to the file GRAINLAW_RECORD. */
 #include <grainlaw/calculix.h>
 
 #include <stdio.h>

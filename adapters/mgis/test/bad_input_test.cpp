@@ -253,7 +253,7 @@ TEST_F(mgis_elsewhere, a_relative_name_in_the_environment_starts_where_the_host_
   unsetenv("GRAINLAW_MATERIAL_Named");
 }
 
-// Of a locale that writes a comma; made here, since few machines have one.
+// A locale that writes a comma is made here, since few machines have one.
 TEST(mgis_material, numbers_are_the_same_in_any_locale) {
   const TemporaryDirectory directory;
   const std::string name = "de_DE.UTF-8";

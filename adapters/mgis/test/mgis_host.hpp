@@ -1,6 +1,6 @@
 // A host in small, after the public headers of MGIS (BehaviourDataView.hxx, StateView.hxx,
-// LibrariesManager.cxx; behaviour API version 1): loads a behaviour library by dlopen, keeps arrays
-// at the start and the end of a step for many points, and never says commit to the behaviour.
+// LibrariesManager.cxx; behaviour API version 1). It loads a behaviour library by dlopen, and keeps
+// arrays at the start and the end of a step for many points. It never says commit to the behaviour.
 #pragma once
 
 #include <dlfcn.h>

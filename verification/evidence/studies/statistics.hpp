@@ -26,7 +26,7 @@ inline double largest(const std::vector<double>& values) {
   return *std::max_element(values.begin(), values.end());
 }
 
-// Of the population the values were drawn from (n - 1).
+// Standard deviation of the population that the values were drawn from (n - 1).
 inline double standard_deviation(const std::vector<double>& values) {
   if (values.size() < 2) return std::numeric_limits<double>::quiet_NaN();
   const double centre = average(values);
@@ -35,7 +35,7 @@ inline double standard_deviation(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
-// Of their mean.
+// Standard error of the mean of the values.
 inline double standard_error(const std::vector<double>& values) {
   return standard_deviation(values) / std::sqrt(static_cast<double>(values.size()));
 }

@@ -49,10 +49,10 @@ struct ProbeResult {
   grainlaw_report report = grainlaw_report_default();
 };
 
-// A stencil must be small enough for no contact to change its status, and large enough for the
-// differences to stand above the tolerance of the equilibria. Of stencils in a row, those two are
-// taken that agree best with each other (of two without a change, where there are such); how well
-// they agree is what the differences themselves are worth.
+// A stencil must be so small that no contact changes its status, and so large that differences stand
+// above the tolerance of the equilibria. The two neighbouring stencils that agree best are taken,
+// without a change of status where there are such. How well these two agree is the accuracy of the
+// differences themselves.
 ProbeResult examine(Probe& probe) {
   constexpr std::array<double, 6> stencils{1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 3e-9};
   ProbeResult result;

@@ -24,7 +24,7 @@ struct Cost {
 
 constexpr double loose_tolerance = 1e-2;
 
-// The same point in a material that differs in its solver alone.
+// A point in the same state, of a material that differs in its solver alone.
 State point_of(const Material& material, const State& state) {
   State point(material);
   point.load(state.save());

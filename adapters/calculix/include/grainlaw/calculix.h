@@ -28,9 +28,9 @@
  * converges linearly once contacts slide.
  *
  * States are kept by element and point. CalculiX never says that an increment is accepted, and this
- * interface does not tell its number; it tells F at the start of the increment. That is the F of
- * the committed state when the increment goes on or is tried again, and the F of the last answer
- * when that was accepted, which is the moment it is committed.
+ * interface does not tell its number. It tells F at the start of the increment, which is
+ * - the F of the committed state when the increment goes on or is tried again;
+ * - the F of the last answer when that was accepted: this is the moment it is committed.
  */
 #ifndef GRAINLAW_CALCULIX_H
 #define GRAINLAW_CALCULIX_H

@@ -15,17 +15,25 @@
  * GRAINLAW_MATERIAL_Sand, when set, goes before it, a relative one from the working directory in
  * which libgrainlaw_mgis was loaded. A library may hold several behaviours.
  *
- * What the host sees: gradient DeformationGradient, force Stress (Cauchy, PK2 or PK1 as it asks),
- * any of the four tangents dsigma/dF, dS/dE, dP/dF, dtau/d(dF), elastic tangent for the elastic and
- * secant operators, prediction operators, no material property, no parameter, external state
- * variable Temperature (not used). Internal state variables GrainlawPoint and GrainlawStep name the
- * state of the point; start them at zero and keep them as they are. A packing of discs is plane
- * strain: F33 = 1, stress out of the plane is 0.
+ * What the host sees:
+ * - gradient DeformationGradient;
+ * - force Stress: Cauchy, PK2 or PK1 as the host asks;
+ * - tangents: any of dsigma/dF, dS/dE, dP/dF, dtau/d(dF);
+ * - elastic and secant operators: the elastic tangent;
+ * - prediction operators;
+ * - internal state variables GrainlawPoint and GrainlawStep, which name the state of the point:
+ *   start them at zero and keep them as they are;
+ * - external state variable Temperature, not used;
+ * - no material property, no parameter.
  *
- * Returned: 1; 0 when the equilibrium was only found by advancing the friction history
- * (approximate, rdt = 0.5); -1 on failure, with a text in error_message. rdt < 1 comes with
- * failures that a smaller step may cure; other failures leave it alone. After -1 nothing of the
- * host's is changed, and the state is as it was committed.
+ * A packing of discs is plane strain: F33 = 1, stress out of the plane is 0.
+ *
+ * Returned:
+ * - 1: an equilibrium was found;
+ * - 0: it was only found by advancing the friction history (approximate, rdt = 0.5);
+ * - -1: failure, with a text in error_message. Nothing of the host's is changed, and the state is
+ *   as it was committed. rdt < 1 comes with failures that a smaller step may cure; other failures
+ *   leave it alone.
  */
 #ifndef GRAINLAW_MGIS_H
 #define GRAINLAW_MGIS_H
@@ -71,11 +79,13 @@ typedef struct grainlaw_mgis_behaviour {
 GRAINLAW_API int grainlaw_mgis_integrate(grainlaw_mgis_behaviour*, int dimension,
                                          grainlaw_mgis_data*);
 
-/* States in memory now: those of the points, and trials of first increments that were retried.
- * The latter are freed when they have not been asked for during four calls per state in memory, or
- * when they take more than a quarter of the budget; should the host still come back to one it is
- * made again. States that went through an increment are freed when they have been idle as long and
- * all together exceed the budget: GRAINLAW_IDLE_MEMORY [MiB, default 1024]. */
+/* States in memory now: those of the points, and trials of first increments that were retried. The
+ * budget for idle states is GRAINLAW_IDLE_MEMORY [MiB, default 1024]. A state is idle when it has
+ * not been asked for during four calls per state in memory. Freed are
+ * - trials of first increments when they are idle, or take more than a quarter of the budget; one
+ *   that the host still comes back to is made again;
+ * - states that went through an increment, when they are idle and all together exceed the budget.
+ */
 GRAINLAW_API size_t grainlaw_mgis_states(const grainlaw_mgis_behaviour*);
 
 /* Free all states at the end of an analysis; the next starts anew. No thread may be inside. */

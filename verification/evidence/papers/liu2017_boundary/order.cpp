@@ -1,7 +1,7 @@
-// D >= P >= T: what the minimum of the stored energy orders, and what it does not. At the same F each condition
-// searches the minimum of the energy in a space that holds that of the one before, D in P in T; so with a law that
-// has a potential W_D >= W_P >= W_T at the lowest minima. Of stresses, derivatives of W with respect to F, nothing
-// follows, and a law with friction has no potential.
+// D >= P >= T: what the minimum of the stored energy W orders, and what it does not. At one F each condition
+// searches the minimum in a space that contains the space of the one before, D in P in T. A law that has a
+// potential thus has W_D >= W_P >= W_T at the lowest minima. Nothing follows for stresses, the derivatives of
+// W with respect to F. A law with friction has no potential.
 
 #include "evidence/papers/liu2017_boundary/boundary.hpp"
 

@@ -36,8 +36,9 @@ Counts count(const WrittenPacking& packing) {
     framed[p] = 1;
     counts.unheld += contacts[p] == 0 ? 1 : 0;
   }
-  // Two components per contact and four of P, less three equations per disc, of which three repeat
-  // the balance of the whole but for P12 = P21, which they give. Inner rattlers take no part.
+  // The unknowns are two components per contact and four of P; every disc has three equations. The
+  // sums of these are the balance of the whole: P12 = P21, and two that hold in any case. Inner
+  // rattlers take no part.
   counts.spare = static_cast<int>(2 * packing.contacts.size()) + 6;
   for (std::size_t p = 0; p < size; ++p) counts.spare -= contacts[p] > 0 || framed[p] ? 3 : 0;
   counts.particles = static_cast<double>(size);
@@ -57,7 +58,7 @@ MaterialSource recipe(const PaperStudy& study, int size) {
   return source;
 }
 
-// Of the packing that the material starts from.
+// Counts the packing that the material starts from.
 Counts made(const PaperStudy& study, const MaterialSource& source) {
   State state(make_material(source));
   const std::string prefix = (study.results / "counted").string();

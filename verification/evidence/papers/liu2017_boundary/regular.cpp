@@ -46,7 +46,7 @@ void figure_2(PaperStudy& study, const PaperUnits& units) {
     const auto direct = study.run(prefix + "_direct");
     if (!predicted || !plain) continue;
     Panel panel{fmt::format("({})  -σ R / kn [-]", condition), {}, 1.4};
-    // Of the second panel nothing is new in the legend.
+    // The second panel adds nothing to the legend.
     const auto title = [&](const char* text) {
       return std::string(figure.panels.empty() ? text : "");
     };

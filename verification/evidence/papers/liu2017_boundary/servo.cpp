@@ -46,7 +46,7 @@ double distance(const PaperRun& a, const PaperRun& b) {
   return largest;
 }
 
-// Of the runs of one kind.
+// Extreme values over the runs of one kind.
 struct Kind {
   double least_steps = INFINITY, most_steps = 0, least_cpu = INFINITY, most_cpu = 0;
   double distance = 0, same_relaxation = 0;  // largest

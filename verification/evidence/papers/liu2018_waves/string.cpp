@@ -65,7 +65,7 @@ void study_periods(WaveStudy& study) {
               "match closely for all periods", text + " %", worst < 0.01);
 }
 
-// Of a displacement at this frequency [m s].
+// Fourier transform of a displacement at this angular frequency [m s].
 std::complex<double> transform(const PaperRun& run, const char* section, double omega) {
   const auto& time = run.history["time"];
   const auto& u = run.history[section];

@@ -9,7 +9,7 @@
 namespace verification {
 namespace {
 
-// Of a table, whose fields have no commas: the page puts them back.
+// Field of a table, without commas: the page puts them back.
 std::string field(std::string text) {
   std::replace(text.begin(), text.end(), ',', ';');
   return text;

@@ -22,9 +22,9 @@ inline constexpr Method published{"published relaxation", "periodic-cell", "dire
 inline constexpr Method frame_direct{"direct on a frame", "frame-p", "direct", "chain"};
 inline constexpr Method frame_servo{"published servo", "frame-p", "servo", "published"};
 
-// Of everything that is called exact here. The library does not go below rounding.
+// Tolerance of everything that is called exact here [-]. The library does not go below rounding.
 inline constexpr double reference_tolerance = 1e-12;
-// Of the paths' ends, axial strain or F12; before the peak, where a packing is not chaotic [-].
+// Axial strain or F12 at the ends of the paths [-]: before the peak, where no packing is chaotic.
 inline constexpr double path_end = 0.01;
 inline constexpr double increment_size = 0.001;
 

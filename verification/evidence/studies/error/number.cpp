@@ -76,8 +76,8 @@ NumberRow measure_count(const StudyOptions& options, int count) {
           average(factorisations)};
 }
 
-// Of cpu = c N^exponent by least squares of the logarithms, with the error that those of the rows
-// give it.
+// Exponent of cpu = c N^exponent by least squares of the logarithms, with its error from the errors
+// of the rows.
 struct Exponent {
   double value, error;
 

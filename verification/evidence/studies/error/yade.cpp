@@ -46,7 +46,8 @@ Interpolated cpu_at(const std::vector<IncrementRow>& rows, double error) {
 
 const char* verdict(bool met) { return met ? "yes" : "no"; }
 
-// Of long drained paths, the mean over the increments of one evaluation with the exact tangent [ms].
+// Mean CPU time of an evaluation with the exact tangent over the increments of each long drained
+// path [ms].
 std::vector<double> time_long_paths(const StudyOptions& options, double tolerance, double axial,
                                     int paths) {
   std::vector<double> means;

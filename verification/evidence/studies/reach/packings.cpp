@@ -44,7 +44,7 @@ bool is_kept(const PackingRecipe& recipe, const std::string& name) {
   return recipe.keep && std::filesystem::exists(recipe.directory / (name + "_particles.csv"));
 }
 
-// Of the first seed that leads to one.
+// Compacts the packing of the first seed that leads to one, and returns its name.
 std::string compact(const PackingRecipe& recipe, double stiffness) {
   const auto name_of = [&](long seed) {
     return fmt::format("discs{}_seed{}_{:.0e}", recipe.count, seed, stiffness);

@@ -59,8 +59,8 @@ struct SmallIncrements {
   [[nodiscard]] int steps(double stiffness) const;
 };
 
-// The same kinds of path in such increments. The lateral stress is kept by one step of Newton per
-// increment, without iterations, so that no increment gets larger.
+// Drained compression and simple shear in such increments. One step of Newton per increment keeps
+// the lateral stress, without iterations, so that no increment gets larger.
 void lead_small_drained(Path& path, const Material& material, const SmallIncrements& limits,
                         const Observer& observe);
 void lead_small_shear(Path& path, const Material& material, const SmallIncrements& limits,

@@ -41,7 +41,7 @@ struct Point {
   Tangent3 A{};
 };
 
-// Of F11 and F22 over that of -F33: it brings their mean stress back to where it belongs.
+// Change of F11 and F22 over that of -F33 which brings the mean lateral stress back to `lateral`.
 double lateral_answer(const Point& at, double lateral, double size) {
   const auto& F = at.F;
   const double s11 = at.P[0] / (F[4] * F[8]);

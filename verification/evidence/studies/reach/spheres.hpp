@@ -5,8 +5,8 @@
 
 namespace verification::reach {
 
-// Spheres of one to two radii, compacted without friction to 100 kPa with kn / (p d) = `stiffness` of two of
-// mean radius, then with this friction tan(phi). Throws ComputationError.
+// Spheres whose radii differ by up to a factor of 2, compacted without friction to 100 kPa. `stiffness` is
+// kn / (p d) of two of mean radius, `friction` the tan(phi) that they then have. Throws ComputationError.
 Material make_spheres(int count, long seed, double tolerance, double stiffness, double friction);
 
 // By the kind of the path: "drained", triaxial at constant lateral stress; "isochoric", triaxial at constant

@@ -15,7 +15,7 @@ using Tangent3 = std::array<double, 81>;
 
 constexpr double increment = 0.001;
 
-// Of our own, by compaction; the frictional law of YADE's 500 spheres. Throws grainlaw::Error.
+// Spheres compacted here, with the frictional law of YADE's 500 spheres. Throws grainlaw::Error.
 grainlaw::Material packed(int count, double viscous_time, double tolerance);
 
 // After so many increments of triaxial compression, or of simple shear.

@@ -28,7 +28,7 @@ struct TangentErrors {
   int not_exact = 0;
 };
 
-// Of the exact tangent against central differences of one step; nothing where a point fails.
+// Error of A against central differences with this step; nothing where a point fails.
 std::optional<TangentError> error_of_step(grainlaw::State& state, const Tensor3& F,
                                           const Tangent3& A, const grainlaw_report& centre,
                                           double step) {

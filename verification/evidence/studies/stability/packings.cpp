@@ -36,7 +36,7 @@ void write(const std::filesystem::path& path, const std::string& text) {
   if (!stream) throw ComputationError(fmt::format("{}: cannot be written", path.string()));
 }
 
-// Of files that the library or write_tiny wrote.
+// Reads files that the library or write_tiny wrote.
 TinyPacking read_tiny(const std::filesystem::path& prefix) {
   const CsvTable particles = read_csv(prefix.string() + "_particles.csv");
   const CsvTable cell = read_csv(prefix.string() + "_cell.csv");

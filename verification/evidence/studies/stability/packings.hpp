@@ -55,11 +55,11 @@ class PackingStore {
 
   // From the packing's files, which are made when they are missing. `contact.young` is the recipe's.
   [[nodiscard]] Material generated(const Recipe& recipe, Contact contact) const;
-  // The same with another disc in the middle of the widest void, touching nothing.
+  // Adds to generated() a disc in the middle of the widest void, which touches nothing.
   [[nodiscard]] Material with_rattler(const Recipe& recipe, Contact contact) const;
-  // The same, expanded until contacts are lost; its last state before that, at its own F = I.
+  // Expands generated() until contacts are lost: the last state before that, at its own F = I.
   [[nodiscard]] Material barely_touching(const Recipe& recipe, Contact contact) const;
-  // The same in other units.
+  // Writes generated() in other units.
   [[nodiscard]] Material in_units(const Recipe& recipe, Contact contact, const Units& units) const;
   [[nodiscard]] Material tiny(const std::string& name, const TinyPacking& packing,
                               const Contact& contact) const;

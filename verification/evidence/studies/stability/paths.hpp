@@ -24,7 +24,7 @@ Targets cycles(int cycles, int quarter, const std::function<Tensor(double)>& def
 // A rotation by steps of `angle` over `turns` full turns, on top of deformation(0..1).
 Targets rotating(double angle, double turns, const std::function<Tensor(double)>& deformation);
 
-// A random walk of all four components in steps of up to `size`, turned back where a component
+// A random walk of all four components in steps of up to `size`. It turns back where a component
 // leaves I by more than `bound` or the area leaves [1 - 2 bound, 1].
 Targets random_walk(unsigned seed, int steps, double size, double bound);
 

@@ -1,5 +1,5 @@
-// `grainlaw_evidence start`: how many steps of the drained test Newton's method converges in, with
-// solver.start = "committed" and "trial", and how much P depends on the iterates with the second.
+// `grainlaw_evidence start`: in how many steps of the drained test Newton's method converges, with
+// solver.start = "committed" and "trial". With "trial", also how much P depends on the iterates.
 
 #include "evidence/studies/start/newton.hpp"
 #include "evidence/studies/statistics.hpp"
