@@ -1,6 +1,7 @@
 #include "contact/disc_laws.hpp"
 
 #include "contact/contact_forces.hpp"
+#include "contact/law_table.hpp"
 
 namespace grainlaw::core {
 
@@ -8,13 +9,8 @@ namespace {
 
 using namespace disc_loops;
 
-const Law& law_of(const ContactLaw& law) {
-  if (law.bonds()) return law.moments() ? bonded : bonded_locked;
-  if (!law.tangential()) return law.hertzian() ? hertz_smooth : smooth;
-  if (!law.rotating()) return law.hertzian() ? hertz_locked : locked;
-  if (law.moments()) return law.hertzian() ? hertz_rolling : rolling;
-  return law.hertzian() ? hertz : rotating;
-}
+constexpr LawTable<Law> laws{smooth, locked,       rotating,     rolling, bonded_locked,
+                             bonded, hertz_smooth, hertz_locked, hertz,   hertz_rolling};
 
 // Sums forces onto nodes. Moments of rolling and bending, summed separately, become part of M / R.
 // Rows of F after the nodes have no moments.
@@ -33,7 +29,7 @@ template <>
 void find_contact_forces<2>(std::span<const ParticleRecord<2>> particles, const ContactLaw& law,
                             ContactList<2>& list) {
   const Loop loop{particles.data(), law.friction, &list};
-  const Law& loops = law_of(law);
+  const Law& loops = laws.of(law);
   if (!list.turns_far) list.turns_far = loops.near(loop).beyond > 0;
   if (list.turns_far) loops.far(loop);
 }
@@ -53,7 +49,7 @@ double advance_contacts<2>(std::span<const ParticleRecord<2>> particles, const C
     return 0;
   }
   list.turns_far = false;
-  const auto result = law_of(law).advancing({particles.data(), law.friction, &list});
+  const auto result = laws.of(law).advancing({particles.data(), law.friction, &list});
   gather(law, list, nodes);
   return result.dissipated;
 }
@@ -62,7 +58,7 @@ template <>
 ContactTotals sum_stiffnesses<2>(std::span<const ParticleRecord<2>> particles,
                                  const ContactLaw& law, ContactList<2>& list,
                                  std::span<StiffnessRecord<2>> nodes) {
-  const auto totals = law_of(law).stiffnesses({particles.data(), 0, &list});
+  const auto totals = laws.of(law).stiffnesses({particles.data(), 0, &list});
   list.sums.add_up(list.stiffness, nodes);
   if (!law.moments()) return totals;
   for (std::size_t q = 0; q < list.inverse_node_radius.size(); ++q) {

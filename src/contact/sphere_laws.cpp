@@ -1,4 +1,5 @@
 #include "contact/contact_forces.hpp"
+#include "contact/law_table.hpp"
 #include "contact/sphere_loops.hpp"
 
 namespace grainlaw::core {
@@ -32,13 +33,8 @@ GRAINLAW_SPHERE_LAW(hertz_rolling, true, true, true, false, true)
 GRAINLAW_SPHERE_LAW(bonded_locked, true, false, false, true, false)
 GRAINLAW_SPHERE_LAW(bonded, true, true, false, true, true)
 
-const Law& law_of(const ContactLaw& law) {
-  if (law.bonds()) return law.moments() ? bonded : bonded_locked;
-  if (!law.tangential()) return law.hertzian() ? hertz_smooth : smooth;
-  if (!law.rotating()) return law.hertzian() ? hertz_locked : locked;
-  if (law.moments()) return law.hertzian() ? hertz_rolling : rolling;
-  return law.hertzian() ? hertz : rotating;
-}
+constexpr LawTable<Law> laws{smooth, locked,       rotating,     rolling, bonded_locked,
+                             bonded, hertz_smooth, hertz_locked, hertz,   hertz_rolling};
 
 // Sums forces onto nodes. Moments of rolling and bending, summed separately, become part of M / R.
 // Rows of F after the nodes have no moments.
@@ -59,7 +55,7 @@ void gather(const ContactLaw& law, ContactList<3>& list, std::span<ForceRecord<3
 template <>
 void find_contact_forces<3>(std::span<const ParticleRecord<3>> particles, const ContactLaw& law,
                             ContactList<3>& list) {
-  law_of(law).forces({particles.data(), law.friction, &list});
+  laws.of(law).forces({particles.data(), law.friction, &list});
 }
 
 template <>
@@ -72,7 +68,7 @@ void evaluate_contacts<3>(std::span<const ParticleRecord<3>> particles, const Co
 template <>
 double advance_contacts<3>(std::span<const ParticleRecord<3>> particles, const ContactLaw& law,
                            ContactList<3>& list, std::span<ForceRecord<3>> nodes) {
-  const double dissipated = law_of(law).advancing({particles.data(), law.friction, &list});
+  const double dissipated = laws.of(law).advancing({particles.data(), law.friction, &list});
   gather(law, list, nodes);
   return dissipated;
 }
@@ -81,7 +77,7 @@ template <>
 ContactTotals sum_stiffnesses<3>(std::span<const ParticleRecord<3>> particles,
                                  const ContactLaw& law, ContactList<3>& list,
                                  std::span<StiffnessRecord<3>> nodes) {
-  const auto totals = law_of(law).stiffnesses({particles.data(), 0, &list});
+  const auto totals = laws.of(law).stiffnesses({particles.data(), 0, &list});
   list.sums.add_up(list.stiffness, nodes);
   if (!law.moments()) return totals;
   for (std::size_t q = 0; q < list.inverse_node_radius.size(); ++q) {

@@ -2,7 +2,7 @@
 
 namespace grainlaw::core::node_step {
 
-using OfDiscs = ContactSides<2>::Measured;
+using OfDiscs = StepMeasures;
 
 GRAINLAW_CLONES OfDiscs step_all(const Nodes& nodes, std::span<const ForceRecord<2>> residual,
                                  double keep, double gain) {

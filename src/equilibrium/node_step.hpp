@@ -4,7 +4,7 @@
 
 #include "base/simd.hpp"
 #include "contact/contact_list.hpp"
-#include "contact/contact_sides.hpp"
+#include "contact/half_contacts.hpp"
 
 #include <cstddef>
 #include <span>
@@ -63,16 +63,16 @@ GRAINLAW_INLINE Lanes<width> drag_on(std::size_t q, const double* z, const NodeD
 }
 
 // Overloads for each dimension, because templates have no clones per instruction set.
-ContactSides<2>::Measured step_all(const Nodes& nodes, std::span<const ForceRecord<2>> residual,
-                                   double keep, double gain);
+StepMeasures step_all(const Nodes& nodes, std::span<const ForceRecord<2>> residual, double keep,
+                      double gain);
 // Steps each node with the sum of its contact forces and its drag, without storing that sum.
-ContactSides<2>::Measured gather_and_step(const Nodes& nodes, const ContactList<2>& contacts,
-                                          const NodeDrag<2>& drag, double keep, double gain);
+StepMeasures gather_and_step(const Nodes& nodes, const ContactList<2>& contacts,
+                             const NodeDrag<2>& drag, double keep, double gain);
 
 // Overloads for spheres also renew the record's factor `half`, which follows from the rotation.
-ContactSides<3>::Measured step_all(const Nodes& nodes, std::span<const ForceRecord<3>> residual,
-                                   double keep, double gain);
-ContactSides<3>::Measured gather_and_step(const Nodes& nodes, const ContactList<3>& contacts,
-                                          const NodeDrag<3>& drag, double keep, double gain);
+StepMeasures step_all(const Nodes& nodes, std::span<const ForceRecord<3>> residual, double keep,
+                      double gain);
+StepMeasures gather_and_step(const Nodes& nodes, const ContactList<3>& contacts,
+                             const NodeDrag<3>& drag, double keep, double gain);
 
 }  // namespace grainlaw::core::node_step

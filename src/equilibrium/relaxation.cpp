@@ -34,8 +34,8 @@ Relaxation<D>::Relaxation(Increment<D>& increment, History history, RelaxationMe
       memory_(memory) {
   const auto& law = *problem_.law;
   const bool by_places = history == History::committed && problem_.space->identity;
-  by_sides_ = by_places && law.plain() && law.tangential();
-  at_once_ = by_places && law.plain() && !by_sides_;
+  by_half_contacts_ = by_places && law.plain() && law.tangential();
+  at_once_ = by_places && law.plain() && !by_half_contacts_;
   // Without friction there is no flutter, and the damping follows the softest mode.
   rough_ = by_places && law.tangential();
   extrapolates_ = may_extrapolate && rough_;
@@ -43,7 +43,7 @@ Relaxation<D>::Relaxation(Increment<D>& increment, History history, RelaxationMe
     memory.slow.reserve(problem_.particles());
     memory.slow.forget();
   }
-  if (by_sides_) return;
+  if (by_half_contacts_) return;
   for (auto* column : {&memory.velocity, &memory.gain}) {
     column->assign(width * increment.forces().size(), 0.0);
   }
@@ -54,15 +54,15 @@ template <int D>
 void Relaxation<D>::refresh() {
   if (history_ == History::advancing) increment_.advance_history();
   const bool relisted = increment_.keep_neighbours();
-  if (by_sides_) {
+  if (by_half_contacts_) {
     if (relisted || !arranged_) {
-      memory_.sides.arrange(increment_.contacts(), *problem_.packing, increment_.masses().least(),
-                            at_rest_);
+      memory_.half_contacts.arrange(increment_.contacts(), *problem_.packing,
+                                    increment_.masses().least(), at_rest_);
       arranged_ = true;
       at_rest_ = false;
     }
     calm_start_ = calm_max_ = residual_;
-    return increment_.look(memory_.sides);
+    return increment_.relinearise(memory_.half_contacts);
   }
   increment_.sum_masses();
   find_gains(&increment_.masses().records()[0].x, memory_.gain.data(), memory_.gain.size());
@@ -84,13 +84,13 @@ void Relaxation<D>::refresh() {
 // right, and outdated masses would raise the residual.
 template <int D>
 bool Relaxation<D>::calm() const {
-  return by_sides_ && residual_ < tuned::calm_residual &&
+  return by_half_contacts_ && residual_ < tuned::calm_residual &&
          calm_max_ < tuned::calm_rise * calm_start_ && steps_ % tuned::long_interval != 0;
 }
 
 template <int D>
 void Relaxation<D>::update() {
-  if (by_sides_) return;  // step() finds the forces
+  if (by_half_contacts_) return;  // step() finds the forces
   if (at_once_) return increment_.find_contact_forces();
   increment_.find_forces(history_);
 }
@@ -176,7 +176,7 @@ void Relaxation<D>::step() {
 
 template <int D>
 auto Relaxation<D>::one_step(double keep, double gain) -> Measured {
-  if (by_sides_) return memory_.sides.step(*problem_.law, keep, gain);
+  if (by_half_contacts_) return memory_.half_contacts.step(*problem_.law, keep, gain);
   return step_nodes(keep, gain);
 }
 
@@ -224,7 +224,7 @@ bool Relaxation<D>::run(double tolerance, long steps, double least_force) {
          (increment_.scale().mean_force() < least_force || flutters() || increment_.runs_away()));
     const bool over = residual_ < tolerance || stop;
     if (over || (steps_ % tuned::mass_interval == 0 && !calm())) {
-      if (by_sides_) memory_.sides.move(motion_.records());
+      if (by_half_contacts_) memory_.half_contacts.displace(motion_.records());
       motion_.store_records();
       refresh();
       if (extrapolates_ && !over && extrapolate()) refresh();

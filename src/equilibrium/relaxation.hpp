@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/constants.hpp"
-#include "contact/contact_sides.hpp"
+#include "contact/half_contacts.hpp"
 #include "equilibrium/subspace_extrapolation.hpp"
 #include "increment/increment.hpp"
 
@@ -16,7 +16,7 @@ namespace grainlaw::core {
 template <int D>
 struct RelaxationMemory {
   std::vector<double> velocity, gain;
-  ContactSides<D> sides;
+  HalfContacts<D> half_contacts;
   SubspaceExtrapolation<D> slow;
 };
 
@@ -37,7 +37,7 @@ class Relaxation {
 
  private:
   static constexpr std::size_t width = Dimension<D>::lanes;
-  using Measured = typename ContactSides<D>::Measured;
+  using Measured = StepMeasures;
 
   void refresh();
   [[nodiscard]] bool calm() const;
@@ -56,15 +56,15 @@ class Relaxation {
   Motion<D>& motion_;
   History history_;
   RelaxationMemory<D>& memory_;
-  bool by_sides_ = false;      // ContactSides computes forces and steps
-  bool at_once_ = false;       // sums of forces and steps are one loop
-  bool arranged_ = false;      // ContactSides has the contacts listed at present
-  bool at_rest_ = true;        // there are no velocities to keep
-  bool rough_ = false;         // with friction, and forces a function of positions
-  bool extrapolates_ = false;  // in the subspace of the last displacements
-  double residual_ = 0;        // before the last step [-]; infinite: no contact, or not finite
-  double power_ = 0;           // sum of the last step's velocity times the residual before it
-  double frequency_ = 0;       // square root of the velocity's Rayleigh quotient [1/step]
+  bool by_half_contacts_ = false;  // HalfContacts computes forces and steps
+  bool at_once_ = false;           // sums of forces and steps are one loop
+  bool arranged_ = false;          // HalfContacts has the contacts listed at present
+  bool at_rest_ = true;            // there are no velocities to keep
+  bool rough_ = false;             // with friction, and forces a function of positions
+  bool extrapolates_ = false;      // in the subspace of the last displacements
+  double residual_ = 0;            // before the last step [-]; infinite: no contact, or not finite
+  double power_ = 0;               // sum of the last step's velocity times the residual before it
+  double frequency_ = 0;           // square root of the velocity's Rayleigh quotient [1/step]
   double floor_ = tuned::first_floor;  // lower bound of the damping [-]
   long steps_ = 0;
   long next_extrapolation_ = tuned::first_extrapolation;  // earliest step

@@ -4,7 +4,7 @@ namespace grainlaw::core::node_step {
 
 namespace {
 
-using OfSpheres = ContactSides<3>::Measured;
+using OfSpheres = StepMeasures;
 
 // Renews 1 / (2 sqrt(1 + theta^2 / 4)) of the record at z after its eta changed.
 GRAINLAW_INLINE void renew_half(double* z) {

@@ -84,10 +84,11 @@ void Increment<D>::sum_masses() {
 }
 
 template <int D>
-void Increment<D>::look(ContactSides<D>& sides) {
-  scale_.take(sides.look(motion_.records(), *problem_->law, tuned::mass_factor, contacts_));
+void Increment<D>::relinearise(HalfContacts<D>& half_contacts) {
+  scale_.take(
+      half_contacts.relinearise(motion_.records(), *problem_->law, tuned::mass_factor, contacts_));
   if (motion_.drag().acts()) {
-    sides.hold(motion_.records(), motion_.drag().of_nodes(), tuned::mass_factor);
+    half_contacts.add_drag(motion_.records(), motion_.drag().of_nodes(), tuned::mass_factor);
   }
 }
 

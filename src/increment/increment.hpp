@@ -2,7 +2,7 @@
 // solvers share and all their memory. Buffers are sized once and reused by one thread.
 #pragma once
 
-#include "contact/contact_sides.hpp"
+#include "contact/half_contacts.hpp"
 #include "increment/candidates.hpp"
 #include "increment/force_scale.hpp"
 #include "increment/free_spins.hpp"
@@ -76,7 +76,7 @@ class Increment {
   void sum_masses();
   // Relinearises half contacts around the present records and updates the force scale; they have
   // masses of their own.
-  void look(ContactSides<D>& sides);
+  void relinearise(HalfContacts<D>& half_contacts);
 
   // Largest residual force (moment / R) of update_forces over the force scale [-]. Infinite without
   // contacts or if a number is not finite.

@@ -1,4 +1,4 @@
-#include "contact/side_slots.hpp"
+#include "contact/half_contact_slots.hpp"
 
 #include "base/room.hpp"
 
@@ -14,8 +14,8 @@ std::size_t at(std::int32_t particle) { return static_cast<std::size_t>(particle
 }  // namespace
 
 // Sorts by counting.
-void SideSlots::sort(std::span<const std::int32_t> i, std::span<const std::int32_t> j,
-                     std::size_t particles, std::span<const std::int32_t> order) {
+void HalfContactSlots::sort(std::span<const std::int32_t> i, std::span<const std::int32_t> j,
+                            std::size_t particles, std::span<const std::int32_t> order) {
   resize_with_room(count_, particles);
   std::fill(count_.begin(), count_.end(), 0U);
   std::uint32_t most = 31;  // nearly always enough, so that the counts keep their size

@@ -1,5 +1,5 @@
 // Contacts of spheres seen from their nodes: the forces of the law at a place and around it, and steps that they drive.
-#include "contact/contact_sides.hpp"
+#include "contact/half_contacts.hpp"
 #include "increment/increment.hpp"
 #include "sphere_support.hpp"
 
@@ -14,7 +14,7 @@ namespace grainlaw::core::sphere_test {
 namespace {
 
 constexpr double gain = 1e-3;
-constexpr std::size_t components = ContactSides<3>::size;
+constexpr std::size_t components = HalfContacts<3>::components;
 
 MaterialDescription rough() { return describe(); }
 
@@ -36,17 +36,18 @@ struct Scene {
     }
     contacts = increment.contacts();
     arrange(true);
-    totals = look();
+    totals = relinearise();
   }
 
   void arrange(bool at_rest) {
-    sides.arrange(contacts, material->packing, increment.masses().least(), at_rest);
+    half_contacts.arrange(contacts, material->packing, increment.masses().least(), at_rest);
   }
 
-  ContactTotals look() {
-    const auto seen = sides.look(records(), material->law, tuned::mass_factor, contacts);
+  ContactTotals relinearise() {
+    const auto seen =
+        half_contacts.relinearise(records(), material->law, tuned::mass_factor, contacts);
     const auto& drag = increment.motion().drag();
-    if (drag.acts()) sides.hold(records(), drag.of_nodes(), tuned::mass_factor);
+    if (drag.acts()) half_contacts.add_drag(records(), drag.of_nodes(), tuned::mass_factor);
     return seen;
   }
 
@@ -69,15 +70,15 @@ struct Scene {
   [[nodiscard]] std::vector<ForceRecord<3>> step() {
     increment.sum_masses();
     auto before = places();
-    sides.move(before);
-    measured = sides.step(material->law, 0, gain);
+    half_contacts.displace(before);
+    measured = half_contacts.step(material->law, 0, gain);
     auto after = places();
-    sides.move(after);
+    half_contacts.displace(after);
     std::vector<ForceRecord<3>> result(problem.nodes());
     for (std::size_t p = 0; p < result.size(); ++p) {
       for (std::size_t c = 0; c < components; ++c) {
-        (&result[p].x)[c] =
-            ((&after[p].x)[c] - (&before[p].x)[c]) * (&increment.masses().records()[p].x)[c] / gain;
+        component(result[p], c) = (component(after[p], c) - component(before[p], c)) *
+                                  (&increment.masses().records()[p].x)[c] / gain;
       }
     }
     return result;
@@ -87,9 +88,9 @@ struct Scene {
   Problem<3> problem;
   Increment<3> increment;
   ContactList<3> contacts;
-  ContactSides<3> sides;
+  HalfContacts<3> half_contacts;
   ContactTotals totals{};
-  ContactSides<3>::Measured measured{};
+  StepMeasures measured{};
 };
 
 double largest_difference(const std::vector<ForceRecord<3>>& a,
@@ -97,13 +98,13 @@ double largest_difference(const std::vector<ForceRecord<3>>& a,
   double result = 0;
   for (std::size_t p = 0; p < a.size(); ++p) {
     for (std::size_t c = 0; c < components; ++c) {
-      result = std::max(result, std::abs((&a[p].x)[c] - (&b[p].x)[c]));
+      result = std::max(result, std::abs(component(a[p], c) - component(b[p], c)));
     }
   }
   return result;
 }
 
-TEST(sphere_sides, carry_the_forces_of_the_law_at_their_place) {
+TEST(sphere_half_contacts, carry_the_forces_of_the_law_at_their_place) {
   for (const auto& description : {rough(), locked(rough())}) {
     for (const double viscous_time : {0.0, 30.0}) {
       Scene scene(description, viscous_time);
@@ -113,7 +114,7 @@ TEST(sphere_sides, carry_the_forces_of_the_law_at_their_place) {
       double largest = 0;
       for (const auto& r : expected) {
         for (std::size_t c = 0; c < components; ++c)
-          largest = std::max(largest, std::abs((&r.x)[c]));
+          largest = std::max(largest, std::abs(component(r, c)));
       }
       EXPECT_NEAR(scene.measured.largest, largest, 1e-10 * force);
       EXPECT_EQ(scene.totals.touching, scene.increment.scale().touching());
@@ -123,12 +124,12 @@ TEST(sphere_sides, carry_the_forces_of_the_law_at_their_place) {
 }
 
 // The normals stay: of a change that is about kn u, overlap / branch kn u is of it.
-TEST(sphere_sides, follow_the_law_to_first_order_of_the_moves) {
+TEST(sphere_half_contacts, follow_the_law_to_first_order_of_the_moves) {
   for (const auto& description : {rough(), locked(rough())}) {
     Scene scene(description);
     const auto at_place = scene.step();
     auto there = scene.places();
-    scene.sides.move(there);
+    scene.half_contacts.displace(there);
     const auto changed = scene.step();
     std::copy(there.begin(), there.end(), scene.records().begin());
     const double change = largest_difference(changed, at_place);
@@ -137,7 +138,7 @@ TEST(sphere_sides, follow_the_law_to_first_order_of_the_moves) {
   }
 }
 
-TEST(sphere_sides, give_every_particle_its_force_in_whatever_order_they_lie) {
+TEST(sphere_half_contacts, give_every_particle_its_force_in_whatever_order_they_lie) {
   Scene scene(rough());
   const auto expected = scene.step();
   Packing reversed = scene.material->packing;
@@ -145,21 +146,21 @@ TEST(sphere_sides, give_every_particle_its_force_in_whatever_order_they_lie) {
   for (std::size_t p = reversed.size(); p > 0; --p) {
     reversed.order.push_back(static_cast<std::int32_t>(p - 1));
   }
-  scene.sides.arrange(scene.contacts, reversed, scene.increment.masses().least(), true);
-  scene.look();
+  scene.half_contacts.arrange(scene.contacts, reversed, scene.increment.masses().least(), true);
+  scene.relinearise();
   EXPECT_EQ(largest_difference(scene.step(), expected), 0);
 }
 
-TEST(sphere_sides, keep_their_velocities_in_a_new_list) {
+TEST(sphere_half_contacts, keep_their_velocities_in_a_new_list) {
   const auto moved = [](bool anew) {
     Scene scene(rough());
     const auto& law = scene.material->law;
-    for (int k = 0; k < 5; ++k) scene.sides.step(law, 0.9, gain);
-    scene.sides.move(scene.records());
+    for (int k = 0; k < 5; ++k) scene.half_contacts.step(law, 0.9, gain);
+    scene.half_contacts.displace(scene.records());
     if (anew) scene.arrange(false);
-    scene.look();
-    scene.sides.step(law, 0.9, gain);
-    scene.sides.move(scene.records());
+    scene.relinearise();
+    scene.half_contacts.step(law, 0.9, gain);
+    scene.half_contacts.displace(scene.records());
     std::vector<std::array<double, components>> places;
     for (const auto& at : scene.records()) {
       auto& place = places.emplace_back();

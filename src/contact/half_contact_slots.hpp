@@ -9,7 +9,7 @@
 
 namespace grainlaw::core {
 
-class SideSlots {
+class HalfContactSlots {
  public:
   static constexpr std::size_t lanes = 8;
   struct Rows {

@@ -2,57 +2,57 @@
 // to first order around it.
 #pragma once
 
+#include "contact/half_contacts.hpp"
 #include "contact/sphere_loops.hpp"
-#include "contact/sphere_sides.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
-namespace grainlaw::core::sphere_sides {
+namespace grainlaw::core::sphere_half_contacts {
 
 using namespace sphere_loops;
-using Sides = ContactSides<3>;
-constexpr std::size_t lanes = Sides::lanes;
+using Half = HalfContacts<3>;
+constexpr std::size_t lanes = Half::lanes;
 static_assert(lanes == ContactList<3>::group);
 
-struct SideLoop {
-  std::span<const SideSlots::Rows> groups;
-  Sides::Nodes* nodes;
-  const Sides::Bounds* bounds;
-  const Sides::Drag* drags = nullptr;
-  const Sides::Start* starts;
-  Sides::Side* sides;
-  const double* records;         // of the positions, or the displacements
-  double* next_moves = nullptr;  // out
+struct HalfContactLoop {
+  std::span<const HalfContactSlots::Rows> groups;
+  Half::Nodes* nodes;
+  const Half::Bounds* bounds;
+  const Half::Drag* drags = nullptr;
+  const Half::Start* starts;
+  Half::HalfContact* half_contacts;
+  const double* records;                 // of the positions, or the displacements
+  double* next_displacements = nullptr;  // out
   double friction = 0, ratio = 0, factor = 0, keep = 0, gain = 0;
 };
 
-struct Looked {
+struct Relinearised {
   double force, touching;
 };
 
 template <std::size_t width>
-GRAINLAW_INLINE Triple<width> triple_at(const Sides::Doubles* columns, std::size_t k) {
+GRAINLAW_INLINE Triple<width> triple_at(const Half::Doubles* columns, std::size_t k) {
   return {load<width>(columns[0] + k), load<width>(columns[1] + k), load<width>(columns[2] + k)};
 }
 template <std::size_t width>
-GRAINLAW_INLINE void put(const Triple<width>& value, Sides::Doubles* columns, std::size_t k) {
+GRAINLAW_INLINE void put(const Triple<width>& value, Half::Doubles* columns, std::size_t k) {
   store(columns[0] + k, value.x);
   store(columns[1] + k, value.y);
   store(columns[2] + k, value.z);
 }
 
 template <std::size_t width, bool rotating>
-GRAINLAW_INLINE Looked look_loop(const SideLoop& loop) {
+GRAINLAW_INLINE Relinearised relinearise_loop(const HalfContactLoop& loop) {
   using V = Lanes<width>;
   const V zero{};
   const V one = zero + 1.0;
   GroupSum<width> force, touching;
   for (std::size_t g = 0; g < loop.groups.size(); ++g) {
-    const SideSlots::Rows rows = loop.groups[g];
-    const Sides::Bounds& bounds = loop.bounds[g];
-    Sides::Nodes& nodes = loop.nodes[g];
+    const HalfContactSlots::Rows rows = loop.groups[g];
+    const Half::Bounds& bounds = loop.bounds[g];
+    Half::Nodes& nodes = loop.nodes[g];
     for (std::size_t k = 0; k < lanes; k += width) {
       std::int32_t own_index[width];
       for (std::size_t l = 0; l < width; ++l) {
@@ -62,26 +62,26 @@ GRAINLAW_INLINE Looked look_loop(const SideLoop& loop) {
       at.j = spheres_at<width>(loop.records, own_index);
       V stiffness{}, stiffness_spin{};
       for (std::size_t row = rows.first; row < rows.first + rows.count; ++row) {
-        const Sides::Start& start = loop.starts[row];
-        Sides::Side& side = loop.sides[row];
-        at.i = spheres_at<width>(loop.records, side.other + k);
+        const Half::Start& start = loop.starts[row];
+        Half::HalfContact& half = loop.half_contacts[row];
+        at.i = spheres_at<width>(loop.records, half.other + k);
         at.branch = sum(sum(at.j.place, -one, at.i.place), triple_at<width>(start.offset, k));
         at.square = dot(at.branch, at.branch) + tiny;
         at.distance = square_root(at.square);
         at.normal = product(1 / at.distance, at.branch);
         at.overlap = at.i.radius + at.j.radius - at.distance;
         const auto here = at.overlap > zero;
-        const V kn = load<width>(side.normal_stiffness + k);
+        const V kn = load<width>(half.normal_stiffness + k);
         const V fn = kn * at.overlap;
         const V kt = loop.ratio * kn;
         Triple<width> h = sum(triple_at<width>(start.force, k), kt * at.distance,
                               triple_at<width>(start.normal, k));
         if constexpr (rotating) h = turn(at, h);
         const V stretch = at.distance * load<width>(start.inverse_reach + k);
-        put(at.normal, side.normal, k);
-        store(side.normal_force + k, fn);
-        put(sum(h, -dot(at.normal, h), at.normal), side.trial, k);
-        store(side.stretch + k, stretch);
+        put(at.normal, half.normal, k);
+        store(half.normal_force + k, fn);
+        put(sum(h, -dot(at.normal, h), at.normal), half.trial, k);
+        store(half.stretch + k, stretch);
         stiffness += here ? kn : zero;
         stiffness_spin += here ? kt * at.distance * stretch : zero;
         force.add(k, here ? fn : zero);
@@ -103,39 +103,39 @@ GRAINLAW_INLINE Looked look_loop(const SideLoop& loop) {
 }
 
 template <std::size_t width, bool rotating, bool dragged>
-GRAINLAW_INLINE Sides::Measured step_loop(const SideLoop& loop) {
+GRAINLAW_INLINE StepMeasures step_loop(const HalfContactLoop& loop) {
   using V = Lanes<width>;
   const V zero{};
   const V one = zero + 1.0;
   V largest_force{};
   GroupSum<width> power, next_power, inertia;
   for (std::size_t g = 0; g < loop.groups.size(); ++g) {
-    const SideSlots::Rows rows = loop.groups[g];
-    Sides::Nodes& nodes = loop.nodes[g];
+    const HalfContactSlots::Rows rows = loop.groups[g];
+    Half::Nodes& nodes = loop.nodes[g];
     for (std::size_t k = 0; k < lanes; k += width) {
       Triple<width> own = triple_at<width>(nodes.moved, k);
       Triple<width> own_spin = triple_at<width>(nodes.moved + 3, k);
       Triple<width> f{zero, zero, zero};
       Triple<width> tau{zero, zero, zero};
-      const Sides::Side* side = loop.sides + rows.first;
-      for (const auto* const end = side + rows.count; side != end; ++side) {
-        const auto first = disc_loops::records_of<width, 8>(loop.records, side->other + k);
+      const Half::HalfContact* half = loop.half_contacts + rows.first;
+      for (const auto* const end = half + rows.count; half != end; ++half) {
+        const auto first = disc_loops::records_of<width, 8>(loop.records, half->other + k);
         const Triple<width> u{own.x - first.x, own.y - first.y, own.z - first.roll};
-        const Triple<width> n = triple_at<width>(side->normal, k);
-        const V kn = load<width>(side->normal_stiffness + k);
+        const Triple<width> n = triple_at<width>(half->normal, k);
+        const V kn = load<width>(half->normal_stiffness + k);
         const V kt = loop.ratio * kn;
         const V along = dot(n, u);
-        const V fn = largest(load<width>(side->normal_force + k) - kn * along, zero);
+        const V fn = largest(load<width>(half->normal_force + k) - kn * along, zero);
         Triple<width> moved = sum(u, -along, n);
         V stretch{};
         if constexpr (rotating) {
-          const auto second = disc_loops::records_of<width, 8>(loop.records + 4, side->other + k);
-          stretch = load<width>(side->stretch + k);
+          const auto second = disc_loops::records_of<width, 8>(loop.records + 4, half->other + k);
+          stretch = load<width>(half->stretch + k);
           const Triple<width> w{own_spin.x + first.last, own_spin.y + second.x,
                                 own_spin.z + second.y};
           moved = sum(moved, -stretch, cross(w, n));
         }
-        const Triple<width> trial = sum(triple_at<width>(side->trial, k), -kt, moved);
+        const Triple<width> trial = sum(triple_at<width>(half->trial, k), -kt, moved);
         const V bound = loop.friction * fn;
         const V size = square_root(dot(trial, trial) + tiny);
         const Triple<width> ft = product(smallest(bound / size, one), trial);
@@ -143,8 +143,8 @@ GRAINLAW_INLINE Sides::Measured step_loop(const SideLoop& loop) {
         if constexpr (rotating) tau = sum(tau, -stretch, cross(n, ft));
       }
       if constexpr (dragged) {
-        const Sides::Drag& drag = loop.drags[g];
-        const auto pull = [&](const double* stiffness, const Sides::Doubles* distance,
+        const Half::Drag& drag = loop.drags[g];
+        const auto pull = [&](const double* stiffness, const Half::Doubles* distance,
                               const Triple<width>& moved, Triple<width>& force) {
           const Triple<width> left = sum(triple_at<width>(distance, k), -one, moved);
           force = sum(force, load<width>(stiffness + k), left);
@@ -177,10 +177,10 @@ GRAINLAW_INLINE Sides::Measured step_loop(const SideLoop& loop) {
       power.add(k, work);
       next_power.add(k, next_work);
       inertia.add(k, twice_energy);
-      put_records(own, own_spin, loop.next_moves + 8 * (lanes * g + k));
+      put_records(own, own_spin, loop.next_displacements + 8 * (lanes * g + k));
     }
   }
   return {most(largest_force), power.total(), next_power.total(), inertia.total()};
 }
 
-}  // namespace grainlaw::core::sphere_sides
+}  // namespace grainlaw::core::sphere_half_contacts

@@ -1,6 +1,6 @@
 // Contacts seen from their nodes: the forces of the law at a place and around it, and steps that they
 // drive.
-#include "contact/contact_sides.hpp"
+#include "contact/half_contacts.hpp"
 #include "increment/increment.hpp"
 #include "law_support.hpp"
 
@@ -26,15 +26,15 @@ struct Scene {
     increment.refresh_masses();
     contacts = increment.contacts();
     arrange(true);
-    totals = look();
+    totals = relinearise();
   }
 
   void arrange(bool at_rest) {
-    sides.arrange(contacts, material->packing, increment.masses().least(), at_rest);
+    half_contacts.arrange(contacts, material->packing, increment.masses().least(), at_rest);
   }
 
-  ContactTotals look() {
-    return sides.look(records(), material->law, tuned::mass_factor, contacts);
+  ContactTotals relinearise() {
+    return half_contacts.relinearise(records(), material->law, tuned::mass_factor, contacts);
   }
 
   [[nodiscard]] std::span<ParticleRecord> records() { return increment.motion().records(); }
@@ -52,10 +52,10 @@ struct Scene {
   // Residual r by a step from rest, which moves particles by gain r / m.
   [[nodiscard]] std::vector<ForceRecord> step() {
     auto before = places();
-    sides.move(before);
-    measured = sides.step(material->law, 0, gain);
+    half_contacts.displace(before);
+    measured = half_contacts.step(material->law, 0, gain);
     auto after = places();
-    sides.move(after);
+    half_contacts.displace(after);
     std::vector<ForceRecord> result(problem.nodes());
     for (std::size_t p = 0; p < result.size(); ++p) {
       const auto& m = increment.masses().records()[p];
@@ -69,9 +69,9 @@ struct Scene {
   Problem problem;
   Increment increment;
   ContactList contacts;
-  ContactSides sides;
+  HalfContacts half_contacts;
   ContactTotals totals{};
-  ContactSides::Measured measured{};
+  StepMeasures measured{};
 };
 
 double largest(const ForceRecord& a) {
@@ -101,7 +101,7 @@ std::vector<ContactLaw> laws() {
 // The last one turns branches by more than the short series is for.
 const std::vector<Tensor> deformations{{1.0004, 0, 0, 0.999}, {1, 3e-3, 1e-3, 1}, {1, 0.4, 0, 1}};
 
-TEST(contact_sides, carry_the_forces_of_the_law_at_their_place) {
+TEST(half_contacts, carry_the_forces_of_the_law_at_their_place) {
   for (const std::size_t count : {2U, 3U, 21U, 80U}) {  // of the last group of eight a part, too
     for (const auto& law : laws()) {
       for (const Tensor& F : deformations) {
@@ -119,12 +119,12 @@ TEST(contact_sides, carry_the_forces_of_the_law_at_their_place) {
 
 // Half contacts rotate every normal by the mean branch. A force change of about kn u is then wrong
 // by about kn u x overlap / branch.
-TEST(contact_sides, follow_the_law_to_first_order_of_the_moves) {
+TEST(half_contacts, follow_the_law_to_first_order_of_the_moves) {
   for (const auto& law : laws()) {
     Scene scene(small_packing(), law, {1.0004, 2e-4, 0, 0.999});
     const auto at_place = scene.step();
     auto there = scene.places();
-    scene.sides.move(there);
+    scene.half_contacts.displace(there);
     const auto changed = scene.step();
     std::copy(there.begin(), there.end(), scene.records().begin());
     const double change = largest_difference(changed, at_place);
@@ -133,28 +133,28 @@ TEST(contact_sides, follow_the_law_to_first_order_of_the_moves) {
   }
 }
 
-TEST(contact_sides, give_every_particle_its_force_in_whatever_order_they_lie) {
+TEST(half_contacts, give_every_particle_its_force_in_whatever_order_they_lie) {
   Scene scene(small_packing(), rough_law(), {1.0004, 2e-4, 0, 0.999});
   const auto expected = scene.step();
   Packing reversed = scene.material->packing;
   for (std::size_t p = reversed.size(); p > 0; --p) {
     reversed.order.push_back(static_cast<std::int32_t>(p - 1));
   }
-  scene.sides.arrange(scene.contacts, reversed, scene.increment.masses().least(), true);
-  scene.look();
+  scene.half_contacts.arrange(scene.contacts, reversed, scene.increment.masses().least(), true);
+  scene.relinearise();
   EXPECT_EQ(largest_difference(scene.step(), expected), 0);
 }
 
-TEST(contact_sides, keep_their_velocities_in_a_new_list) {
+TEST(half_contacts, keep_their_velocities_in_a_new_list) {
   const auto moved = [](bool anew) {
     Scene scene(small_packing(), rough_law(), {1.0004, 2e-4, 0, 0.999});
     const auto& law = scene.material->law;
-    for (int k = 0; k < 5; ++k) scene.sides.step(law, 0.9, gain);
-    scene.sides.move(scene.records());
+    for (int k = 0; k < 5; ++k) scene.half_contacts.step(law, 0.9, gain);
+    scene.half_contacts.displace(scene.records());
     if (anew) scene.arrange(false);
-    scene.look();
-    scene.sides.step(law, 0.9, gain);
-    scene.sides.move(scene.records());
+    scene.relinearise();
+    scene.half_contacts.step(law, 0.9, gain);
+    scene.half_contacts.displace(scene.records());
     std::vector<std::array<double, 3>> places;
     for (const auto& at : scene.records()) places.push_back({at.x, at.y, at.roll});
     return places;
