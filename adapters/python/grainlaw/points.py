@@ -13,12 +13,11 @@ import numpy.typing as npt
 
 from . import plots
 from .abi import Error, Handle, bad_argument, c_text, check, library, status_text
+from .arrays import Array, Records
 from .arguments import LARGEST_INT, masked, number, whole
 from .material import AnyPath, Material
 from .names import Contact, Particle, Report, Status, Summary
-from .particles import Records, records
-
-Array = npt.NDArray[np.float64]
+from .particles import records
 
 # grainlaw_report for numpy, its text as one string.
 _layout: Any = np.dtype(Report)
