@@ -79,8 +79,9 @@ GRAINLAW_API grainlaw_status grainlaw_points_revert(grainlaw_points*);
 GRAINLAW_API grainlaw_status grainlaw_points_save(const grainlaw_points*, void* bytes,
                                                   size_t* size);
 
-/* Replace the committed states of all points by saved bytes and drop the trials; refuses what
- * grainlaw_state_load refuses, and a set of another size, and then changes nothing. message (may be
+/* Replace the committed states of all points by saved bytes and drop the trials; a set of one takes
+ * those of grainlaw_state_save too. Refuses what grainlaw_state_load refuses, and a set of another
+ * size, and then changes nothing. message (may be
  * NULL) gets a zero-terminated text that names the point and what is wrong, truncated to message_size
  * bytes; it is set to "" on success. Errors: NULL_POINTER, BAD_HANDLE, BAD_BYTES, WRONG_VERSION,
  * WRONG_MATERIAL, BAD_ARGUMENT (another number of points), OUT_OF_MEMORY. */
