@@ -332,7 +332,7 @@ def _ask_for_units(result: Result, plan: Plan, loops: Loops | int, stop: Stop | 
     """Of all stresses that a test leads to, is held at, turns at or stops at."""
     d = result.state.dimension
     stresses: dict[str, float | None] = {
-        f"a target in direction {1 + k // (d + 1)}": one.value
+        f"a target in direction {1 + k // (d + 1)}": min(one.value, 0.0)
         for k, one in enumerate(plan.to(plan.end).conditions)
         if one.kind in ("P", "sigma", "mean") and k % (d + 1) == 0}
     if isinstance(loops, Loops):
