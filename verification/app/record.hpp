@@ -3,7 +3,6 @@
 
 #include "app/library.hpp"
 
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -61,14 +60,9 @@ struct RecordOf {
     return D == 2 ? -cauchy(0, 0) : -0.5 * (cauchy(0, 0) + cauchy(1, 1));
   }
   [[nodiscard]] double stress_ratio() const { return axial_stress() / lateral_stress(); }
-  // p = -tr sigma / D, compression positive; q = sqrt(3/2 s:s), s the symmetric deviator of sigma,
-  // |axial - lateral| in a triaxial test [Pa].
+  // p = -tr sigma / D, compression positive; q, axial less lateral stress, below 0 in extension [Pa].
   [[nodiscard]] double mean_pressure() const { return -cauchy.trace() / D; }
-  [[nodiscard]] double deviatoric_stress() const {
-    const Tensor deviator =
-        Tensor(0.5 * (cauchy + cauchy.transpose())) + Tensor(mean_pressure() * Tensor::Identity());
-    return std::sqrt(1.5) * deviator.norm();
-  }
+  [[nodiscard]] double deviatoric_stress() const { return axial_stress() - lateral_stress(); }
 };
 using Record = RecordOf<2>;
 
