@@ -48,7 +48,7 @@ struct Segment {
   }
 };
 
-// [[segment]]: a test with its keys (element_test.hpp), or steps, per component one of F11 (end value),
+// [[segment]]: a test with its keys (laboratory_test.hpp), or steps, per component one of F11 (end value),
 // dF11 (increment), P11, sigma11 (end value, Pa, tension positive; or the name of another component of
 // sigma that it equals), mean_pressure beside one F that is "free", and isochoric. A component that is not named keeps its F. Throws
 // InputError, also for what cannot be meant: half of the length or less, as when a strain stands for a
