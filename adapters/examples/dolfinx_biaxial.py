@@ -1,11 +1,13 @@
 #!/usr/bin/python3
-"""The biaxial test of adapters/biaxial/biaxial.toml in DOLFINx 0.5 (one process).
+"""The biaxial test of adapters/biaxial/biaxial.toml in DOLFINx 0.5.
 
     dolfinx_biaxial.py ../biaxial/material.toml [PREFIX [STEPS]]
+    OMP_NUM_THREADS=1 mpirun -n 2 dolfinx_biaxial.py ../biaxial/material.toml
 
 Prints the residuals of Newton's method, and writes PREFIX_force.csv and PREFIX_newton.csv.
 """
 import sys
+import traceback
 
 import numpy as np
 import ufl
@@ -27,10 +29,12 @@ MAX_ITERATIONS = 12
 
 class Biaxial:
     def __init__(self, material):
-        domain = mesh.create_rectangle(MPI.COMM_SELF, [[0, 0], [WIDTH, HEIGHT]], [4, 8],
+        domain = mesh.create_rectangle(MPI.COMM_WORLD, [[0, 0], [WIDTH, HEIGHT]], [4, 8],
                                        mesh.CellType.triangle, diagonal=mesh.DiagonalType.right)
         V = fem.VectorFunctionSpace(domain, ("Lagrange", 1))
         self.u = fem.Function(V)
+        self.owned = 2 * V.dofmap.index_map.size_local   # unknowns; those of other ranks come after
+        self.comm = domain.comm
         self.points = Points(domain, material, degree=1)
         self.top_displacement = fem.Constant(domain, np.zeros(2))
 
@@ -42,9 +46,9 @@ class Biaxial:
         self.conditions = [
             fem.dirichletbc(np.zeros(2), bottom, V),
             fem.dirichletbc(self.top_displacement, top, V)]
-        self.top_y = 2 * top + 1
+        self.top_y = 2 * top[2 * top < self.owned] + 1
         fixed = np.concatenate([top, bottom])
-        self.free = np.setdiff1d(np.arange(self.u.x.array.size), [2 * fixed, 2 * fixed + 1])
+        self.free = np.setdiff1d(np.arange(self.owned), [2 * fixed, 2 * fixed + 1])
 
         sides = mesh.locate_entities_boundary(
             domain, 1, lambda x: np.isclose(x[0], 0) | np.isclose(x[0], WIDTH))
@@ -63,10 +67,11 @@ class Biaxial:
         self.points.commit()
 
     def forces(self):
-        """Nodal forces of P, and |force on the unknowns| relative to their norm."""
-        internal = fem.petsc.assemble_vector(self.internal).array
-        residual = fem.petsc.assemble_vector(self.residual).array
-        return internal, np.linalg.norm(residual[self.free]) / np.linalg.norm(internal)
+        """Force of P on the top in y, and |force on the unknowns| over |nodal forces of P|."""
+        internal, residual = assemble(self.internal).array, assemble(self.residual).array
+        top, free, whole = self.comm.allreduce(np.array([
+            internal[self.top_y].sum(), (residual[self.free]**2).sum(), (internal**2).sum()]))
+        return top, np.sqrt(free / whole)
 
     def advance(self, load):
         """Newton's method to a fraction of the load. Returns whether it got there, the residuals,
@@ -75,7 +80,8 @@ class Biaxial:
         self.top_displacement.value = (0, -SHORTENING * load)
         residuals = []
         for _ in range(MAX_ITERATIONS):
-            self.u.x.array[:] -= self.solve()
+            self.u.x.array[:self.owned] -= self.solve()
+            self.u.x.scatter_forward()
             answer = self.points.evaluate(self.u)
             if not answer.ok:
                 break
@@ -84,7 +90,7 @@ class Biaxial:
                 self.points.commit()
                 return True, residuals, 1.0
         reason = answer.message or "Newton did not converge"
-        print(f"load {load:.6g}: {reason}; the step is cut", flush=True)
+        tell(f"load {load:.6g}: {reason}; the step is cut")
         self.points.revert()
         self.u.x.array[:] = start
         return False, residuals, 0.5 if answer.ok else answer.step_ratio
@@ -96,14 +102,34 @@ class Biaxial:
         matrix.assemble()
         right = fem.petsc.assemble_vector(self.residual)
         fem.petsc.apply_lifting(right, [self.stiffness], [self.conditions], [self.u.vector], -1.0)
+        add_ghosts(right)
         fem.petsc.set_bc(right, self.conditions, self.u.vector, -1.0)
-        solver = PETSc.KSP().create(MPI.COMM_SELF)
+        solver = PETSc.KSP().create(self.comm)
         solver.setOperators(matrix)
         solver.setType("preonly")
         solver.getPC().setType("lu")
+        solver.getPC().setFactorSolverType("mumps")
         correction = right.duplicate()
         solver.solve(right, correction)
         return correction.array.copy()
+
+
+def add_ghosts(vector):
+    """What a rank assembled for unknowns of others goes to them."""
+    vector.ghostUpdate(addv=PETSc.InsertMode.ADD, mode=PETSc.ScatterMode.REVERSE)
+
+
+def assemble(form):
+    """A vector of the unknowns that this rank owns."""
+    vector = fem.petsc.assemble_vector(form)
+    add_ghosts(vector)
+    return vector
+
+
+def tell(text):
+    """On one rank."""
+    if MPI.COMM_WORLD.rank == 0:
+        print(text, flush=True)
 
 
 def main(material, prefix="biaxial", count="20"):
@@ -117,15 +143,16 @@ def main(material, prefix="biaxial", count="20"):
         if not converged:
             steps.cut(ratio)
             continue
-        top = problem.forces()[0][problem.top_y].sum()
-        print(f"load {steps.load:.6g}: force {top:.6g} N/m, residuals "
-              + ", ".join(f"{residual:.1e}" for residual in residuals), flush=True)
+        top = problem.forces()[0]
+        tell(f"load {steps.load:.6g}: force {top:.6g} N/m, residuals "
+             + ", ".join(f"{residual:.1e}" for residual in residuals))
         force += (f"{steps.number},{steps.load:.17g},{-SHORTENING * steps.load:.17g},"
                   f"{top:.17g}\n")
         for iteration, residual in enumerate(residuals, 1):
             newton += f"{steps.number},{iteration},{residual:.17g}\n"
-        write_whole(prefix + "_force.csv", force)  # on a full disk the steps before stay
-        write_whole(prefix + "_newton.csv", newton)
+        if MPI.COMM_WORLD.rank == 0:
+            write_whole(prefix + "_force.csv", force)  # on a full disk the steps before stay
+            write_whole(prefix + "_newton.csv", newton)
         steps.accept()
 
 
@@ -134,5 +161,10 @@ if __name__ == "__main__":
         sys.exit(__doc__)
     try:
         main(*sys.argv[1:])
-    except grainlaw.Error as error:
-        sys.exit(f"grainlaw: {error}")
+    except Exception as error:  # of one rank: the others would wait for it
+        if MPI.COMM_WORLD.size > 1:
+            traceback.print_exc()
+            MPI.COMM_WORLD.Abort(1)
+        if isinstance(error, grainlaw.Error):
+            sys.exit(f"grainlaw: {error}")
+        raise

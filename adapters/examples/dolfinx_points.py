@@ -1,4 +1,6 @@
-"""grainlaw in DOLFINx: P and its tangent as functions on quadrature points."""
+"""grainlaw in DOLFINx: P and its tangent as functions on quadrature points, on any number of ranks."""
+from dataclasses import dataclass
+
 import basix
 import numpy as np
 import ufl
@@ -7,10 +9,19 @@ from dolfinx import fem
 import grainlaw
 
 
+@dataclass
+class Answer:
+    """What an evaluation came to, the same on all ranks, so that they commit or revert together."""
+    ok: bool
+    step_ratio: float   # smallest of the ranks [-]
+    message: str        # of the first rank where a point failed, or ""
+
+
 class Points:
-    """The quadrature points of a two-dimensional mesh, of one material. The functions `P` (2, 2)
-    and `A` (4, 4), which has a row for each P_iJ and a column for each F_kL in row-major order, are
-    for forms over `dx` and hold what the last `evaluate` found."""
+    """The quadrature points of a two-dimensional mesh, of one material; on each rank those of the cells
+    that it owns, as forms are assembled over no others. The functions `P` (2, 2) and `A` (4, 4), which
+    has a row for each P_iJ and a column for each F_kL in row-major order, are for forms over `dx` and
+    hold what the last `evaluate` found."""
 
     def __init__(self, domain, material, degree):
         cell = domain.ufl_cell()
@@ -26,23 +37,42 @@ class Points:
         self._where, _ = basix.make_quadrature(basix.cell.string_to_type(cell.cellname()), degree)
         self._cells = np.arange(domain.topology.index_map(domain.topology.dim).size_local,
                                 dtype=np.int32)
-        self.states = grainlaw.States(material, len(self._cells) * len(self._where))
+        count = len(self._cells) * len(self._where)
+        self._owned_P = self._P_space.dofmap.list.array[:count]
+        self._owned_A = self._A_space.dofmap.list.array[:count]
+        self._comm = domain.comm
+        self.states = grainlaw.States(material, count)
         self._u = self._F = None
         self._committed = self.P.x.array.copy(), self.A.x.array.copy()
 
     def evaluate(self, u):
-        """Evaluate all points at I + grad u in one call, with the exact tangent. P and A follow
-        when all of them found an equilibrium."""
+        """Evaluate all points at I + grad u in one call on each rank, with the exact tangent. P and A
+        follow when all of them found an equilibrium. Raises grainlaw.Error on all ranks or none."""
         if u is not self._u:
             self._u = u
             self._F = fem.Expression(ufl.Identity(2) + ufl.grad(u), self._where)
         F = self._F.eval(self._cells).reshape(-1, 2, 2)
-        answer = self.states.evaluate(F, grainlaw.Tangent.EXACT)
+        try:
+            found = self.states.evaluate(F, grainlaw.Tangent.EXACT)
+            error = None
+        except grainlaw.Error as one:
+            error = one
+        answer = self._agree(error or found)
         if answer.ok:
-            self.P.x.array.reshape(-1, 4)[self._P_space.dofmap.list.array] = answer.P.reshape(-1, 4)
-            self.A.x.array.reshape(-1, 16)[self._A_space.dofmap.list.array] = \
-                answer.A.reshape(-1, 16)
+            self.P.x.array.reshape(-1, 4)[self._owned_P] = found.P.reshape(-1, 4)
+            self.A.x.array.reshape(-1, 16)[self._owned_A] = found.A.reshape(-1, 16)
         return answer
+
+    def _agree(self, found):
+        """The ranks' evaluations, or errors, as one."""
+        ours = found if isinstance(found, grainlaw.Error) else (found.ok, found.step_ratio, found.message)
+        ranks = self._comm.allgather(ours)
+        for one in ranks:
+            if isinstance(one, grainlaw.Error):
+                raise one
+        failed = [f"rank {rank}, {text}" if len(ranks) > 1 else text
+                  for rank, (ok, _, text) in enumerate(ranks) if not ok]
+        return Answer(not failed, min(ratio for _, ratio, _ in ranks), failed[0] if failed else "")
 
     def set_time_step(self, step):
         """How long increments take from now on, for a material with solver.viscous_increment."""

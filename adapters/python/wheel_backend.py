@@ -1,7 +1,8 @@
-"""What pip asks for a wheel (PEP 517), with CMake and the standard library alone, so that no network is
-needed.
+"""What pip asks for a wheel (PEP 517, 660), with CMake and the standard library alone, so that no network
+is needed.
 
     pip install .
+    pip install -e .      modules of the checkout, and the library of its build as it is built again
     pip install --config-settings=build-dir=build/release .    takes a build that is there
 
 The library is compiled as a release in build/python, or where build-dir, or $GRAINLAW_BUILD, says.
@@ -30,21 +31,44 @@ in_sdist = ("CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "pypr
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     """The name of the wheel that was written."""
-    settings = config_settings or {}
-    build = pathlib.Path(settings.get("build-dir") or os.environ.get("GRAINLAW_BUILD")
-                         or root / "build/python").resolve()
-    files = {f"grainlaw/{file.name}": file.read_bytes() for file in
-             [*sorted((here / "grainlaw").glob("*.py")), here / "grainlaw/py.typed"]}
-    files["grainlaw/names.py"] = subprocess.run([sys.executable, here / "make_names", *headers],
-                                                check=True, stdout=subprocess.PIPE).stdout
-    major = version().split(".", maxsplit=1)[0]
-    files[f"grainlaw/libgrainlaw.so.{major}"] = library(build, major)
+    built = library(build_directory(config_settings))
+    files = {f"grainlaw/{file.name}": file.read_bytes() for file in modules()}
+    files["grainlaw/names.py"] = names()
+    files[f"grainlaw/{built.name}"] = stripped(built)
+    return write_wheel(wheel_directory, files)
+
+
+def build_editable(wheel_directory, config_settings=None, metadata_directory=None):
+    """The name of a wheel that leads to links to this checkout, in `editable` of its build."""
+    built = library(build_directory(config_settings))
+    package = built.parent / "editable/grainlaw"
+    shutil.rmtree(package, ignore_errors=True)
+    package.mkdir(parents=True)
+    for file in [*modules(), built]:
+        (package / file.name).symlink_to(file)
+    (package / "names.py").write_bytes(names())
+    return write_wheel(wheel_directory, {"grainlaw.pth": f"{package.parent}\n".encode()})
+
+
+def modules():
+    """The files of the package that are not made."""
+    return [*sorted((here / "grainlaw").glob("*.py")), here / "grainlaw/py.typed"]
+
+
+def names():
+    """names.py, from the headers."""
+    return subprocess.run([sys.executable, here / "make_names", *headers], check=True,
+                          stdout=subprocess.PIPE).stdout
+
+
+def write_wheel(directory, files):
+    """The name of the wheel of these files that was written."""
     name = f"grainlaw-{version()}-{tag()}.whl"
     info = f"grainlaw-{version()}.dist-info"
     files |= {f"{info}/{file}": data for file, data in information().items()}
     record = [f"{file},sha256={digest(data)},{len(data)}" for file, data in files.items()]
     files[f"{info}/RECORD"] = "\n".join([*record, f"{info}/RECORD,,", ""]).encode()
-    with zipfile.ZipFile(pathlib.Path(wheel_directory) / name, "w", zipfile.ZIP_DEFLATED) as wheel:
+    with zipfile.ZipFile(pathlib.Path(directory) / name, "w", zipfile.ZIP_DEFLATED) as wheel:
         for file, data in files.items():
             entry = zipfile.ZipInfo(file)   # of 1980: the same sources make the same bytes
             entry.external_attr = 0o100644 << 16
@@ -62,6 +86,9 @@ def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
     return directory.name
 
 
+prepare_metadata_for_build_editable = prepare_metadata_for_build_wheel
+
+
 def build_sdist(sdist_directory, config_settings=None):
     """The name of the archive of sources that was written: what the wheel is made of."""
     name = f"grainlaw-{version()}"
@@ -72,8 +99,27 @@ def build_sdist(sdist_directory, config_settings=None):
     return f"{name}.tar.gz"
 
 
-def library(build, major):
-    """The shared library, compiled where it is not up to date, without the names that nobody needs."""
+def build_directory(config_settings):
+    """Where the library is compiled. Ends with the reason where it cannot be of this checkout."""
+    build = pathlib.Path((config_settings or {}).get("build-dir") or os.environ.get("GRAINLAW_BUILD")
+                         or root / "build/python").resolve()
+    cache = build / "CMakeCache.txt"
+    known = dict(re.findall(r"^(\w+):\w+=(.*)$", cache.read_text(), re.M)) if cache.exists() else {}
+    home = pathlib.Path(known.get("CMAKE_HOME_DIRECTORY", root)).resolve()
+    if home != root:
+        sys.exit(f"build-dir {build} is of another checkout, {home}; expected one of {root}, or a new "
+                 "directory")
+    if known.get("BUILD_SHARED_LIBS", "ON").upper() in ("OFF", "FALSE", "NO", "0"):
+        sys.exit(f"build-dir {build} makes a static library; expected one with BUILD_SHARED_LIBS=ON")
+    if known.get("GRAINLAW_SANITIZE"):
+        sys.exit(f"build-dir {build} is of GRAINLAW_SANITIZE={known['GRAINLAW_SANITIZE']}, which "
+                 "Python cannot load; expected one without sanitizers")
+    return build
+
+
+def library(build):
+    """Path of the shared library, compiled where it is not up to date."""
+    major = version().split(".", maxsplit=1)[0]
     if not shutil.which("cmake"):
         sys.exit(f"grainlaw is compiled by CMake, which is not found: apt-get install {needed}")
     jobs = str(len(os.sched_getaffinity(0)))
@@ -89,12 +135,17 @@ def library(build, major):
     built = build / f"libgrainlaw.so.{major}"
     if not built.exists():
         sys.exit(f"{build} makes no shared library")
+    return built
+
+
+def stripped(built):
+    """The library without the names that nobody needs."""
     if not shutil.which("strip"):
         return built.read_bytes()
     with tempfile.TemporaryDirectory() as directory:
-        stripped = pathlib.Path(directory) / "stripped"
-        subprocess.run(["strip", "--strip-unneeded", "-o", stripped, built], check=True)
-        return stripped.read_bytes()
+        small = pathlib.Path(directory) / built.name
+        subprocess.run(["strip", "--strip-unneeded", "-o", small, built], check=True)
+        return small.read_bytes()
 
 
 def version():

@@ -80,12 +80,12 @@ GRAINLAW_API grainlaw_status grainlaw_points_revert(grainlaw_points*);
 GRAINLAW_API grainlaw_status grainlaw_points_save(const grainlaw_points*, void* bytes,
                                                   size_t* size);
 
-/* Replace the committed states of all points by saved bytes and drop the trials. Bytes that
- * grainlaw_state_load refuses, and those of a set of another size, are refused, and nothing
- * changes. message (may be NULL) receives a zero-terminated text that names the point and the
- * fault, truncated to message_size bytes; it is "" on success. Errors: NULL_POINTER, BAD_HANDLE,
- * BAD_BYTES, WRONG_VERSION, WRONG_MATERIAL, BAD_ARGUMENT (another number of points),
- * OUT_OF_MEMORY. */
+/* Replace the committed states of all points by saved bytes and drop the trials. A set of one takes
+ * those of grainlaw_state_save too. Bytes that grainlaw_state_load refuses, and those of a set of
+ * another size, are refused, and nothing changes. message (may be NULL) receives a zero-terminated
+ * text that names the point and the fault, truncated to message_size bytes; it is "" on success.
+ * Errors: NULL_POINTER, BAD_HANDLE, BAD_BYTES, WRONG_VERSION, WRONG_MATERIAL, BAD_ARGUMENT (another
+ * number of points), OUT_OF_MEMORY. */
 GRAINLAW_API grainlaw_status grainlaw_points_load(grainlaw_points*, const void* bytes, size_t size,
                                                   char* message, size_t message_size);
 

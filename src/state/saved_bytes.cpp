@@ -5,6 +5,7 @@
 #include <xxhash.h>
 
 #include <cmath>
+#include <cstring>
 #include <string>
 
 namespace grainlaw::core {
@@ -25,18 +26,22 @@ double ByteReader::get_finite() {
   return value;
 }
 
+bool begin_as(std::span<const std::byte> bytes, const SavedKind& kind) {
+  return bytes.size() >= kind.letters.size() &&
+         std::memcmp(bytes.data(), kind.letters.data(), kind.letters.size()) == 0;
+}
+
 void check_envelope(std::span<const std::byte> bytes, const SavedKind& kind) {
   const auto require = [&](bool condition, grainlaw_status status, const char* found) {
     if (!condition) throw Error(status, std::string(kind.name) + ": " + found);
   };
   require(bytes.size() >= version_end + checksum_size, GRAINLAW_BAD_BYTES, "truncated");
-  ByteReader begin(bytes);
-  for (const char letter : kind.letters)
-    require(begin.get<char>() == letter, GRAINLAW_BAD_BYTES, "the bytes are of something else");
+  require(begin_as(bytes, kind), GRAINLAW_BAD_BYTES, "the bytes are of something else");
   const auto content = bytes.first(bytes.size() - checksum_size);
   require(ByteReader(bytes.last(checksum_size)).get<std::uint64_t>() == checksum(content),
           GRAINLAW_BAD_BYTES, "damaged or truncated");
-  require(begin.get<std::uint32_t>() == kind.version, GRAINLAW_WRONG_VERSION,
+  ByteReader version(bytes.subspan(kind.letters.size()));
+  require(version.get<std::uint32_t>() == kind.version, GRAINLAW_WRONG_VERSION,
           "of another format version");
 }
 

@@ -79,6 +79,11 @@ class ByteReader {
   std::span<const std::byte> left_;
 };
 
+inline constexpr SavedKind saved_state{"saved state", {'G', 'R', 'A', 'I', 'N', 'L', 'A', 'W'}, 2};
+
+// Whether bytes begin with the letters of a kind.
+[[nodiscard]] bool begin_as(std::span<const std::byte> bytes, const SavedKind& kind);
+
 // Throws Error (BAD_BYTES, WRONG_VERSION) unless the bytes, any of any length, are complete and of
 // this kind.
 void check_envelope(std::span<const std::byte> bytes, const SavedKind& kind);

@@ -20,7 +20,6 @@
 namespace grainlaw::core {
 namespace {
 
-constexpr SavedKind kind{"saved state", {'G', 'R', 'A', 'I', 'N', 'L', 'A', 'W'}, 2};
 constexpr std::size_t header_size = version_end + sizeof(std::uint32_t) + sizeof(std::uint64_t);
 template <int D>
 constexpr std::size_t plain_contact_size =
@@ -80,7 +79,7 @@ void save_configuration(const Material<D>& material, const Configuration<D>& con
                         std::span<std::byte> bytes) {
   const std::size_t spins = material.law.moments() ? Dimension<D>::spins : 0;
   ByteWriter out(bytes);
-  out.begin(kind);
+  out.begin(saved_state);
   out.put(static_cast<std::uint32_t>(configuration.contacts.size()));
   out.put(material.fingerprint);
   for (std::size_t k = 0; k < squared<D>; ++k) out.put(configuration.deformation[k]);
@@ -111,7 +110,7 @@ void save_configuration(const Material<D>& material, const Configuration<D>& con
 
 template <int D>
 Configuration<D> load_configuration(const Material<D>& material, std::span<const std::byte> bytes) {
-  check_envelope(bytes, kind);
+  check_envelope(bytes, saved_state);
   require(bytes.size() >= header_size + checksum_size, GRAINLAW_BAD_BYTES, "truncated");
   ByteReader in(bytes.subspan(version_end));
   const std::size_t contacts = in.get<std::uint32_t>();

@@ -122,6 +122,16 @@ TEST(points, saved_ones_continue_with_the_same_bits) {
   EXPECT_TRUE(same_bits(evaluate_at(loaded, further, 1).P, evaluate_at(set, further, 2).P));
 }
 
+TEST(points, one_alone_loads_the_bytes_of_its_state) {
+  Points set = make_set();
+  evaluate(set, 2);
+  set.commit();
+  Points one(material(), 1);
+  one.load(save_one(set.state(3)));
+  EXPECT_TRUE(same_bits(save_one(one.state(0)), save_one(set.state(3))));
+  EXPECT_THROW(set.load(save_one(set.state(3))), grainlaw::StatusError);
+}
+
 TEST(points, measure_as_their_states_do) {
   Points set = make_set();
   evaluate(set, 2);

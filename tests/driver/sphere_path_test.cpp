@@ -63,7 +63,17 @@ TEST_F(sphere_path, triaxial_compression_ends_under_its_lateral_stress) {
   EXPECT_GT(end.axial_stress(), 1.2 * pressure);
   EXPECT_NEAR(end.axial_strain(), 3e-3, 1e-15);
   EXPECT_NEAR(end.mean_pressure(), (end.axial_stress() + 2 * pressure) / 3, 1e-7 * pressure);
-  EXPECT_NEAR(end.deviatoric_stress(), end.axial_stress() - pressure, 1e-2 * pressure);
+  EXPECT_NEAR(end.deviatoric_stress(), end.axial_stress() - pressure, 1e-7 * pressure);
+}
+
+TEST_F(sphere_path, deviatoric_stress_is_below_zero_in_extension) {
+  const PointScene scene = read("[[segment]]\nsteps = 1\nF33 = 1.0\n");
+  PointDriverOf<3> driver(make_material(scene.material, 3), {});
+  const double pressure = driver.record().mean_pressure();
+  driver.run(triaxial_segment(1e-3, -pressure, 1), {});
+  const RecordOf<3>& end = driver.record();
+  EXPECT_LT(end.axial_stress(), 0.99 * pressure);
+  EXPECT_NEAR(end.deviatoric_stress(), end.axial_stress() - pressure, 1e-7 * pressure);
 }
 
 TEST_F(sphere_path, isochoric_compression_keeps_the_volume_to_rounding) {

@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <fstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace verification {
 namespace {
@@ -99,6 +101,23 @@ TEST_F(start, targets_in_other_units_are_told) {
   ASSERT_EQ(texts.size(), 1U);
   EXPECT_EQ(texts[0],
             "a target of -100 Pa in direction 1 for a packing under 1e+05 Pa: is it in Pa?");
+}
+
+TEST_F(start, stresses_of_a_laboratory_test_in_other_units_are_told) {
+  PackingStart begin;
+  begin.pressure = 1e5;
+  for (const auto& [keys, told] : std::vector<std::pair<std::string, std::string>>{
+           {"test = 'isotropic'\npressure = 100", "pressure = 100 Pa for a packing"},
+           {"test = 'k0'\naxial_stress = 100", "axial_stress = 100 Pa"},
+           {"test = 'drained'\nlateral_stress = 2e8", "lateral_stress = 2e+08 Pa"},
+           {"test = 'drained'\nstop = { q = 50 }", "stop.q = 50 Pa"},
+           {"test = 'undrained'\ncycles = 1\namplitude = { q = 30 }", "amplitude.q = 30 Pa"}}) {
+    const auto texts = far_targets(begin, read(keys + "\n").segments);
+    ASSERT_EQ(texts.size(), 1U) << keys;
+    EXPECT_NE(texts[0].find(told), std::string::npos) << texts[0];
+  }
+  EXPECT_TRUE(far_targets(begin, read("test = 'k0'\naxial_stress = 5e5\n").segments).empty());
+  EXPECT_TRUE(far_targets(begin, read("test = 'isotropic'\n").segments).empty());
 }
 
 TEST_F(start, a_failure_in_the_first_steps_says_what_the_packing_is_like_and_what_to_try) {

@@ -1,6 +1,7 @@
 #include "app/record.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace verification {
 

@@ -3,7 +3,6 @@
 
 #include "app/library.hpp"
 
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -62,14 +61,10 @@ struct RecordOf {
     return D == 2 ? -cauchy(0, 0) : -0.5 * (cauchy(0, 0) + cauchy(1, 1));
   }
   [[nodiscard]] double stress_ratio() const { return axial_stress() / lateral_stress(); }
-  // p = -tr sigma / D, compression positive [Pa]. q = sqrt(3/2 s:s) with s the symmetric deviator
-  // of sigma [Pa]; |axial - lateral| in a triaxial test.
+  // p = -tr sigma / D, compression positive [Pa]. q is axial less lateral stress, below 0 in
+  // extension [Pa].
   [[nodiscard]] double mean_pressure() const { return -cauchy.trace() / D; }
-  [[nodiscard]] double deviatoric_stress() const {
-    const Tensor deviator =
-        Tensor(0.5 * (cauchy + cauchy.transpose())) + Tensor(mean_pressure() * Tensor::Identity());
-    return std::sqrt(1.5) * deviator.norm();
-  }
+  [[nodiscard]] double deviatoric_stress() const { return axial_stress() - lateral_stress(); }
 };
 using Record = RecordOf<2>;
 

@@ -25,7 +25,7 @@ constexpr ColumnText record_texts[] = {
     {"axial_stress", "-sigma33, compression positive; of spheres alone, as the next three"},
     {"lateral_stress", "-(sigma11 + sigma22) / 2"},
     {"mean_pressure", "p = -tr sigma / 3"},
-    {"deviatoric_stress", "q = (3/2 s : s)^1/2 with the deviator s of sigma"},
+    {"deviatoric_stress", "q, axial less lateral stress: below 0 in extension"},
     {"F",
      "deformation gradient, dx_i / dX_J, found components included; of a mesh the mean over its "
      "points"},

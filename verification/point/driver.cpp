@@ -1,7 +1,7 @@
 #include "point/driver.hpp"
 
 #include "point/control.hpp"
-#include "point/element_test.hpp"
+#include "point/laboratory_test.hpp"
 
 #include <fmt/format.h>
 

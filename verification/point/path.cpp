@@ -1,6 +1,6 @@
 #include "point/path.hpp"
 
-#include "point/element_test.hpp"
+#include "point/laboratory_test.hpp"
 
 #include <fmt/format.h>
 

@@ -48,7 +48,7 @@ struct Segment {
   }
 };
 
-// Reads [[segment]]: a laboratory test with its keys (element_test.hpp), or steps and targets.
+// Reads [[segment]]: a laboratory test with its keys (laboratory_test.hpp), or steps and targets.
 //   F11              end value;
 //   dF11             increment;
 //   P11, sigma11     end value [Pa], tension positive;

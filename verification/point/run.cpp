@@ -6,8 +6,8 @@
 #include "app/progress.hpp"
 #include "app/snapshot.hpp"
 #include "app/written.hpp"
-#include "point/element_test.hpp"
 #include "point/figures.hpp"
+#include "point/laboratory_test.hpp"
 #include "point/start.hpp"
 
 #include <fmt/format.h>

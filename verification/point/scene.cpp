@@ -3,8 +3,8 @@
 #include "app/cases.hpp"
 #include "app/history.hpp"
 #include "app/parts.hpp"
-#include "point/element_test.hpp"
 #include "point/figures.hpp"
+#include "point/laboratory_test.hpp"
 #include "point/start.hpp"
 
 #include <fmt/format.h>

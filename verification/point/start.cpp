@@ -2,6 +2,7 @@
 
 #include "app/progress.hpp"
 #include "app/snapshot.hpp"
+#include "point/laboratory_test.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -114,16 +115,21 @@ PackingStart look_at_start(const grainlaw_state* state, const MaterialSource& so
 std::vector<std::string> far_targets(const PackingStart& start, const std::vector<Segment>& path) {
   constexpr double far = 100;  // ratio to the pressure, or its inverse
   std::vector<std::string> texts;
-  for (const Segment& segment : path)
-    for (const std::size_t k : diagonal(start.dimension)) {
-      const Target& target = segment.target[k];
-      const double ratio = -target.value / start.pressure;
-      if (target.control == Control::deformation || !(ratio > 0)) continue;
-      if (ratio < far && ratio > 1 / far) continue;
-      texts.push_back(fmt::format(
-          "a target of {:.3g} Pa in direction {} for a packing under {:.3g} Pa: is it in Pa?",
-          target.value, 1 + k / static_cast<std::size_t>(start.dimension + 1), start.pressure));
-    }
+  const auto ask = [&](double compression, const std::string& what) {
+    const double ratio = compression / start.pressure;
+    if (!(ratio > 0) || (ratio < far && ratio > 1 / far)) return;
+    texts.push_back(
+        fmt::format("{} for a packing under {:.3g} Pa: is it in Pa?", what, start.pressure));
+  };
+  for (const Segment& segment : path) {
+    for (const std::size_t k : diagonal(start.dimension))
+      if (const Target& target = segment.target[k]; target.control != Control::deformation)
+        ask(-target.value, fmt::format("a target of {:.3g} Pa in direction {}", target.value,
+                                       1 + k / static_cast<std::size_t>(start.dimension + 1)));
+    if (!segment.test) continue;
+    for (const auto& [key, value] : segment.test->stresses())
+      ask(value, fmt::format("{} = {:.3g} Pa", key, value));
+  }
   return texts;
 }
 

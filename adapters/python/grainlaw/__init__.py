@@ -11,23 +11,23 @@ A[i, J, k, L] = dP_iJ/dF_kL [Pa], SI units. d is the dimension of the material, 
     else:
         points.revert()                 # and retry with answer.step_ratio of the step
 
-    result = grainlaw.tests.drained(material, strain=0.05)  # the tests of a soil laboratory
+    result = grainlaw.laboratory.drained(material, strain=0.05)
     result.plot()
 
 A status < 0 raises Error and leaves what is committed as it was; a recoverable one (> 0) is an
 answer. The library is $GRAINLAW_LIBRARY, or the one this package was installed with, or the one
 the dynamic loader finds.
 
-    grainlaw.tests      element tests, one call each, and any mixed path
-    grainlaw.steps      load steps that are cut, for hosts whose loop is written in Python
-    grainlaw.files      files that are the old one or the whole new one
+    grainlaw.laboratory  the tests of a soil laboratory, one call each, and any mixed path
+    grainlaw.steps       load steps that are cut, for hosts whose loop is written in Python
+    grainlaw.files       files that are the old one or the whole new one
 """
-from . import files, steps, tests
+from . import files, laboratory, steps, tests
 from .abi import Error, status_text, version
 from .material import Material
 from .names import Measure, Status, Tangent
 from .points import Evaluation, State, States
 
 __all__ = ["Error", "Evaluation", "Material", "Measure", "State", "States", "Status", "Tangent",
-           "files", "status_text", "steps", "tests", "version"]
+           "files", "laboratory", "status_text", "steps", "tests", "version"]
 __version__ = version()

@@ -76,6 +76,7 @@ def _declare(library: ctypes.CDLL) -> None:
         "points_set_time_step": (ctypes.c_int, pointer, ctypes.c_double),
         "points_save": (ctypes.c_int, pointer, pointer, count),
         "points_load": (ctypes.c_int, pointer, pointer, size, text, size),
+        "state_save": (ctypes.c_int, pointer, pointer, count),
         "points_measure": (ctypes.c_int, pointer, ctypes.c_int, pointer, count),
         "state_particles": (ctypes.c_int, pointer, pointer, size, count),
         "state_contacts": (ctypes.c_int, pointer, pointer, size, count),

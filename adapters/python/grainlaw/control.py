@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .points import Array
+from .arrays import Array
 
 
 @dataclass(frozen=True)
@@ -73,6 +73,31 @@ def controlled(conditions: Sequence[Condition], F: Array, P: Array,
             value[k] = sigma[k] - sigma[condition.other]
             derivative[k] = spatial[k] - spatial[condition.other]
     return value, derivative
+
+
+def solve(matrix: Array, right: Array) -> Array:
+    """matrix^-1 right, by elimination with the largest pivots. Rows that the others imply, as of
+    sigma21 beside sigma12, are left out, and the unknowns that are left without one stay 0."""
+    n = len(right)
+    work = np.column_stack([matrix, right])
+    columns, rank, largest = np.arange(n), 0, 0.0
+    for k in range(n):
+        rest = np.abs(work[k:, k:n])
+        i, j = divmod(int(np.argmax(rest)), n - k)
+        pivot = float(rest[i, j])
+        largest = max(largest, pivot)
+        if not pivot > n * np.finfo(float).eps * largest:
+            break
+        work[[k, k + i]] = work[[k + i, k]]
+        work[:, [k, k + j]] = work[:, [k + j, k]]
+        columns[[k, k + j]] = columns[[k + j, k]]
+        work[k + 1:] -= np.outer(work[k + 1:, k] / work[k, k], work[k])
+        rank = k + 1
+    result = np.zeros(n)
+    for k in reversed(range(rank)):
+        after = work[k, k + 1:rank] @ result[columns[k + 1:rank]]
+        result[columns[k]] = (work[k, n] - after) / work[k, k]
+    return result
 
 
 def with_volume(F: Array, follows: Sequence[int], volume: float) -> Array:

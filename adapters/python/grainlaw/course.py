@@ -12,6 +12,7 @@ import numpy as np
 from .arguments import MOST_STEPS, number, whole
 from .control import Condition, Segment, cauchy
 from .lead import Lead, StepError
+from .progress import Progress
 from .result import Result
 
 MOST_STEPS_OF_A_LEG = 100000
@@ -85,9 +86,9 @@ class Course:
     """Leads along a plan and keeps what it finds in the result."""
 
     def __init__(self, lead: Lead, plan: Plan, loops: Loops | int, stop: Stop | None,
-                 result: Result) -> None:
+                 result: Result, progress: Progress) -> None:
         self._lead, self._plan, self._loops, self._result = lead, plan, loops, result
-        self._stop = stop or Stop()
+        self._stop, self._progress = stop or Stop(), progress
         share = 0.01 if plan.keeps_volume else 0.0
         self._liquefied = share if self._stop.liquefied is None else self._stop.liquefied
         self._start_F, self._p, self._q = lead.F, self.pressure, self.deviator
@@ -148,15 +149,39 @@ class Course:
     def _make(self, way: float) -> bool:
         """One step; False when the test is over."""
         p, axial = self.pressure, self.axial
-        self._lead.run(self._plan.to(way), lambda: self._result.add(self._lead))
+        self._lead.run(self._plan.to(way), lambda: self._result.add(self._lead), self._tell_cut)
+        self._tell_step()
         self._way = way
         self._result.ended = self._stopped(p, axial)
         return not self._result.ended
 
+    def _tell_step(self) -> None:
+        d, F = len(self._lead.F), self._lead.F
+        self._progress.update(self._fraction, f"sigma{d}{d} {-self.axial / 1e3:.1f} kPa, F{d}{d} "
+                                              f"{F[-1, -1]:.4f}, F1{d} {F[0, -1]:.4f}")
+
+    def _tell_cut(self, part: float, reason: str) -> None:
+        self._progress.update(self._fraction, f"step {len(self._result)} in parts of {part:.1e} of "
+                                              f"it: {reason}")
+
+    @property
+    def _fraction(self) -> float:
+        """Steps that are done over those that it takes where nothing stops it."""
+        plan, loops = self._plan, self._loops
+        legs, way = 1, abs(plan.end)
+        if isinstance(loops, Loops):
+            legs, way = 4 * loops.count, 2 * plan.step if loops.strain is None else loops.strain
+        elif loops:
+            legs = 2 * loops
+        return min(1.0, (len(self._result) - 1) / (legs * self._steps(way)))
+
+    def _steps(self, way: float) -> int:
+        return max(1, math.ceil(way / self._plan.step - 1e-9))
+
     def _to(self, to: float) -> bool:
         """In equal steps to a strain."""
         start = self._way
-        count = max(1, math.ceil(abs(to - start) / self._plan.step - 1e-9))
+        count = self._steps(abs(to - start))
         return all(self._make(to if k == count else start + (to - start) * k / count)
                    for k in range(1, count + 1))
 

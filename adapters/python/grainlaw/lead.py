@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from .control import Condition, Segment, cauchy, controlled, follow_volume, with_volume
-from .interrupt import Interrupts
 from .abi import status_text
+from .arrays import Array
+from .control import Condition, Segment, cauchy, controlled, follow_volume, solve, with_volume
+from .interrupt import Interrupts
 from .names import Measure, Status, Tangent
-from .points import Array, Evaluation, State
+from .points import Evaluation, State
 
 # An attempt ends when so many iterations in a row have not halved the error: P(F) jumps where
 # contacts collapse, and Newton then goes to and fro. A smaller step usually passes beside it.
@@ -53,6 +54,7 @@ class Options:
     tolerance: float = 1e-8      # largest error / norm of sigma at the start of the step [-]
     max_iterations: int = 20     # of one attempt
     max_cuts: int = 12           # the smallest part of a step is 2^-max_cuts of it
+    tangents: bool = False       # wanted of steps too that a strain alone leads
 
 
 class Lead:
@@ -80,15 +82,17 @@ class Lead:
             self._renew_tangent()
         return controlled(conditions, self.F, self.P, self._tangent())[0]
 
-    def run(self, segment: Segment, record: Callable[[], None]) -> None:
+    def run(self, segment: Segment, record: Callable[[], None],
+            tell_cut: Callable[[float, str], None]) -> None:
         """One step. Calls record() at its end; where Ctrl-C or a failure ends it before, at the end of
-        the last part of it that was committed, if any. Raises KeyboardInterrupt and StepError."""
+        the last part of it that was committed, if any. Calls tell_cut(part, reason) with the part of
+        the step that comes next. Raises KeyboardInterrupt and StepError."""
         start = self.values(segment.conditions)
         end = np.array([start[k] + one.value if one.added else one.value
                         for k, one in enumerate(segment.conditions)])
         F = self.F
         try:
-            self._solve_in_parts(segment, start, end)
+            self._solve_in_parts(segment, start, end, tell_cut)
         except (KeyboardInterrupt, StepError):
             self.state.revert()
             if self.F is not F:
@@ -96,7 +100,8 @@ class Lead:
             raise
         record()
 
-    def _solve_in_parts(self, segment: Segment, start: Array, end: Array) -> None:
+    def _solve_in_parts(self, segment: Segment, start: Array, end: Array,
+                        tell_cut: Callable[[float, str], None]) -> None:
         done, part = 0.0, 1.0
         while done < 1:
             to = 1.0 if done + part > 1 - 1e-9 else done + part
@@ -112,6 +117,7 @@ class Lead:
                 raise StepError(attempt.status,
                                 f"a step failed {100 * done:.3g} % along, in parts of "
                                 f"{to - done:.1e} of it too: {attempt.reason}")
+            tell_cut(part, attempt.reason)
 
     def _attempt(self, segment: Segment, goal: Array, part: float) -> Attempt:
         attempt = self._newton(segment, goal)
@@ -137,7 +143,8 @@ class Lead:
         follows, volume, conditions = segment.follows, segment.volume, segment.conditions
         if not segment.mixed:
             F = goal.reshape(d, d)
-            return self._at(with_volume(F, follows, volume) if follows else F, None)
+            return self._at(with_volume(F, follows, volume) if follows else F,
+                            Tangent.EXACT if self._options.tangents else None)
         stresses = [k for k, condition in enumerate(conditions) if condition.stress]
         scale = max(float(np.linalg.norm(cauchy(self.P, self.F))), 1.0)
         value, matrix = controlled(conditions, self.F, self.P, self._tangent())
@@ -181,11 +188,7 @@ class Lead:
             matrix, residual = matrix.copy(), residual.copy()
             follow_volume(matrix, F, follows)
             residual[[(len(F) + 1) * i for i in follows]] = 0
-        try:
-            result: Array = np.linalg.solve(matrix, residual)
-        except np.linalg.LinAlgError:
-            result = np.linalg.lstsq(matrix, residual, rcond=None)[0]
-        return result
+        return solve(matrix, residual)
 
     def _at(self, F: Array, tangent: Tangent | None) -> Attempt:
         answer = self._evaluate(F, tangent)

@@ -9,9 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from .abi import check
+from .arrays import Records
 from .names import Contact, Particle
 
-Records = npt.NDArray[np.void]   # a structured array
 _ABOUT_AXIS_3 = ("rotation", "moment")
 _YES_OR_NO = ("sliding", "bonded")
 

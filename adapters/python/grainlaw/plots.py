@@ -1,14 +1,18 @@
 """Pictures by matplotlib, where it is installed."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from .particles import Records
-    from .result import Result
+from .arrays import Array, Records
 
+Columns = Mapping[str, Array]
+
+KINDS = ("history", "p-q", "e-log-p", "stress-path")
+KILO = 1e-3    # Pa in kPa
+SAME = 1e-4    # range over size of what a test holds [-]
 WIDEST = 4.0   # line of the largest normal force [points]
 
 
@@ -21,27 +25,82 @@ def _figure(**options: Any) -> Any:
     return Figure(layout="constrained", **options)
 
 
-def history(result: Result, shear: bool | None) -> Any:
-    """Stress, void ratio and coordination number over the strain."""
-    figure = _figure(figsize=(6, 7))
+def draw(kind: str, columns: Columns, shear: bool | None, spread: Columns | None = None,
+         members: Sequence[Columns] = ()) -> Any:
+    """A picture of a test by its kind, from its columns. Of an ensemble they are the means: a history
+    has a band of the spread, the standard deviation, to either side, a path its members as thin lines.
+    """
+    if kind not in KINDS:
+        raise ValueError(f"kind {kind!r}: expected one of {', '.join(KINDS)}")
     if shear is None:
-        shear = bool(np.ptp(result.shear_strain) > np.ptp(result.axial_strain))
-    over = result.shear_strain if shear else result.axial_strain
+        shear = bool(np.ptp(columns["shear_strain"]) > np.ptp(columns["axial_strain"]))
+    if kind == "history":
+        return _history(columns, shear, spread or {})
+    return _path(kind, columns, shear, members)
+
+
+def _history(columns: Columns, shear: bool, spread: Columns) -> Any:
+    figure = _figure(figsize=(6, 7))
+    over = columns["shear_strain" if shear else "axial_strain"]
     stress, volume, contacts = figure.subplots(3, 1, sharex=True)
-    if shear:
-        stress.plot(over, result.shear_stress / 1e3, label="shear stress")
-    else:
-        stress.plot(over, result.axial_stress / 1e3, label="axial stress")
-        stress.plot(over, result.lateral_stress / 1e3, label="lateral stress")
-    stress.plot(over, result.mean_pressure / 1e3, label="mean pressure")
+    names = ["shear_stress"] if shear else ["axial_stress", "lateral_stress"]
+    for name in [*names, "mean_pressure"]:
+        _curve(stress, over, columns, name, spread, KILO, label=name.replace("_", " "))
     stress.set_ylabel("stress [kPa]")
     stress.legend()
-    volume.plot(over, result.void_ratio)
+    _curve(volume, over, columns, "void_ratio", spread)
     volume.set_ylabel("void ratio [-]")
-    contacts.plot(over, result.coordination_no_rattlers)
+    _curve(contacts, over, columns, "coordination_no_rattlers", spread)
     contacts.set_ylabel("coordination, no rattlers [-]")
     contacts.set_xlabel("shear strain [-]" if shear else "axial strain [-]")
     return figure
+
+
+def _path(kind: str, columns: Columns, shear: bool, members: Sequence[Columns]) -> Any:
+    """p-q, e-log-p, or stress-path: axial over lateral stress, of a shear the shear stress over the
+    normal stress on its planes."""
+    figure = _figure(figsize=(6, 5))
+    axes = figure.subplots()
+    over, name, scale = "mean_pressure", "shear_stress" if shear else "deviatoric_stress", KILO
+    below = "mean pressure p [kPa]"
+    beside = "shear stress [kPa]" if shear else "deviatoric stress q [kPa]"
+    if kind == "e-log-p":
+        name, beside, scale = "void_ratio", "void ratio e [-]", 1.0
+        axes.set_xscale("log", nonpositive="mask")
+        _plain_numbers(axes.xaxis)
+    elif kind == "stress-path":
+        over, below = ("axial_stress", "normal stress [kPa]") if shear else (
+            "lateral_stress", "lateral stress [kPa]")
+        if not shear:
+            name, beside = "axial_stress", "axial stress [kPa]"
+    for one in members:
+        axes.plot(KILO * one[over], scale * one[name], color="0.75", linewidth=0.8)
+    x = KILO * columns[over]
+    axes.plot(x, scale * columns[name])
+    axes.plot(x[:1], scale * columns[name][:1], "o", label="start")
+    if np.ptp(x) < SAME * abs(x).max():   # held, to the tolerance
+        axes.set_xlim(0.9 * x.min(), 1.1 * x.max())
+    axes.set_xlabel(below)
+    axes.set_ylabel(beside)
+    axes.legend()
+    return figure
+
+
+def _plain_numbers(axis: Any) -> None:
+    """200, not 2 x 10^2, on a logarithmic axis."""
+    from matplotlib.ticker import ScalarFormatter  # type: ignore[import]
+    axis.set_major_formatter(ScalarFormatter())
+    axis.set_minor_formatter(ScalarFormatter())
+
+
+def _curve(axes: Any, over: Array, columns: Columns, name: str, spread: Columns, scale: float = 1.0,
+           **options: Any) -> None:
+    mean = scale * columns[name]
+    line, = axes.plot(over, mean, **options)
+    if name in spread:
+        width = scale * spread[name]
+        axes.fill_between(over, mean - width, mean + width, color=line.get_color(), alpha=0.2,
+                          linewidth=0)
 
 
 def packing(particles: Records, contacts: Records) -> Any:

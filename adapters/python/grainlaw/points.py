@@ -13,12 +13,11 @@ import numpy.typing as npt
 
 from . import plots
 from .abi import Error, Handle, bad_argument, c_text, check, library, status_text
+from .arrays import Array, Records
 from .arguments import LARGEST_INT, masked, number, whole
 from .material import AnyPath, Material
 from .names import Contact, Particle, Report, Status, Summary
-from .particles import Records, records
-
-Array = npt.NDArray[np.float64]
+from .particles import records
 
 # grainlaw_report for numpy, its text as one string.
 _layout: Any = np.dtype(Report)
@@ -75,7 +74,7 @@ def _message(summary: Summary) -> str:
 
 class States:
     """Integration points of one material, evaluated together. F, P, A and measures have the number
-    of the point as their first axis.
+    of the point as their first axis. A set may have none, as of a process without cells.
 
     Pickled with their material and their committed states; a trial is not kept, and the packing
     has to be where it was."""
@@ -86,7 +85,7 @@ class States:
     def __init__(self, material: Material, count: int) -> None:
         if not isinstance(material, Material):
             raise Error(Status.BAD_HANDLE, f"expected a Material, got {type(material).__name__}")
-        count = whole("number of points", count, 1, sys.maxsize, bad_argument)
+        count = whole("number of points", count, 0, sys.maxsize, bad_argument)
         self.material = material
         self.dimension = material.dimension
         self._time_step: float | None = None
@@ -157,12 +156,8 @@ class States:
         check(library.grainlaw_points_revert(self._handle))
 
     def save(self) -> bytes:
-        """The committed states as bytes."""
-        size = ctypes.c_size_t()
-        check(library.grainlaw_points_save(self._handle, None, ctypes.byref(size)))
-        data = ctypes.create_string_buffer(size.value)
-        check(library.grainlaw_points_save(self._handle, data, ctypes.byref(size)))
-        return data.raw
+        """The committed states as bytes, those of grainlaw_points_save."""
+        return _saved(library.grainlaw_points_save, self._handle)
 
     def load(self, saved: bytes | bytearray | memoryview) -> None:
         """Replace the committed states by saved ones: all of them or, on an Error, none."""
@@ -184,6 +179,8 @@ class States:
         values = np.empty(count.value)
         check(library.grainlaw_points_measure(self._handle, what, values.ctypes.data,
                                               ctypes.byref(count)))
+        if not len(self):   # the components are those of any point
+            return np.empty((0, *States(self.material, 1).measure(what).shape[1:]))
         components, square = count.value // len(self), (self.dimension, self.dimension)
         shape: tuple[int, ...] = (components,)
         if components == 1:
@@ -268,10 +265,23 @@ class State(States):
         A = None if answer.A is None else answer.A[0]
         return Evaluation(answer.P[0], A, answer.status[0], answer.reports[0], answer.summary)
 
+    def save(self) -> bytes:
+        """The committed state as bytes, those of grainlaw_state_save. What C saves can be loaded, and
+        C's grainlaw_state_load reads them."""
+        return _saved(library.grainlaw_state_save, self._state(0))
+
     def measure(self, what: int) -> Any:
         """A Measure of the trial, or of the committed state where there is no trial: a number,
         (d, d) or (components,), in the unit that help(grainlaw.Measure) gives."""
         return super().measure(what)[0]
+
+
+def _saved(function: Callable[..., int], handle: Any) -> bytes:
+    size = ctypes.c_size_t()
+    check(function(handle, None, ctypes.byref(size)))
+    data = ctypes.create_string_buffer(size.value)
+    check(function(handle, data, ctypes.byref(size)))
+    return data.raw
 
 
 def _restore(kind: type[States], material: Material, count: int, saved: bytes,

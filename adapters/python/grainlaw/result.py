@@ -1,17 +1,15 @@
 """What a test comes to, step by step, in numpy arrays."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from . import plots
+from .arrays import Array, Reached
 from .control import cauchy
 from .names import Measure
-from .points import Array, State
-
-if TYPE_CHECKING:
-    from .lead import Lead
+from .points import State
 
 _MEASURES = {"void_ratio": Measure.VOID_RATIO, "coordination": Measure.COORDINATION,
              "coordination_no_rattlers": Measure.COORDINATION_NO_RATTLERS,
@@ -26,6 +24,7 @@ class Result:
 
     F                         (n, d, d) deformation gradient dx_i/dX_J [-]
     P                         (n, d, d) first Piola-Kirchhoff stress [Pa], tension positive
+    A                         (n, d, d, d, d) tangent dP/dF [Pa], of a test with tangents=True
     sigma                     (n, d, d) Cauchy stress [Pa], tension positive
     axial_strain              (n,) 1 - F22, of spheres 1 - F33 [-], shortening positive
     volumetric_strain         (n,) det F - 1 [-], dilation positive
@@ -34,7 +33,7 @@ class Result:
     axial_stress              (n,) [Pa], compression positive
     lateral_stress            (n,) [Pa], compression positive; of spheres the mean of two
     mean_pressure             (n,) -tr sigma / d [Pa]
-    deviatoric_stress         (n,) axial - lateral stress [Pa]
+    deviatoric_stress         (n,) q, axial less lateral stress [Pa]: below 0 in extension
     void_ratio                (n,) volume of voids / volume of particles [-]
     coordination              (n,) 2 C / N over all particles [-]
     coordination_no_rattlers  (n,) [-]
@@ -54,18 +53,20 @@ class Result:
     loose_parts: int         #: parts of steps that ended out of balance, beside a jump of the stress
     before: Result | None    #: of the consolidation
 
-    def __init__(self, state: State, before: Result | None = None) -> None:
-        self.state, self.before = state, before
+    def __init__(self, state: State, before: Result | None = None, tangents: bool = False) -> None:
+        self.state, self.before, self._tangents = state, before, tangents
         self.ended, self.liquefied, self.loose_parts = "", False, 0
         self._rows: list[dict[str, Any]] = []
 
-    def add(self, lead: Lead) -> None:
+    def add(self, reached: Reached) -> None:
         """A row of where the state is."""
         row: dict[str, Any] = {name: self.state.measure(what) for name, what in _MEASURES.items()}
-        row.update(F=lead.F, P=lead.P, sigma=cauchy(lead.P, lead.F), external_work=lead.work,
-                   sliding=float(lead.report["sliding"]))
+        row.update(F=reached.F, P=reached.P, sigma=cauchy(reached.P, reached.F),
+                   external_work=reached.work, sliding=float(reached.report["sliding"]))
+        if self._tangents:
+            row["A"] = reached.A
         self._rows.append(row)
-        self.loose_parts = lead.loose_parts
+        self.loose_parts = reached.loose_parts
 
     def __len__(self) -> int:
         return len(self._rows)
@@ -78,7 +79,8 @@ class Result:
     def __getattr__(self, name: str) -> Array:
         rows = self.__dict__.get("_rows")
         if not rows or name not in rows[0]:
-            raise AttributeError(f"a Result has no {name}; help(grainlaw.tests.Result) lists what")
+            raise AttributeError(f"a Result has no {name}; help(grainlaw.laboratory.Result) lists "
+                                 "what")
         return np.array([row[name] for row in rows])
 
     def __dir__(self) -> list[str]:
@@ -125,7 +127,7 @@ class Result:
 
     @property
     def deviatoric_stress(self) -> Array:
-        """(n,) axial less lateral stress [Pa]"""
+        """(n,) q, axial less lateral stress, below 0 in extension [Pa]"""
         return self.axial_stress - self.lateral_stress
 
     def columns(self) -> dict[str, Array]:
@@ -136,17 +138,20 @@ class Result:
         result: dict[str, Array] = {}
         for name in names:
             values = np.asarray(getattr(self, name))
-            if values.ndim == 1:
-                result[name] = values
-            else:
-                d = values.shape[1]
-                for i in range(d):
-                    for j in range(d):
-                        result[f"{name}{i + 1}{j + 1}"] = values[:, i, j]
+            flat = values.reshape(len(values), -1)
+            for k, index in enumerate(np.ndindex(values.shape[1:])):
+                result[name + "".join(str(axis + 1) for axis in index)] = flat[:, k]
         return result
 
-    def plot(self, shear: bool | None = None) -> Any:
-        """Stress, volume and coordination number over the axial strain, or of a simple shear over
-        the shear strain: a figure of matplotlib, shown by its .show() or kept by its
-        .savefig("sand.png"). Raises ImportError where matplotlib is not installed."""
-        return plots.history(self, shear)
+    def plot(self, shear: bool | None = None, kind: str = "history") -> Any:
+        """A figure of matplotlib, shown by its .show() or kept by its .savefig("sand.png"). Raises
+        ImportError where matplotlib is not installed.
+
+        history      stress, void ratio and coordination number over the axial strain
+        p-q          deviatoric stress q over the mean pressure p
+        e-log-p      void ratio over the mean pressure, logarithmic
+        stress-path  axial over lateral stress
+
+        Of a simple shear (shear=True; None: whichever strain is larger) over the shear strain, shear
+        stress for q, and shear stress over the normal stress on its planes."""
+        return plots.draw(kind, self.columns(), shear)

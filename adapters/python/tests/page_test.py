@@ -17,7 +17,7 @@ README = pathlib.Path(__file__).resolve().parent.parent / "README.md"
 class Page(Case):
     def test_blocks_run_as_they_are_printed(self):
         blocks = re.findall(r"^```python\n(.*?)^```$", README.read_text(encoding="utf-8"), re.M | re.S)
-        self.assertEqual(len(blocks), 3)
+        self.assertEqual(len(blocks), 5)
         try:
             import matplotlib  # pylint: disable=import-outside-toplevel,unused-import
         except ImportError:
@@ -32,6 +32,9 @@ class Page(Case):
                 for block in blocks:
                     exec(block, names)  # pylint: disable=exec-used
             self.assertTrue(os.path.exists("point0.vtp"))
+            with np.load("drained.npz") as saved:
+                self.assertEqual(saved["A"].shape[1:], (2, 2, 2, 2))
+                self.assertTrue(len(saved["F"]) == len(saved["P"]) == len(saved["A"]) > 5)
         self.assertTrue(names["answer"].ok, names["answer"].message)
         cauchy = names["result"].sigma[-1]
         self.assertLess(np.linalg.norm(names["sigma"] - cauchy), 1e-9 * np.linalg.norm(cauchy))

@@ -1,5 +1,7 @@
 """Points in numpy: evaluation, commit and revert, saving, measures, output."""
+import ctypes
 import os
+import pickle
 import tempfile
 import unittest
 
@@ -7,6 +9,7 @@ import numpy as np
 
 import grainlaw
 from grainlaw import Measure, Status, Tangent
+from grainlaw.abi import library
 from support import DATA, MATERIAL, Case, material
 
 COMPRESSED = np.array([[1.0003, 0.0002], [-0.0001, 0.9990]])
@@ -93,6 +96,42 @@ class Points(Case):
         other.load(states.save())
         further = [2 * COMPRESSED - np.eye(2)] * 2
         self.assertEqual(states.evaluate(further).P.tobytes(), other.evaluate(further).P.tobytes())
+
+    def test_a_saved_state_is_read_by_c_and_what_c_saves_is_loaded(self):
+        state = grainlaw.State(material())
+        state.evaluate(COMPRESSED)
+        state.commit()
+        saved = state.save()
+        c_state = ctypes.c_void_p()
+        library.grainlaw_state_create(material()._handle, ctypes.byref(c_state))
+        try:
+            self.assertEqual(library.grainlaw_state_load(c_state, saved, ctypes.c_size_t(len(saved))), 0)
+            size = ctypes.c_size_t(len(saved))
+            of_c = ctypes.create_string_buffer(len(saved))
+            self.assertEqual(library.grainlaw_state_save(c_state, of_c, ctypes.byref(size)), 0)
+        finally:
+            library.grainlaw_state_destroy(c_state)
+        self.assertEqual(of_c.raw, saved)
+        other = grainlaw.State(material())
+        other.load(of_c.raw)
+        self.assertEqual(other.save(), saved)
+        alone = grainlaw.States(material(), 1)
+        alone.load(saved)
+        other.load(alone.save())   # of a set, as State.save() was once
+        self.assertEqual(other.save(), saved)
+
+    def test_none_are_a_set_too(self):
+        states = grainlaw.States(material(), 0)
+        answer = states.evaluate(np.empty((0, 2, 2)), Tangent.EXACT)
+        self.assertTrue(answer.ok)
+        self.assertEqual((answer.P.shape, answer.A.shape), ((0, 2, 2), (0, 2, 2, 2, 2)))
+        states.commit()
+        states.revert()
+        self.assertEqual(states.measure(Measure.FABRIC).shape, (0, 2, 2))
+        self.assertEqual(states.measure(Measure.VOID_RATIO).shape, (0,))
+        states.load(states.save())
+        self.assertEqual(len(pickle.loads(pickle.dumps(states))), 0)
+        self.assertEqual(len(states.clone()), 0)
 
     def test_clone_is_independent(self):
         state = grainlaw.State(material())

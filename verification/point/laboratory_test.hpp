@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace verification {
 
@@ -51,6 +53,8 @@ struct ElementTest {
   }
   // Number of steps unless a stop comes first; an estimate for cycles between stresses.
   [[nodiscard]] int expected_steps() const;
+  // The stresses that were given, by their keys [Pa].
+  [[nodiscard]] std::vector<std::pair<std::string, double>> stresses() const;
 };
 
 inline constexpr std::string_view test_names =

@@ -1,6 +1,10 @@
-"""Element tests: they hold what they say, go where `grainlaw point` goes, and end where they are told."""
+"""Tests of a laboratory: they hold what they say, go where `grainlaw point` goes, and end where they are told."""
+import contextlib
 import csv
 import functools
+import importlib
+import io
+import itertools
 import os
 import pickle
 import re
@@ -9,14 +13,17 @@ import subprocess
 import tempfile
 import threading
 import unittest
+import warnings
 from unittest import mock
 
 import numpy as np
 
 import grainlaw
-from grainlaw import Measure, Status, tests
+from grainlaw import Measure, Status
+from grainlaw import laboratory as tests
+from grainlaw.laboratory import Ensemble, Loops, Stop
 from grainlaw.lead import Options
-from grainlaw.tests import Loops, Stop
+from grainlaw.progress import duration
 from support import DATA, Case, material
 
 SPHERES = os.path.join(DATA, "spheres500.toml")
@@ -44,9 +51,21 @@ SAME = [
      "steps = 4\nF22 = 0.997\ndF12 = 0.002\nP11 = -110e3"),
     (lambda m: tests.path(m, 4, F22=0.997, F11="free", mean_pressure=110e3),
      'steps = 4\nF22 = 0.997\nF11 = "free"\nmean_pressure = 110e3'),
+    # Of all stresses one is another's: a rotation is free.
+    (lambda m: tests.path(m, 3, sigma11=-1e5, sigma22=-1.1e5, sigma12=0.0, sigma21=0.0),
+     "steps = 3\nsigma11 = -1e5\nsigma22 = -1.1e5\nsigma12 = 0.0\nsigma21 = 0.0"),
+    (lambda m: tests.path(m, 3, sigma11=-1e5, sigma22=-1e5, sigma12=0.0, sigma21=0.0),
+     "steps = 3\nsigma11 = -1e5\nsigma22 = -1e5\nsigma12 = 0.0\nsigma21 = 0.0"),
+    (lambda m: tests.path(m, 3, sigma12=5e3, sigma21=5e3),
+     "steps = 3\nsigma12 = 5e3\nsigma21 = 5e3"),
+    (lambda m: tests.path(m, 3, sigma11=-1e5, sigma22=-1.1e5, sigma21=0.0),
+     "steps = 3\nsigma11 = -1e5\nsigma22 = -1.1e5\nsigma21 = 0.0"),
+    (lambda m: tests.path(m, 3, P11=-1e5, P22=-1.1e5, P12=0.0, P21=0.0),
+     "steps = 3\nP11 = -1e5\nP22 = -1.1e5\nP12 = 0.0\nP21 = 0.0"),
 ]
 OF_SPHERES = [
     (lambda m: tests.drained(m, 0.002), 'test = "drained"\nstrain = 0.002'),
+    (lambda m: tests.drained(m, -0.002), 'test = "drained"\nstrain = -0.002'),
     (lambda m: tests.undrained(m, 0.002), 'test = "undrained"\nstrain = 0.002'),
     (lambda m: tests.constant_p(m, 0.002), 'test = "constant_p"\nstrain = 0.002'),
     (lambda m: tests.shear_constant_stress(m, 0.002),
@@ -88,6 +107,9 @@ class AsInTheProgram(Case):
                     size = abs(theirs[name]).max()
                     self.assertLess(abs(columns[name] - theirs[name]).max(), 1e-8 * size + 1e-15,
                                     name)
+                for name in ("axial_stress", "lateral_stress", "mean_pressure", "deviatoric_stress"):
+                    if name in theirs:
+                        self.assertLess(abs(columns[name] - theirs[name]).max(), 1e-9 * scale, name)
 
     @unittest.skipUnless(PROGRAM, "the command grainlaw is not built")
     def test_discs(self):
@@ -241,7 +263,7 @@ class Elements(Case):
 
     def test_a_step_that_fails_keeps_what_was_reached(self):
         once = functools.partial(Options, max_cuts=1)
-        with mock.patch("grainlaw.tests.Options", once):
+        with mock.patch("grainlaw.laboratory.Options", once):
             with self.assertRaises(tests.StepFailed) as caught:
                 tests.path(material(), 4, F11=1.013, F22=1.013)   # grains part
         result, text = caught.exception.result, str(caught.exception)
@@ -273,6 +295,94 @@ class Elements(Case):
         for name in ("axial_strain", "sigma12", "fabric22", "void_ratio", "sliding"):
             self.assertIn(name, columns)
 
+    def test_q_is_below_0_in_extension(self):
+        for path in (None, SPHERES):
+            result = tests.drained(material(path) if path else material(), -0.002)
+            q = result.deviatoric_stress
+            self.assertLess(q[-1], q[0] - 1e3)
+            self.assertEqual(q.tobytes(), (result.axial_stress - result.lateral_stress).tobytes())
+
+    def test_all_stresses_are_reached_with_a_rotation_left_free(self):
+        result = tests.path(material(), 3, sigma11=-1e5, sigma22=-1.2e5, sigma12=0.0, sigma21=0.0)
+        self.assertLess(abs(result.sigma[-1] - np.diag([-1e5, -1.2e5])).max(), 1e-7 * 1.2e5)
+
+    def test_the_old_name_works(self):
+        self.assertIs(grainlaw.tests.drained, tests.drained)
+        self.assertIs(importlib.import_module("grainlaw.tests").Result, tests.Result)
+
+    def test_tangents_are_those_of_the_rows(self):
+        for call in (lambda **how: tests.oedometric(material(), 0.002, **how),
+                     lambda **how: tests.drained(material(), 0.002, **how)):
+            result, without = call(tangents=True), call()
+            self.assertEqual(result.sigma.tobytes(), without.sigma.tobytes())
+            self.assertEqual(result.A.shape, (len(result), 2, 2, 2, 2))
+            self.assertIn("A1122", result.columns())
+            self.assertRaises(AttributeError, lambda result=without: result.A)
+            again = grainlaw.State(material())
+            for F, A in zip(result.F, result.A):
+                found = again.evaluate(F, grainlaw.Tangent.EXACT).A
+                again.commit()
+                if (F != np.eye(2)).any():
+                    self.assertLess(np.linalg.norm(A - found), 1e-9 * np.linalg.norm(A))
+
+    def test_progress_tells_how_far_and_why_steps_are_cut(self):
+        told = []
+        tests.drained(material(), 0.004, progress=lambda *one: told.append(one))
+        self.assertEqual([fraction for fraction, _ in told], [0.25, 0.5, 0.75, 1])
+        self.assertRegex(told[-1][1], r"^sigma22 -1\d\d\.\d kPa, F22 0\.9960, F12 ")
+        told.clear()
+        tests.path(material(), 1, F22=0.65, stop=Stop(strain=0.01),
+                   progress=lambda *one: told.append(one))
+        self.assertRegex(told[0][1], r"^step 1 in parts of \d\.\de-0\d of it: .*stretch")
+        told.clear()
+        tests.shear_constant_volume(material(), loops=Loops(2, strain=2e-3),
+                                    progress=lambda *one: told.append(one))
+        self.assertEqual(told[-1][0], 1)
+        tests.isotropic(material(), 11e4, 2, loops=1, progress=lambda *one: told.append(one))
+        self.assertEqual([fraction for fraction, _ in told[-4:]], [0.25, 0.5, 0.75, 1])
+
+    def test_progress_on_stderr_tells_the_time_left(self):
+        with mock.patch("sys.stderr", io.StringIO()) as stderr, \
+                mock.patch("time.monotonic", itertools.count(0, 20).__next__):
+            tests.drained(material(), 0.003, progress=True)
+        lines = stderr.getvalue().splitlines()
+        self.assertEqual(len(lines), 3)
+        self.assertRegex(lines[1], r"^drained:  67 %, 40 s, 20 s left, sigma22 -")
+        self.assertEqual([duration(s) for s in (99.4, 725, 12000)], ["99 s", "12 min 05 s", "3 h 20 min"])
+
+    def test_a_stress_in_another_unit_is_asked_about(self):
+        m = material()
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            for call, words in (
+                    (lambda: tests.isotropic(m, 100), r"direction 1 of -100 Pa .* under 1.*e\+05 Pa: is it"),
+                    (lambda: tests.drained(m, lateral_stress=1e8), "direction 1 of -1e"),
+                    (lambda: tests.path(m, 1, sigma22=-100), "direction 2 of -100"),
+                    (lambda: tests.drained(m, consolidation=200), "of -200 Pa"),
+                    (lambda: tests.drained(m, stop=Stop(q=30)), "stop.q of 30 Pa"),
+                    (lambda: tests.drained(m, loops=Loops(1, q=30)), "loops.q of 30 Pa")):
+                self.assertRaisesRegex(UserWarning, words, call)
+            tests.drained(m, 0.001, consolidation=150e3)
+            tests.constant_p(material(SPHERES), 0.001)
+        with self.assertWarns(UserWarning) as caught:
+            tests.drained(m, 1e-3, stop=Stop(q=30))
+        self.assertEqual(caught.filename, __file__)
+
+    def test_an_ensemble_is_the_mean_of_its_results_and_how_far_they_spread(self):
+        results = [tests.drained(material(), strain) for strain in (0.002, 0.003)]
+        results.append(tests.drained(material(), 0.003, lateral_stress=120e3))
+        ensemble = Ensemble(iter(results))
+        self.assertEqual(ensemble.runs.tolist(), [3, 3, 3, 2])
+        for row in (2, 3):
+            draws = [one.axial_stress[row] for one in results if len(one) > row]
+            self.assertAlmostEqual(ensemble.mean["axial_stress"][row] / np.mean(draws), 1)
+            self.assertAlmostEqual(ensemble.deviation["axial_stress"][row] / np.std(draws, ddof=1), 1)
+        table = ensemble.columns()
+        self.assertEqual({len(column) for column in table.values()}, {4})
+        self.assertIn("sd_sigma12", table)
+        for bad in ([], results[:1], [results[0], tests.drained(material(SPHERES), 0.001)]):
+            self.assertRaisesRegex(ValueError, "expected two or more", Ensemble, bad)
+
     def test_an_unknown_column_is_told(self):
         with self.assertRaisesRegex(AttributeError, "help"):
             tests.path(material(), 1).strains  # pylint: disable=expression-not-assigned
@@ -301,6 +411,30 @@ class Elements(Case):
                 file = os.path.join(directory, "test.png")
                 figure.savefig(file)
                 self.assertGreater(os.path.getsize(file), 10000)
+
+    def test_plots_are_those_of_soil_mechanics_with_a_band_of_an_ensemble(self):
+        try:
+            import matplotlib  # pylint: disable=import-outside-toplevel,unused-import
+        except ImportError:
+            return
+        result = tests.drained(material(), 0.002)
+        sheared = tests.shear_constant_volume(material(), 0.002)
+        for one, kind, below, beside in (
+                (result, "p-q", "mean pressure p [kPa]", "deviatoric stress q [kPa]"),
+                (sheared, "p-q", "mean pressure p [kPa]", "shear stress [kPa]"),
+                (result, "e-log-p", "mean pressure p [kPa]", "void ratio e [-]"),
+                (result, "stress-path", "lateral stress [kPa]", "axial stress [kPa]"),
+                (sheared, "stress-path", "normal stress [kPa]", "shear stress [kPa]")):
+            for picture, lines in ((one.plot(kind=kind), 2), (Ensemble([one, one]).plot(kind=kind), 4)):
+                axes = picture.axes[0]
+                self.assertEqual((axes.get_xlabel(), axes.get_ylabel()), (below, beside))
+                self.assertEqual(len(axes.lines), lines)
+                self.assertEqual(len(axes.lines[0].get_xdata()), len(one))
+        held = result.plot(kind="stress-path").axes[0].get_xlim()
+        self.assertGreater(held[1] - held[0], 10)   # kPa, not what the tolerance leaves
+        bands = Ensemble([result, result]).plot().axes[0].collections
+        self.assertEqual(len(bands), 3)
+        self.assertRaisesRegex(ValueError, "p-q, e-log-p", result.plot, kind="pq")
 
     def test_a_plot_of_a_packing_has_its_particles_and_contacts(self):
         try:

@@ -1,4 +1,4 @@
-#include "point/element_test.hpp"
+#include "point/laboratory_test.hpp"
 
 #include <fmt/format.h>
 
@@ -83,6 +83,18 @@ int ElementTest::expected_steps() const {
   if (led_by_stress()) return count(1, step) * std::max(1, 2 * cycles);
   if (cycles == 0) return count(std::abs(end), step);
   return 4 * cycles * count(amplitude_of_q ? 2 * step : amplitude, step);
+}
+
+std::vector<std::pair<std::string, double>> ElementTest::stresses() const {
+  std::vector<std::pair<std::string, double>> given;
+  if (led_by_stress() && end > 0)
+    given.emplace_back(kind == TestKind::isotropic ? "pressure" : "axial_stress", end);
+  if (held) given.emplace_back(shear() ? "normal_stress" : "lateral_stress", *held);
+  if (amplitude_of_q) given.emplace_back("amplitude.q", amplitude);
+  if (stop.q) given.emplace_back("stop.q", *stop.q);
+  if (stop.p) given.emplace_back("stop.p", *stop.p);
+  if (stop.axial_stress) given.emplace_back("stop.axial_stress", *stop.axial_stress);
+  return given;
 }
 
 ElementTest read_element_test(SceneTable& table) {

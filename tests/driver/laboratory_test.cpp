@@ -1,5 +1,5 @@
 // Element tests of discs and spheres: what each of them keeps, where it turns and where it stops.
-#include "point/element_test.hpp"
+#include "point/laboratory_test.hpp"
 
 #include "../temporary_directory.hpp"
 #include "app/history.hpp"
@@ -26,7 +26,7 @@ packing = { generator = "compaction", count = 30, radii = [4e-3, 6e-3], seed = 2
 contact = { law = "frictional", young = 1e8, ratio = 0.8, friction = 0.5 }
 )";
 
-class element_test : public testing::Test {
+class laboratory_test : public testing::Test {
  protected:
   PointScene read(const std::string& text, const std::string& material = small_packing) {
     const std::filesystem::path path = directory_.path() / "scene.toml";
@@ -68,7 +68,7 @@ double largest_change_of_volume(const std::vector<RecordOf<D>>& records) {
   return largest;
 }
 
-TEST_F(element_test, undrained_keeps_det_F_at_1_to_1e_12) {
+TEST_F(laboratory_test, undrained_keeps_det_F_at_1_to_1e_12) {
   const std::string test = "[[segment]]\ntest = 'undrained'\nstrain = 0.02\n";
   const auto discs = path<2>(test);
   const auto spheres = path<3>(test);
@@ -82,7 +82,7 @@ TEST_F(element_test, undrained_keeps_det_F_at_1_to_1e_12) {
   EXPECT_LT(of_spheres, 1e-12);
 }
 
-TEST_F(element_test, undrained_loops_keep_det_F_at_1_to_1e_12) {
+TEST_F(laboratory_test, undrained_loops_keep_det_F_at_1_to_1e_12) {
   const auto records = path<2>(
       "[[segment]]\ntest = 'undrained'\ncycles = 2\namplitude = { strain = 2e-3 }\nsteps = 4\n");
   EXPECT_EQ(records.size(), 1U + 2 * 4 * 4);
@@ -90,7 +90,7 @@ TEST_F(element_test, undrained_loops_keep_det_F_at_1_to_1e_12) {
   EXPECT_NEAR(records.back().axial_strain(), 0, 1e-12);
 }
 
-TEST_F(element_test, a_stress_may_be_prescribed_while_the_volume_is_kept) {
+TEST_F(laboratory_test, a_stress_may_be_prescribed_while_the_volume_is_kept) {
   const auto records =
       path<3>("[[segment]]\nsteps = 5\ndF33 = -0.005\nsigma11 = 'sigma22'\nisochoric = true\n");
   EXPECT_LT(largest_change_of_volume<3>(records), 1e-12);
@@ -98,7 +98,7 @@ TEST_F(element_test, a_stress_may_be_prescribed_while_the_volume_is_kept) {
   EXPECT_NEAR(end.cauchy(0, 0), end.cauchy(1, 1), 1e-5 * end.mean_pressure());
 }
 
-TEST_F(element_test, constant_p_keeps_the_mean_pressure) {
+TEST_F(laboratory_test, constant_p_keeps_the_mean_pressure) {
   const std::string test = "[[segment]]\ntest = 'constant_p'\nstrain = 0.01\n";
   const auto discs = path<2>(test);
   EXPECT_NEAR(discs.back().mean_pressure() / discs.front().mean_pressure(), 1, 1e-6);
@@ -111,13 +111,13 @@ TEST_F(element_test, constant_p_keeps_the_mean_pressure) {
   EXPECT_NEAR(difference(spheres.back()), difference(spheres.front()), 1);
 }
 
-TEST_F(element_test, a_mean_pressure_may_be_prescribed_beside_a_free_stretch) {
+TEST_F(laboratory_test, a_mean_pressure_may_be_prescribed_beside_a_free_stretch) {
   const auto records =
       path<2>("[[segment]]\nsteps = 4\nF22 = 0.996\nF11 = 'free'\nmean_pressure = 120e3\n");
   EXPECT_NEAR(records.back().mean_pressure(), 120e3, 1);
 }
 
-TEST_F(element_test, isotropic_and_k0_lead_to_their_stress) {
+TEST_F(laboratory_test, isotropic_and_k0_lead_to_their_stress) {
   const auto isotropic =
       path<3>("[[segment]]\ntest = 'isotropic'\npressure = 150e3\nsteps = 4\n").back();
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(isotropic.cauchy(i, i), -150e3, 1);
@@ -131,7 +131,7 @@ TEST_F(element_test, isotropic_and_k0_lead_to_their_stress) {
   EXPECT_NEAR(looped.back().mean_pressure(), 1e5, 1);
 }
 
-TEST_F(element_test, drained_starts_where_consolidation_ended) {
+TEST_F(laboratory_test, drained_starts_where_consolidation_ended) {
   const auto records = path<2>(
       "[[segment]]\ntest = 'isotropic'\npressure = 150e3\nsteps = 4\n"
       "[[segment]]\ntest = 'drained'\nstrain = 0.01\nsteps = 10\n");
@@ -140,7 +140,7 @@ TEST_F(element_test, drained_starts_where_consolidation_ended) {
   EXPECT_NEAR(records.back().deformation(1, 1), consolidated * 0.99, 1e-12);
 }
 
-TEST_F(element_test, shears_keep_their_volume_or_the_stress_on_their_planes) {
+TEST_F(laboratory_test, shears_keep_their_volume_or_the_stress_on_their_planes) {
   const std::string end = "\nstrain = 0.01\n";
   const auto volume = path<3>("[[segment]]\ntest = 'shear_constant_volume'" + end);
   EXPECT_EQ(volume.back().deformation(0, 2), 0.01);
@@ -150,7 +150,7 @@ TEST_F(element_test, shears_keep_their_volume_or_the_stress_on_their_planes) {
   EXPECT_EQ(stress.back().deformation(0, 0), 1);
 }
 
-TEST_F(element_test, loops_between_stresses_turn_at_them) {
+TEST_F(laboratory_test, loops_between_stresses_turn_at_them) {
   const auto records =
       path<2>("[[segment]]\ntest = 'drained'\ncycles = 2\namplitude = { q = 20e3 }\nstep = 2e-4\n");
   double high = -1e9, low = 1e9;
@@ -165,7 +165,7 @@ TEST_F(element_test, loops_between_stresses_turn_at_them) {
   EXPECT_NEAR(records.back().axial_stress() - records.back().lateral_stress(), q, 1e3);
 }
 
-TEST_F(element_test, stops_where_it_is_asked_to) {
+TEST_F(laboratory_test, stops_where_it_is_asked_to) {
   const auto stop = [&](const std::string& at) {
     TestEnd end;
     path<2>("[[segment]]\ntest = 'drained'\nstrain = 0.02\nstop = { " + at + " }\n", &end);
@@ -179,7 +179,7 @@ TEST_F(element_test, stops_where_it_is_asked_to) {
   EXPECT_EQ(stop("q = 1e9"), "");
 }
 
-TEST_F(element_test, ends_when_nothing_carries_any_more) {
+TEST_F(laboratory_test, ends_when_nothing_carries_any_more) {
   TestEnd end;
   const auto records = path<2>(
       "[[segment]]\ntest = 'oedometric'\nstrain = -0.05\nstop = { liquefied = 0.02 }\n", &end);
@@ -188,7 +188,7 @@ TEST_F(element_test, ends_when_nothing_carries_any_more) {
   EXPECT_LT(records.size(), 90U);
 }
 
-TEST_F(element_test, refuses_what_it_does_not_know) {
+TEST_F(laboratory_test, refuses_what_it_does_not_know) {
   expect_refused("test = 'triaxial'\n", "one of isotropic, oedometric, k0, drained, undrained");
   expect_refused("test = 'drained'\npressure = 1e5\n", "pressure");
   expect_refused("test = 'drained'\nstrain = 5\n", "a strain between -0.5 and 0.5");
@@ -206,7 +206,7 @@ TEST_F(element_test, refuses_what_it_does_not_know) {
   expect_refused("steps = 1\nF22 = 0.99\nF11 = 1.01\nisochoric = true\n", "all of the diagonal");
 }
 
-TEST_F(element_test, pictures_of_a_test_are_those_of_soil_mechanics) {
+TEST_F(laboratory_test, pictures_of_a_test_are_those_of_soil_mechanics) {
   const PointScene compression = read("[[segment]]\ntest = 'k0'\n");
   EXPECT_EQ(compression.figures, std::vector<std::string>{"e-log-p"});
   const PointScene shear = read("[[segment]]\ntest = 'shear_constant_volume'\n");
@@ -215,7 +215,7 @@ TEST_F(element_test, pictures_of_a_test_are_those_of_soil_mechanics) {
   EXPECT_EQ(figure_end("e-log-p"), "_e_log_p");
 }
 
-TEST_F(element_test, another_law_in_a_case_takes_over_what_it_knows) {
+TEST_F(laboratory_test, another_law_in_a_case_takes_over_what_it_knows) {
   const PointScene scene = read(
       "[[case]]\nname = 'hertz'\n"
       "material = { contact = { law = 'hertz', shear_modulus = 29e9, poisson = 0.2 } }\n"
@@ -227,7 +227,7 @@ TEST_F(element_test, another_law_in_a_case_takes_over_what_it_knows) {
   EXPECT_FALSE(scene.material.changes["contact"].as_table()->contains("young"));
 }
 
-TEST_F(element_test, an_ensemble_is_the_mean_of_its_packings_and_how_far_they_spread) {
+TEST_F(laboratory_test, an_ensemble_is_the_mean_of_its_packings_and_how_far_they_spread) {
   const std::filesystem::path path = directory_.path() / "many.toml";
   std::ofstream(path) << "figure = false\n"
                       << small_packing

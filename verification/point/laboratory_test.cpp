@@ -1,4 +1,4 @@
-#include "point/element_test.hpp"
+#include "point/laboratory_test.hpp"
 
 #include <fmt/format.h>
 
@@ -53,8 +53,7 @@ class Course {
   [[nodiscard]] const RecordOf<D>& record() const { return driver_.record(); }
   [[nodiscard]] double pressure() const { return record().mean_pressure(); }
   [[nodiscard]] double deviator() const {
-    return test_.shear() ? record().cauchy(0, D - 1)
-                         : record().axial_stress() - record().lateral_stress();
+    return test_.shear() ? record().cauchy(0, D - 1) : record().deviatoric_stress();
   }
 
   // Reason to stop after a step; "" to continue.
