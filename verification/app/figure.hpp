@@ -17,6 +17,7 @@ struct Curve {
   Stroke stroke = Stroke::solid;
   int marker = 0;                     // gnuplot's point type at every point; 0: none
   std::vector<double> low{}, high{};  // of a band around it; empty: none
+  std::vector<int> cycles{};          // of the points, told by colour instead; empty: none
 };
 
 struct Panel {

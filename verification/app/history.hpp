@@ -15,9 +15,12 @@ namespace verification {
 inline constexpr const char* axial_abscissa = "axial_strain";
 inline constexpr const char* shear_abscissa = "F12";
 
+// A caption: "axial strain 2 [%]" or "F12 = 0.1 [-]".
+std::string strain_text(const std::string& abscissa, double strain);
+
 // Of a table with record_columns(): stem.svg and stem.png with stress, volumetric strain and
-// coordination number. False without a picture.
-bool draw_history(const CsvTable& table, const std::string& abscissa, const std::string& title,
+// coordination number. Several cycles are told apart by colour. False without a picture.
+bool draw_history(const CsvTable& table, const std::string& abscissa,
                   const std::filesystem::path& stem);
 
 // One line about what the run of such a table cost, with that of a step that did not end.
@@ -33,7 +36,7 @@ class History {
   void add(const RecordOf<D>& record) {
     csv_.row(record_values(record));
   }
-  bool draw_figure(const std::string& abscissa, const std::string& title) const;
+  [[nodiscard]] bool draw_figure(const std::string& abscissa) const;
   [[nodiscard]] std::string summary(const Effort& unfinished = {}) const;
 
  private:

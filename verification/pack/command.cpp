@@ -6,7 +6,6 @@
 #include "app/interrupt.hpp"
 #include "app/material.hpp"
 #include "app/output.hpp"
-#include "app/snapshot.hpp"
 #include "app/text.hpp"
 #include "app/written.hpp"
 #include "pack/picture.hpp"
@@ -115,16 +114,6 @@ void print_packing(const Made& made) {
   line("CPU time to make it", made.seconds, "s");
 }
 
-bool draw(const Made& made) {
-  const std::string title = fmt::format(
-      "{}: {} particles, volume fraction {:.3f}, coordination {:.2f}; bar width: normal force",
-      made.name(), made.start.particles, made.volume_fraction(),
-      made.scalar(GRAINLAW_COORDINATION));
-  if (made.discs) return draw_packing(*made.discs, made.stem, title);
-  const SnapshotFiles files(made.stem.string() + "_state");
-  return draw_snapshots({{"", files.take(made.state.get())}}, 0, title, made.stem);
-}
-
 // One line for each seed, to choose one; each is written as NAME_sSEED.
 void compare_seeds(PackArguments arguments, long first) {
   const std::string name = name_of(arguments);
@@ -173,7 +162,7 @@ void run_pack(const PackArguments& arguments) {
   }
   tell_start(made.name(), made.start);
   print_packing(made);
-  written.add_pictures(draw(made));
+  written.add_pictures(draw_packing(made.state.get(), made.stem));
   fmt::print("{}\n", written.text());
 }
 

@@ -1,17 +1,14 @@
-// A picture of a packing: its discs, its frame, its contact forces as bars as wide as the force, and
-// the rose diagram of its contact normals.
+// A picture of a packing: its map, and of discs the rose diagram of their contact normals.
 #pragma once
 
-#include "pack/written.hpp"
+#include "app/library.hpp"
 
 #include <filesystem>
-#include <string>
 
 namespace verification {
 
-// Draws stem.svg and stem.png. With a periodic cell the discs across its sides are drawn again.
-// Returns what run_gnuplot does, and fails as it does.
-bool draw_packing(const WrittenPacking& packing, const std::filesystem::path& stem,
-                  const std::string& title);
+// Of a state whose packing was written as stem_particles.csv and so on: stem.svg and stem.png. Returns
+// what Svg::write does, and fails as it does.
+bool draw_packing(const grainlaw_state* state, const std::filesystem::path& stem);
 
 }  // namespace verification

@@ -1,9 +1,9 @@
 // Rose diagram: how many contact normals point in which direction.
 #pragma once
 
+#include "app/svg.hpp"
 #include "pack/written.hpp"
 
-#include <string>
 #include <vector>
 
 namespace verification {
@@ -19,8 +19,7 @@ struct Rose {
 // copies in a frame count once.
 Rose contact_rose(const WrittenPacking& packing, int sectors = 36);
 
-// Gnuplot commands that draw it into the current plot of a multiplot, with the second-order density
-// that has the same fabric.
-std::string plot_rose(const Rose& rose);
+// Draws it within a circle [pixels]: the density 1 dashed, and the second-order density of the same fabric.
+void draw_rose(Svg& svg, const Rose& rose, double x, double y, double radius);
 
 }  // namespace verification
