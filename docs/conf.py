@@ -33,3 +33,5 @@ html_show_sourcelink = False
 # docs/run puts Debian's MathJax there, so that pages need no network.
 mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG"
 mathjax2_config = {"messageStyle": "none"}
+# Else MyST marks every page to be left out by MathJax 2, and sets up MathJax 3, which Debian does not have.
+myst_update_mathjax = False

@@ -31,7 +31,7 @@ class EndedRuns(unittest.TestCase):
     def tearDown(self):
         self.place.temporary.cleanup()
 
-    def without_gnuplot(self):
+    def without_other_programs(self):
         self.place.environment["PATH"] = str(self.place.home)
 
     def table(self, name):
@@ -92,8 +92,8 @@ class EndedRuns(unittest.TestCase):
         status, _, err = self.place.run("point", scene, "--output", "out")
         self.assertEqual(status, 2, err)
 
-    def test_without_gnuplot_no_picture_is_named(self):
-        self.without_gnuplot()
+    def test_without_the_programs_that_draw_no_picture_is_named(self):
+        self.without_other_programs()
         self.place.write("p.toml", PERIODIC + POINT.format(steps=1, stretch=0.9999))
         self.place.write("s.toml", "steps = 1\n" + PERIODIC + SOLVE.format(value=-1e-5))
         self.place.write("d.toml", DNS.format(steps=1))
@@ -103,7 +103,8 @@ class EndedRuns(unittest.TestCase):
                                ("pack", "r")):
             status, out, err = self.place.run(command, scene + ".toml", "--output", "out")
             self.assertEqual(status, 0, err)
-            self.assertIn("gnuplot was not found", err)
+            self.assertIn("rsvg-convert was not found (Debian package librsvg2-bin)" if command == "pack"
+                          else "gnuplot was not found (Debian package gnuplot-nox)", err)
             self.assertNotIn(".svg", out)
             self.check_files(out)
 

@@ -23,7 +23,7 @@ class load_figure : public testing::Test {
     const CsvTable table{
         {"step", "base_y_displacement", "base_y_force", "top_y_displacement", "top_y_force"},
         {{0, 1}, {0, 0}, {100, 250}, {0, top}, {-100, -250}}};
-    if (!draw_load_figure(table, conditions, "N/m", "title", directory_ / "load")) return "";
+    if (!draw_load_figure(table, conditions, "N/m", directory_ / "load")) return "";
     std::ostringstream content;
     content << std::ifstream(directory_ / "load.svg").rdbuf();
     return content.str();

@@ -254,7 +254,7 @@ TEST(snapshot, forces_are_drawn_beside_a_packing_without_any) {
     const auto stem = directory.path() / name;
     EXPECT_TRUE(draw_snapshots(panels, 0, name, stem));
     const std::string picture = contents(stem.string() + ".svg");
-    return picture.find("rgb(  0, 114, 178)") != std::string::npos;
+    return picture.find("stroke='#0072b2'") != std::string::npos;
   };
   EXPECT_FALSE(bars("free", {{"", free}}));
   EXPECT_TRUE(bars("beside", {{"", free}, {"", bearing}}));

@@ -1,4 +1,4 @@
-// Figures with panels of curves above one another over a common abscissa, drawn by gnuplot.
+// Pictures: panels of curves above one another with a common abscissa, drawn by gnuplot.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,8 @@ struct Curve {
   std::string colour = "#0072b2";
   Stroke stroke = Stroke::solid;
   int marker = 0;                     // gnuplot's point type at every point; 0: none
-  std::vector<double> low{}, high{};  // a band around the curve; empty: none
+  std::vector<double> low{}, high{};  // of a band around it; empty: none
+  std::vector<int> cycles{};          // of the points, told by colour instead; empty: none
 };
 
 struct Panel {
@@ -24,7 +25,7 @@ struct Panel {
   std::vector<Curve> curves{};
   double height = 1;         // relative to the other panels
   bool logarithmic = false;  // ordinate
-  double lowest = 0;         // lower end of a logarithmic ordinate; 0: from the data
+  double lowest = 0;         // lower end of a logarithmic ordinate; 0: of the data
 };
 
 struct Figure {
@@ -32,10 +33,10 @@ struct Figure {
   std::string abscissa;  // with its unit
   std::vector<Panel> panels;
   bool logarithmic = false;  // abscissa
-  double room = 0.012;       // margin at the ends of a linear abscissa, per length
+  double room = 0.012;       // at the ends of a linear abscissa, of its length
 };
 
-// Colours distinguishable by colour-blind readers (Okabe and Ito).
+// Colours that stay apart for colour-blind readers (Okabe and Ito).
 namespace colour {
 inline constexpr const char* black = "#222222";
 inline constexpr const char* grey = "#999999";
@@ -47,7 +48,7 @@ inline constexpr const char* sky = "#56b4e9";
 inline constexpr const char* amber = "#e69f00";
 }  // namespace colour
 
-// Writes stem.svg and stem.png; returns and throws as run_gnuplot() does.
+// Writes stem.svg and stem.png. Returns what run_gnuplot does, and fails as it does.
 bool draw(const Figure& figure, const std::filesystem::path& stem);
 
 }  // namespace verification

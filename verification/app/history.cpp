@@ -1,5 +1,7 @@
 #include "app/history.hpp"
 
+#include "app/stresses.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,8 +13,8 @@ namespace verification {
 History::History(std::filesystem::path stem, const std::vector<std::string>& columns)
     : stem_(std::move(stem)), csv_(stem_.string() + ".csv", columns) {}
 
-bool History::draw_figure(const std::string& abscissa, const std::string& title) const {
-  return draw_history(read_csv(csv_.path()), abscissa, title, stem_);
+bool History::draw_figure(const std::string& abscissa) const {
+  return draw_history(read_csv(csv_.path()), abscissa, stem_);
 }
 
 std::string History::summary(const Effort& unfinished) const {
@@ -30,8 +32,10 @@ class Columns {
   Columns(const CsvTable& table, std::string abscissa)
       : table_(table), abscissa_(std::move(abscissa)) {
     x_ = shear() ? column(abscissa_, 1) : column(axial_abscissa, percent);
+    cycles_ = cycles_of(x_);
   }
 
+  [[nodiscard]] bool cyclic() const { return !cycles_.empty(); }
   [[nodiscard]] bool shear() const { return abscissa_ != axial_abscissa; }
   [[nodiscard]] bool spheres() const {
     return std::find(table_.names.begin(), table_.names.end(), "sigma33") != table_.names.end();
@@ -52,36 +56,64 @@ class Columns {
                             const char* colour, Stroke stroke = Stroke::solid) const {
     return {title, x_, column(name, unit), colour, stroke};
   }
+  [[nodiscard]] Curve curve(const std::string& title, std::vector<double> values,
+                            const char* colour, Stroke stroke = Stroke::solid) const {
+    return {title, x_, std::move(values), colour, stroke};
+  }
+  // A panel of one curve, its cycles told apart.
+  [[nodiscard]] Panel panel(const std::string& ordinate, std::vector<double> values,
+                            double height) const {
+    Curve curve{"", x_, std::move(values)};
+    curve.cycles = cycles_;
+    return {ordinate, {curve}, height};
+  }
+  [[nodiscard]] Stresses stresses() const { return stresses_of(table_); }
 
  private:
   const CsvTable& table_;
   std::string abscissa_;
   std::vector<double> x_;
+  std::vector<int> cycles_;
 };
 
 std::vector<Panel> stress_of_discs(const Columns& columns) {
   return {{"Cauchy stress [kPa]",
-           {columns.curve("-σ11", "sigma11", -kilopascal, colour::blue),
-            columns.curve("-σ22", "sigma22", -kilopascal, colour::orange),
+           {columns.curve("−σ11", "sigma11", -kilopascal, colour::blue),
+            columns.curve("−σ22", "sigma22", -kilopascal, colour::orange),
             columns.curve("σ12", "sigma12", kilopascal, colour::green)},
            1.3}};
 }
 
 std::vector<Panel> stress_of_spheres(const Columns& columns) {
   Panel stress{"Cauchy stress [kPa]",
-               {columns.curve("-σ33, axial", "sigma33", -kilopascal, colour::orange),
-                columns.curve("-σ22", "sigma22", -kilopascal, colour::green),
-                columns.curve("-σ11", "sigma11", -kilopascal, colour::blue, Stroke::dashed)},
+               {columns.curve("−σ33, axial", "sigma33", -kilopascal, colour::orange),
+                columns.curve("−σ22", "sigma22", -kilopascal, colour::green),
+                columns.curve("−σ11", "sigma11", -kilopascal, colour::blue, Stroke::dashed)},
                1.2};
   if (columns.shear())
     stress.curves.push_back(columns.curve("σ" + columns.sheared(), "sigma" + columns.sheared(),
                                           kilopascal, colour::purple));
-  return {stress,
-          {"invariants [kPa]",
-           {columns.curve("deviatoric stress q", "deviatoric_stress", kilopascal, colour::purple),
-            columns.curve("mean pressure p", "mean_pressure", kilopascal, colour::black,
-                          Stroke::dashed)},
-           0.9}};
+  const Stresses s = columns.stresses();
+  Panel invariants{"q and p [kPa]", {}, 0.9};
+  if (columns.shear())
+    invariants.curves.push_back(
+        columns.curve("q of the stress deviator", "deviatoric_stress", kilopascal, colour::purple));
+  else
+    invariants.curves.push_back(
+        columns.curve("q, axial less lateral", s.deviatoric(), colour::purple));
+  invariants.curves.push_back(
+      columns.curve("mean pressure p", s.mean, colour::black, Stroke::dashed));
+  return {stress, invariants};
+}
+
+// Where curves of several stresses would hide each other.
+std::vector<Panel> stress_of_cycles(const Columns& columns) {
+  const Stresses s = columns.stresses();
+  return {columns.shear()
+              ? columns.panel("shear stress [kPa]",
+                              columns.column("sigma" + columns.sheared(), kilopascal), 1.3)
+              : columns.panel("axial less lateral stress q [kPa]", s.deviatoric(), 1.3),
+          columns.panel("mean pressure p [kPa]", s.mean, 1)};
 }
 
 Panel fabric_of_spheres(const Columns& columns) {
@@ -94,21 +126,31 @@ Panel fabric_of_spheres(const Columns& columns) {
 
 }  // namespace
 
-bool draw_history(const CsvTable& table, const std::string& abscissa, const std::string& title,
+std::string strain_text(const std::string& abscissa, double strain) {
+  return abscissa == axial_abscissa ? fmt::format("axial strain {:.3g} [%]", percent * strain)
+                                    : fmt::format("{} = {:.3g} [-]", abscissa, strain);
+}
+
+bool draw_history(const CsvTable& table, const std::string& abscissa,
                   const std::filesystem::path& stem) {
   if (table.rows() == 0) return false;
   const Columns columns(table, abscissa);
   const bool spheres = columns.spheres();
-  Figure figure{title, columns.abscissa_text(),
-                spheres ? stress_of_spheres(columns) : stress_of_discs(columns)};
+  Figure figure{"", columns.abscissa_text(),
+                columns.cyclic() ? stress_of_cycles(columns)
+                : spheres        ? stress_of_spheres(columns)
+                                 : stress_of_discs(columns)};
   const auto volumetric = columns.column("volumetric_strain", percent);
   const auto [least, most] = std::minmax_element(volumetric.begin(), volumetric.end());
   constexpr double isochoric = 1e-9;  // % below which strains are not drawn
   if (*most - *least > isochoric)
-    figure.panels.push_back({"volumetric strain, dilation + [%]",
-                             {columns.curve("", "volumetric_strain", percent, colour::blue)},
-                             1});
-  figure.panels.push_back({"coordination [-]",
+    figure.panels.push_back(columns.panel("volumetric strain, dilation + [%]", volumetric, 1));
+  if (columns.cyclic()) {
+    figure.panels.push_back(
+        columns.panel("coordination number [-]", columns.column("coordination", 1), 1));
+    return draw(figure, stem);
+  }
+  figure.panels.push_back({"coordination number [-]",
                            {columns.curve("all particles", "coordination", 1, colour::blue),
                             columns.curve("without rattlers", "coordination_no_rattlers", 1,
                                           colour::orange, Stroke::dashed)},

@@ -1,4 +1,4 @@
-// History of a run: table, pictures and particles, written during the run.
+// The history of a run: its table, its pictures and its particles, written while it goes.
 #pragma once
 
 #include "app/csv.hpp"
@@ -11,21 +11,24 @@
 
 namespace verification {
 
-// Abscissae that a scene may choose for its picture.
+// Abscissae a scene may choose for its picture.
 inline constexpr const char* axial_abscissa = "axial_strain";
 inline constexpr const char* shear_abscissa = "F12";
 
+// A caption: "axial strain 2 [%]" or "F12 = 0.1 [-]".
+std::string strain_text(const std::string& abscissa, double strain);
+
 // Draws stem.svg and stem.png with stress, volumetric strain and coordination number from a table
-// with record_columns(). Returns false without a picture.
-bool draw_history(const CsvTable& table, const std::string& abscissa, const std::string& title,
+// with record_columns(). Colours tell several cycles apart. Returns false without a picture.
+bool draw_history(const CsvTable& table, const std::string& abscissa,
                   const std::filesystem::path& stem);
 
-// One line with the cost of the run of such a table, and that of an unfinished step.
+// One line about what the run of such a table cost, with that of a step that did not end.
 std::string history_summary(const CsvTable& table, const Effort& unfinished = {});
 
 class History {
  public:
-  // Opens stem.csv for records of discs or spheres.
+  // Opens stem.csv, of records of discs or of spheres.
   explicit History(std::filesystem::path stem,
                    const std::vector<std::string>& columns = record_columns());
 
@@ -33,7 +36,7 @@ class History {
   void add(const RecordOf<D>& record) {
     csv_.row(record_values(record));
   }
-  bool draw_figure(const std::string& abscissa, const std::string& title) const;
+  [[nodiscard]] bool draw_figure(const std::string& abscissa) const;
   [[nodiscard]] std::string summary(const Effort& unfinished = {}) const;
 
  private:
@@ -41,7 +44,7 @@ class History {
   CsvWriter csv_;
 };
 
-// Writes stem_0010.vtp: particles and force chains of the state. Throws ComputationError.
+// stem_0010.vtp: particles and force chains of the state. Throws ComputationError.
 void write_vtk(const grainlaw_state* state, const std::filesystem::path& stem, int step);
 
 }  // namespace verification

@@ -24,8 +24,7 @@ void scale(std::vector<double>& values, double factor) {
 }  // namespace
 
 bool draw_load_figure(const CsvTable& table, const std::vector<std::string>& conditions,
-                      const std::string& unit, const std::string& title,
-                      const std::filesystem::path& stem) {
+                      const std::string& unit, const std::filesystem::path& stem) {
   constexpr std::array<const char*, 6> colours{colour::orange, colour::blue, colour::green,
                                                colour::purple, colour::sky,  colour::amber};
   if (table.rows() == 0) return false;
@@ -46,7 +45,7 @@ bool draw_load_figure(const CsvTable& table, const std::vector<std::string>& con
     scale(curve.y, 1e-3 * sign);
   }
   const char* turned = against ? ", against the axis" : "";
-  Figure figure{title,
+  Figure figure{"",
                 fmt::format("displacement{} [mm]", turned),
                 {{fmt::format("force{} [k{}]", turned, unit), curves, 1.6}}};
   return draw(figure, stem);

@@ -14,7 +14,6 @@ namespace verification {
 // pressed down has a positive load. `unit` is that of the forces, "N" or "N/m". Returns false
 // without a picture.
 bool draw_load_figure(const CsvTable& table, const std::vector<std::string>& conditions,
-                      const std::string& unit, const std::string& title,
-                      const std::filesystem::path& stem);
+                      const std::string& unit, const std::filesystem::path& stem);
 
 }  // namespace verification

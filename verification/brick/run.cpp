@@ -75,11 +75,10 @@ void run_brick_scene(const SceneFile& file, const std::string& directory, int st
     end = fmt::format("left after step {} of {} as asked", done, scene.steps);
   progress.reset();
   if (done >= 0) {
-    written.add_pictures(history.draw_figure(scene.abscissa, scene.name));
+    written.add_pictures(history.draw_figure(scene.abscissa));
     std::vector<std::string> conditions;
     for (const auto& condition : scene.model.displacements) conditions.push_back(condition.name);
-    if (draw_load_figure(read_csv(forces.path()), conditions, "N", scene.name,
-                         stem.string() + "_force"))
+    if (draw_load_figure(read_csv(forces.path()), conditions, "N", stem.string() + "_force"))
       written.add("_force.svg");
   }
   fmt::print("{}: {}; {:.2f} s of CPU{}\n{}\n", scene.name, history.summary(), cpu() - start,

@@ -73,7 +73,7 @@ SpecimenEnd run_specimen(const SpecimenScene& scene, const std::filesystem::path
     constexpr double rounding = 1e-9;
     while (panels.size() < scene.pictures.size() &&
            strain > scene.pictures[panels.size()] - rounding)
-      panels.push_back({fmt::format("axial strain {:.3g}", strain), files.take(state)});
+      panels.push_back({strain_text(axial_abscissa, strain), files.take(state)});
     progress->update(static_cast<double>(record.step) / steps,
                      fmt::format("axial strain {:.2f} %, sigma22 {:.1f} kPa", 100 * strain,
                                  record.cauchy(1, 1) / 1e3));
@@ -88,9 +88,9 @@ SpecimenEnd run_specimen(const SpecimenScene& scene, const std::filesystem::path
   write_cost(end, stem.string() + "_cost.csv");
   written.add("_cost.csv");
   progress.reset();
-  written.add_pictures(history.draw_figure(axial_abscissa, scene.name));
+  written.add_pictures(history.draw_figure(axial_abscissa));
   if (!panels.empty() &&
-      draw_snapshots(panels, scene.picture_force, scene.name, stem.string() + "_packing"))
+      draw_snapshots(panels, scene.picture_force, "", stem.string() + "_packing"))
     written.add("_packing.svg");
   fmt::print("{}: {}\n{}\n", scene.name, description(end), written.text());
   if (stopped) std::rethrow_exception(stopped);

@@ -196,10 +196,7 @@ void run_import(ImportArguments arguments) {
   Written written(stem);
   written.add(".toml");
   for (const char* end : file_ends) written.add(end);
-  if (packing.dimension == 2)
-    written.add_pictures(draw_packing(
-        read_written(stem.string()), stem,
-        fmt::format("{}: {} particles, bar width: normal force", name, packing.radius.size())));
+  written.add_pictures(draw_packing(state.get(), stem));
   fmt::print("{}\n", written.text());
 }
 

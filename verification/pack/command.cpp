@@ -1,4 +1,4 @@
-// `grainlaw pack RECIPE.toml`: generate a packing, describe and write it.
+// `grainlaw pack RECIPE.toml`: make a packing, say what it is, and write it.
 
 #include "app/bounds.hpp"
 #include "app/commands.hpp"
@@ -6,7 +6,6 @@
 #include "app/interrupt.hpp"
 #include "app/material.hpp"
 #include "app/output.hpp"
-#include "app/snapshot.hpp"
 #include "app/text.hpp"
 #include "app/written.hpp"
 #include "pack/picture.hpp"
@@ -37,12 +36,13 @@ struct PackArguments {
   bool vtk = false;
 };
 
+// One packing, made and written.
 struct Made {
   State state;
   PackingStart start;
-  std::optional<WrittenPacking> discs;  // absent for spheres
+  std::optional<WrittenPacking> discs;  // none: spheres
   std::filesystem::path stem;
-  double seconds;  // CPU time of the material
+  double seconds;  // of CPU, to make the material
 
   [[nodiscard]] double scalar(grainlaw_measure what) const {
     return measure_scalar(state.get(), what);
@@ -114,17 +114,7 @@ void print_packing(const Made& made) {
   line("CPU time to make it", made.seconds, "s");
 }
 
-bool draw(const Made& made) {
-  const std::string title = fmt::format(
-      "{}: {} particles, volume fraction {:.3f}, coordination {:.2f}; bar width: normal force",
-      made.name(), made.start.particles, made.volume_fraction(),
-      made.scalar(GRAINLAW_COORDINATION));
-  if (made.discs) return draw_packing(*made.discs, made.stem, title);
-  const SnapshotFiles files(made.stem.string() + "_state");
-  return draw_snapshots({{"", files.take(made.state.get())}}, 0, title, made.stem);
-}
-
-// Prints one line per seed for comparison; each packing is written as NAME_sSEED.
+// One line for each seed, to choose one; each is written as NAME_sSEED.
 void compare_seeds(PackArguments arguments, long first) {
   const std::string name = name_of(arguments);
   const Interrupt interrupt;
@@ -172,7 +162,7 @@ void run_pack(const PackArguments& arguments) {
   }
   tell_start(made.name(), made.start);
   print_packing(made);
-  written.add_pictures(draw(made));
+  written.add_pictures(draw_packing(made.state.get(), made.stem));
   fmt::print("{}\n", written.text());
 }
 

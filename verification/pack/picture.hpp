@@ -1,17 +1,13 @@
-// Picture of a packing: discs, frame, contact forces as bars of proportional width, and the rose
-// diagram of contact normals.
+// A picture of a packing: its map, and of discs the rose diagram of their contact normals.
 #pragma once
 
-#include "pack/written.hpp"
+#include "app/library.hpp"
 
 #include <filesystem>
-#include <string>
 
 namespace verification {
 
-// Draws stem.svg and stem.png; discs across the sides of a periodic cell are drawn on both. Returns
-// and throws as run_gnuplot() does.
-bool draw_packing(const WrittenPacking& packing, const std::filesystem::path& stem,
-                  const std::string& title);
+// Draws stem.svg and stem.png of a state. Returns and throws as Svg::write does.
+bool draw_packing(const grainlaw_state* state, const std::filesystem::path& stem);
 
 }  // namespace verification

@@ -3,19 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 
 namespace verification {
 namespace {
 
 constexpr double full_turn = 2 * std::numbers::pi;
-
-void point(std::string& text, double radius, double angle) {
-  fmt::format_to(std::back_inserter(text), "{:.5g} {:.5g}\n", radius * std::cos(angle),
-                 radius * std::sin(angle));
-}
 
 }  // namespace
 
@@ -29,7 +24,7 @@ Rose contact_rose(const WrittenPacking& packing, int sectors) {
     fabric += contact.weight * normal * normal.transpose();
     total += contact.weight;
     for (const double sign : {1.0, -1.0}) {
-      // Sectors are centred on the axes; the half beyond the last belongs to the first.
+      // Sectors are centred on the axes; a half beyond the last belongs to the first.
       const double turn = std::atan2(sign * normal.y(), sign * normal.x()) / full_turn;
       const long k = std::lround(turn * sectors);
       rose.density[static_cast<std::size_t>((k + sectors) % sectors)] += contact.weight;
@@ -44,38 +39,38 @@ Rose contact_rose(const WrittenPacking& packing, int sectors) {
   return rose;
 }
 
-std::string plot_rose(const Rose& rose) {
-  constexpr int fineness = 8;  // points of a sector's arc
+void draw_rose(Svg& svg, const Rose& rose, double x, double y, double radius) {
+  constexpr int fineness = 8;  // corners of a sector's arc
+  const double densest = *std::max_element(rose.density.begin(), rose.density.end());
+  const double unit = radius / std::max(1.2, densest);  // pixels of the density 1
+  const auto at = [&](double density, double angle) -> std::array<double, 2> {
+    return {x + unit * density * std::cos(angle), y - unit * density * std::sin(angle)};
+  };
   const auto sectors = static_cast<int>(rose.density.size());
-  const double width = full_turn / sectors;
+  svg.path(fmt::format("M{:.4g} {:.4g}h{:.4g}M{:.4g} {:.4g}v{:.4g}", x - radius, y, 2 * radius, x,
+                       y - radius, 2 * radius),
+           "stroke='#bbbbbb'");
   std::string wedges;
   for (int k = 0; k < sectors; ++k) {
-    const double radius = rose.density[static_cast<std::size_t>(k)];
-    wedges += "0 0\n";
+    std::vector<std::array<double, 2>> corners{{x, y}};
     for (int n = 0; n <= fineness; ++n)
-      point(wedges, radius, (k - 0.5 + static_cast<double>(n) / fineness) * width);
-    wedges += "0 0\n\n";
+      corners.push_back(at(rose.density[static_cast<std::size_t>(k)],
+                           (k - 0.5 + static_cast<double>(n) / fineness) * full_turn / sectors));
+    wedges += polyline(corners, true);
   }
-  std::string curve;
-  std::string circle;
-  const double d = 0.5 * rose.anisotropy / (2 + rose.anisotropy);
-  for (int n = 0; n <= 180; ++n) {
+  svg.path(wedges, "fill='#56b4e9' fill-opacity='0.8' stroke='#ffffff' stroke-width='0.8'");
+  svg.begin("fill='none' stroke='#555555' stroke-dasharray='4 3'");
+  svg.circle(x, y, unit);
+  svg.end();
+  if (!std::isfinite(rose.anisotropy)) return;
+  // Density 1 + a cos 2(angle - direction) has the fabric 1/2 +- a / 4.
+  const double a = 2 * rose.anisotropy / (2 + rose.anisotropy);
+  std::vector<std::array<double, 2>> curve;
+  for (int n = 0; n < 180; ++n) {
     const double angle = full_turn * n / 180;
-    // The density 1 + a cos 2(angle - direction) has fabric eigenvalues 1/2 + a/4 and 1/2 - a/4.
-    point(curve, std::isfinite(d) ? 1 + 4 * d * std::cos(2 * (angle - rose.direction)) : 0, angle);
-    point(circle, 1, angle);
+    curve.push_back(at(1 + a * std::cos(2 * (angle - rose.direction)), angle));
   }
-  const double reach =
-      1.1 * std::max(1.2, *std::max_element(rose.density.begin(), rose.density.end()));
-  return fmt::format("$wedges << EOD\n{}EOD\n$curve << EOD\n{}EOD\n$circle << EOD\n{}EOD\n", wedges,
-                     curve, circle) +
-         fmt::format("set xrange [-{0}:{0}]\nset yrange [-{0}:{0}]\n", reach) +
-         "set margins 1,1,1,1\nunset border\nunset tics\nunset xlabel\nunset ylabel\nset size "
-         "ratio -1\n"
-         "set xzeroaxis lt 1 lc rgb '#cccccc'\nset yzeroaxis lt 1 lc rgb '#cccccc'\n"
-         "plot $wedges with filledcurves closed fs solid 0.8 border lc rgb '#ffffff' fc rgb "
-         "'#56b4e9' notitle, $circle with lines lc rgb '#555555' lw 1 dt (4,4) notitle, $curve "
-         "with lines lc rgb '#d55e00' lw 2 notitle\n";
+  svg.path(polyline(curve, true), "fill='none' stroke='#d55e00' stroke-width='2'");
 }
 
 }  // namespace verification

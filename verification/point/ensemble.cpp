@@ -80,10 +80,10 @@ Figure figure_of(const Spread& spread, bool spheres, const std::string& abscissa
     return result;
   };
   Panel stress{"Cauchy stress [kPa]", {}, 1.3};
-  if (spheres) stress.curves.push_back(curve("-σ33, axial", "sigma33", -1e-3, colour::orange));
+  if (spheres) stress.curves.push_back(curve("−σ33, axial", "sigma33", -1e-3, colour::orange));
   stress.curves.push_back(
-      curve("-σ22", "sigma22", -1e-3, spheres ? colour::green : colour::orange));
-  stress.curves.push_back(curve("-σ11", "sigma11", -1e-3, colour::blue));
+      curve("−σ22", "sigma22", -1e-3, spheres ? colour::green : colour::orange));
+  stress.curves.push_back(curve("−σ11", "sigma11", -1e-3, colour::blue));
   if (shear) {
     const std::string sigma = "sigma" + abscissa.substr(1);
     stress.curves.push_back(curve("shear", sigma.c_str(), 1e-3, colour::purple));
@@ -94,7 +94,7 @@ Figure figure_of(const Spread& spread, bool spheres, const std::string& abscissa
             : (spheres ? "axial strain 1 - F33 [%]" : "axial strain 1 - F22 [%]"),
       {stress,
        {"volumetric strain, dilation + [%]", {curve("", "volumetric_strain", 100, colour::blue)}},
-       {"coordination [-]", {curve("", "coordination", 1, colour::blue)}}}};
+       {"coordination number [-]", {curve("", "coordination", 1, colour::blue)}}}};
 }
 
 }  // namespace
@@ -143,8 +143,7 @@ void write_ensemble(const Ensemble& ensemble, const std::filesystem::path& direc
   if (figure)
     written.add_pictures(
         draw(figure_of(spread, spheres, abscissa,
-                       fmt::format("{}: mean and standard deviation of {} packings", ensemble.name,
-                                   tables.size())),
+                       fmt::format("mean and standard deviation of {} packings", tables.size())),
              stem));
   fmt::print("{}: {} packings, {} of them to the last step; {}\n", ensemble.name, tables.size(),
              spread.runs.back(), written.text());

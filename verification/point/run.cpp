@@ -59,14 +59,13 @@ class Observer {
                                       : scene_.pictures[panels_.size()];
       if (backwards ? strain > wanted + rounding : strain < wanted - rounding) break;
       if (!snapshot) snapshot = files_.take(state);
-      const std::string name = scene_.abscissa == axial_abscissa ? "axial strain" : scene_.abscissa;
-      panels_.push_back({fmt::format("{} = {:.3g}", name, strain), *snapshot});
+      panels_.push_back({strain_text(scene_.abscissa, strain), *snapshot});
     }
   }
 
   void draw() const {
     if (!panels_.empty() &&
-        draw_snapshots(panels_, scene_.picture_force, scene_.name, stem_.string() + "_packing"))
+        draw_snapshots(panels_, scene_.picture_force, "", stem_.string() + "_packing"))
       written_.add("_packing.svg");
   }
 
@@ -169,10 +168,10 @@ void run_path(const PointScene& scene, const std::filesystem::path& stem, PointE
     end.text = fmt::format("left after step {} of {} as asked", end.steps, whole);
   progress.reset();
   if (scene.figure) {
-    written.add_pictures(history.draw_figure(scene.abscissa, scene.name));
+    written.add_pictures(history.draw_figure(scene.abscissa));
     for (const std::string& name : scene.figures) {
       const std::string file = figure_end(name);
-      if (draw_path_figure(name, read_csv(stem.string() + ".csv"), scene.shear, scene.name,
+      if (draw_path_figure(name, read_csv(stem.string() + ".csv"), scene.shear, scene.abscissa,
                            stem.string() + file))
         written.add(file + ".svg");
     }

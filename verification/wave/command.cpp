@@ -28,7 +28,7 @@ bool draw_case(const WaveCase& one, const std::vector<WaveRun>& runs,
                const std::filesystem::path& stem) {
   constexpr std::array<const char*, 5> colours{colour::sky, colour::blue, colour::green,
                                                colour::purple, colour::amber};
-  Figure figure{one.name, "time [ms]", {}};
+  Figure figure{"", "time [ms]", {}};
   const auto curve = [](const WaveRun& run, const auto& value) {
     Curve curve;
     for (const WaveRow& row : run.rows) {

@@ -25,6 +25,11 @@ struct Field {
   std::string_view label;  // for pictures
   int components;
   void (*value)(const PointView& point, double* out);
+
+  // In pictures stresses are in kPa.
+  [[nodiscard]] bool pascal() const { return unit == "Pa"; }
+  [[nodiscard]] double picture_factor() const { return pascal() ? 1e-3 : 1; }
+  [[nodiscard]] std::string_view picture_unit() const { return pascal() ? "kPa" : unit; }
 };
 
 // All fields. Tension is positive in stress and strain, compression in mean_stress. Strains, p and

@@ -48,9 +48,9 @@ MeshPanel mesh_panel(const Mesh& mesh, const PointField& points,
     throw InputError(fmt::format("the field \"{}\" is a tensor and cannot be drawn", field.name));
   const ElementType& type = element_type(mesh.kind);
   MeshPanel panel;
-  panel.title =
-      std::string(field.label) + (field.unit == "-" ? "" : fmt::format(" [{}]", field.unit));
+  panel.title = fmt::format("{} [{}]", field.label, field.picture_unit());
   panel.values = values(field, points);
+  for (double& value : panel.values) value *= field.picture_factor();
   for (const std::vector<int>& element : mesh.elements) {
     const auto place = [&](const Polygon& local) {
       Polygon placed;

@@ -60,6 +60,13 @@ std::size_t longest_label(const std::array<double, 2>& range) {
   return longest;
 }
 
+// Between numbers on an axis of a length [m] that is so many pixels long [mm].
+double tick(double length, double pixels) {
+  const double least = 64 * millimetre * length / pixels;
+  const double ten = std::pow(10, std::floor(std::log10(least)));
+  return ten * (least <= 2 * ten ? 2 : least <= 5 * ten ? 5 : 10);
+}
+
 void append_closed(std::string& text, const Polygon& polygon) {
   for (std::size_t k = 0; k <= polygon.size(); ++k) {
     const Eigen::Vector2d point = millimetre * polygon[k % polygon.size()];
@@ -104,7 +111,7 @@ std::string plot(const MeshPanel& panel, std::size_t number, const std::array<do
 bool draw_mesh(const std::vector<MeshPanel>& panels, const std::string& title,
                const std::filesystem::path& stem) {
   if (panels.empty()) return true;
-  constexpr double gap = 20, heading = 62, foot = 12;  // pixels
+  constexpr double gap = 20, heading = 62, foot = 64, numbers = 62;  // pixels
   double scale_room = 96;
   for (const MeshPanel& panel : panels) {
     const auto range = colour_range(panel);
@@ -120,18 +127,20 @@ bool draw_mesh(const std::vector<MeshPanel>& panels, const std::string& title,
     total += size.x();
     highest = std::max(highest, size.y());
   }
-  const double scale =
-      std::min((widest - count * (gap + scale_room)) / total, tallest / highest);  // pixels per m
-  const double wide = std::max(scale * total + count * (gap + scale_room), 300.0);
+  const double scale = std::min((widest - count * (gap + numbers + scale_room)) / total,
+                                tallest / highest);  // pixels per m
+  const double wide = std::max(scale * total + count * (gap + numbers + scale_room), 420.0);
   const double high = scale * highest + heading + foot;
 
   std::string body =
-      "set multiplot\nunset border\nunset tics\nunset key\n"
+      "set multiplot\nset border 15 lc rgb '#555555'\nset tics out nomirror scale 0.6 tc rgb "
+      "'#333333'\n"
+      "unset key\n"
       "set palette defined (0 '#440154', 0.13 '#472c7a', 0.25 '#3b518b', 0.38 '#2c718e', "
       "0.5 '#21908d', 0.63 '#27ad81', 0.75 '#5cc863', 0.88 '#aadc32', 1 '#fde725')\n";
   body += fmt::format("set label 1 {} at screen {:.5f},{:.5f} left noenhanced\n",
                       gnuplot_text(title), gap / wide, 1 - 16 / high);
-  double left = gap;
+  double left = gap + numbers;
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const Box& b = boxes[k];
     const Eigen::Vector2d size = scale * (b.high - b.low);
@@ -144,9 +153,11 @@ bool draw_mesh(const std::vector<MeshPanel>& panels, const std::string& title,
         "set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n"
         "set bmargin at screen {:.5f}\nset tmargin at screen {:.5f}\n",
         left / wide, right / wide, foot / high, (foot + size.y()) / high);
-    body += fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n",
-                        millimetre * b.low.x(), millimetre * b.high.x(), millimetre * b.low.y(),
-                        millimetre * b.high.y());
+    body += fmt::format(
+        "set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\nset xtics {:g}\nset ytics {:g}\n",
+        millimetre * b.low.x(), millimetre * b.high.x(), millimetre * b.low.y(),
+        millimetre * b.high.y(), tick(b.high.x() - b.low.x(), size.x()),
+        tick(b.high.y() - b.low.y(), size.y()));
     body += fmt::format("set cbrange [{:.9g}:{:.9g}]\nset cbtics scale 0.5 format '%g'\n", range[0],
                         range[1]);
     body += fmt::format(
@@ -155,8 +166,12 @@ bool draw_mesh(const std::vector<MeshPanel>& panels, const std::string& title,
         (right + 12) / wide, foot / high, 12 / wide, std::min(size.y(), 260.0) / high);
     body += fmt::format("set label 2 {} at screen {:.5f},{:.5f} left noenhanced\n",
                         gnuplot_text(panels[k].title), left / wide, 1 - 42 / high);
+    body += fmt::format(
+        "set label 3 'x [mm]' at screen {:.5f},{:.5f} center\n"
+        "set label 4 'y [mm]' at screen {:.5f},{:.5f} center rotate by 90\n",
+        0.5 * (left + right) / wide, 14 / high, (left - 54) / wide, (foot + 0.5 * size.y()) / high);
     body += command + "unset label 1\n";
-    left = right + gap + scale_room;
+    left = right + gap + numbers + scale_room;
   }
   body += "unset multiplot\n";
   return run_gnuplot(body, stem, static_cast<int>(std::lround(wide)),

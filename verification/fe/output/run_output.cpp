@@ -130,7 +130,7 @@ void RunOutput::add_point(std::size_t point, const LoadStep& step, CsvWriter& ta
 void RunOutput::draw(const LoadStep& step) {
   const PointField& points = solver_.points();
   const std::string stem = fmt::format("{}_{:04d}", tables_.stem().string(), step.record.step);
-  const std::string title = fmt::format("{}, step {}", scene_.name, step.record.step);
+  const std::string title = fmt::format("load step {}", step.record.step);
   for (const std::string& name : scene_.output.pictures.fields)
     if (draw_mesh({mesh_panel(scene_.model.mesh, points, solver_.displacement(), field(name))},
                   title, stem + "_" + name))
@@ -141,13 +141,13 @@ void RunOutput::draw(const LoadStep& step) {
     packings.push_back({fmt::format("point {}", point), files.take(points.state(point))});
   for (const std::string& name : scene_.output.pictures.extremes) {
     const Field& shown = field(name);
-    const std::string unit = shown.unit == "-" ? "" : fmt::format(" {}", shown.unit);
     const std::vector<double> all = values(shown, points);
     const auto [least, largest] = std::minmax_element(all.begin(), all.end());
     for (const auto& [end, word] : {std::pair{least, "min"}, std::pair{largest, "max"}}) {
       const auto point = static_cast<std::size_t>(end - all.begin());
-      const double value = *end + 0.0;  // no -0
-      packings.push_back({fmt::format("{} {}\npoint {}: {:.3g}{}", word, name, point, value, unit),
+      const double value = *end * shown.picture_factor() + 0.0;  // no -0
+      packings.push_back({fmt::format("{} {}:\n{:.3g} [{}], point {}", word, shown.label, value,
+                                      shown.picture_unit(), point),
                           files.take(points.state(point))});
     }
   }
@@ -160,10 +160,9 @@ void RunOutput::add_unfinished(int step, const Effort& effort) {
 }
 
 void RunOutput::finish() {
-  written_.add_pictures(
-      draw_history(read_csv(history_.path()), scene_.abscissa, scene_.name, tables_.stem()));
+  written_.add_pictures(draw_history(read_csv(history_.path()), scene_.abscissa, tables_.stem()));
   if (draw_load_figure(read_csv(forces_.path()), leading_conditions(scene_.model), "N/m",
-                       scene_.name, tables_.stem().string() + "_force"))
+                       tables_.stem().string() + "_force"))
     written_.add("_force.svg");
 }
 
