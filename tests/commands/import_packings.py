@@ -156,6 +156,17 @@ class Imports(unittest.TestCase):
         for name, wanted in (("H00", 0.039), ("H01", 0.00975), ("H11", 0.0169)):
             self.assertAlmostEqual(float(cell[name]), wanted, places=12)
 
+    def test_a_cell_that_lammps_has_not_is_refused_with_a_format_that_takes_it(self):
+        self.place.write("p.csv", "id,x,y,r\n0,0,0,0.01\n1,0.0195,0,0.01\n")
+        self.place.write("c.csv", "H00,H01,H10,H11,thickness\n0.039,0,0.00975,0.0169,0.1\n")
+        material = self.place.write("tilted.toml", 'dimension = 2\n[packing]\nparticles = "p.csv"\ncell = "c.csv"\n'
+                                    '[contact]\nlaw = "compressive"\nyoung = 6e8\n')
+        status, _, err = self.place.run("export", material, "--format", "lammps")
+        self.assertEqual(status, 2, err)
+        for form in err.split("expected ")[1].strip().split(" or "):
+            status, out, err = self.place.run("export", material, "--format", form)
+            self.assertEqual(status, 0, out + err)
+
     def test_options_are_finite_numbers(self):
         path = self.place.write("good.txt", "x,y,r\n0.1,0.1,0.05\n0.2,0.1,0.05\n")
         for option in ("--length-unit", "--force-unit", "--thickness", "--density", "--young", "--kn", "--pressure", "--ratio", "--friction"):
