@@ -86,12 +86,12 @@ bool has_drag(const Request<D>& request) {
   return request.options->viscosity.time > 0;
 }
 
-// The tolerance, and no less than rounding leaves: below that there is no equilibrium to speak of.
-// Forces may fade on the way to it.
+// The tolerance, and no less than rounding leaves, the more with a stiff drag. Forces may fade meanwhile.
 template <int D>
 double reachable(const Request<D>& request, const Increment<D>& increment) {
-  return std::max(request.tolerance,
-                  std::min(increment.scale().relative_rounding(), tuned::largest_rounding));
+  const double drag = increment.motion().drag().how().rate / tuned::contacts_of_a_particle;
+  const double rounding = std::max(1.0, drag) * increment.scale().relative_rounding();
+  return std::max(request.tolerance, std::min(rounding, tuned::largest_rounding));
 }
 
 // One sub-increment: relaxation, then Newton; when Newton does not get there, both again from where

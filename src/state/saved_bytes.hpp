@@ -16,6 +16,7 @@ struct SavedKind {
   const char* name;  // in messages
   std::array<char, 8> letters;
   std::uint32_t version;
+  std::uint32_t newest = version;  // that is read
 };
 inline constexpr std::size_t version_end = sizeof(SavedKind::letters) + sizeof(std::uint32_t);
 inline constexpr std::size_t checksum_size = sizeof(std::uint64_t);

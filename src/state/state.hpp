@@ -2,6 +2,7 @@
 #pragma once
 
 #include "material/material.hpp"
+#include "state/time_step.hpp"
 
 #include <grainlaw/grainlaw.h>
 
@@ -32,15 +33,16 @@ class State {
   // F with the components that are found, not given, as they are committed.
   [[nodiscard]] Tensor<D> effective(const double* F) const;
 
-  // Of the increments from now on, in the host's time.
+  // Increments from now on take so much of the host's time; 0: none.
   void set_time_step(double step) { time_step_ = step; }
+  [[nodiscard]] double time_step() const { return time_step_; }
 
   bool commit();  // false: there is no trial
   void revert() { has_trial_ = false; }
   [[nodiscard]] bool has_trial() const { return has_trial_; }
   [[nodiscard]] const Configuration<D>& committed() const { return committed_; }
   [[nodiscard]] const Configuration<D>& current() const { return has_trial_ ? trial_ : committed_; }
-  void restore(Configuration<D> committed);
+  void restore(Configuration<D> committed, double time_step = untold);
   [[nodiscard]] const Material<D>& material() const { return *material_; }
 
  private:
@@ -51,7 +53,7 @@ class State {
   Configuration<D> committed_;
   Configuration<D> trial_;
   bool has_trial_ = false;
-  double time_step_ = 0;         // 0: none was told
+  double time_step_ = untold;
   bool trial_loose_ = false;     // ended at the loose tolerance
   bool trial_advanced_ = false;  // by advancing history
 };
