@@ -65,6 +65,8 @@ class BrickField {
  public:
   BrickField(const BrickModel& model, const Material& material, int threads);
 
+  // Increments from now on take so many load steps.
+  void set_time_step(double step) { set_.set_time_step(step); }
   // Recoverable failures are returned; the answer is kept for assemble(). Throws StatusError.
   grainlaw_status evaluate(const Eigen::VectorXd& displacement, unsigned want);
   [[nodiscard]] BrickSystem assemble(const Eigen::VectorXd& displacement) const;

@@ -13,7 +13,8 @@ struct BrickNewtonOptions {
   int max_iterations = 20;  // of one attempt, then the step is cut
   int max_cuts = 10;        // halvings of one step, at most
   double loose_tolerance =
-      0;  // of a step at its smallest cut, counted as a loose part; 0: never [-]
+      0;                 // of a step at its smallest cut, counted as a loose part; 0: never [-]
+  double load_step = 1;  // of the time, which the points are told as 1
 };
 
 struct BrickStep {
