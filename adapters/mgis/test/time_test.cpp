@@ -103,5 +103,14 @@ TEST_F(mgis_time, of_a_first_increment_that_was_freed_is_found_again) {
   unsetenv("GRAINLAW_IDLE_MEMORY");
 }
 
+// Drag does not hide the moments of discs that do not turn.
+TEST(mgis_moments_in_time, of_locked_discs_are_refused) {
+  const BehaviourLibrary library(std::string(GRAINLAW_BEHAVIOURS) + "/libLockedInTime.so");
+  Manager host(library, "LockedInTime", "PlaneStrain", 1, cauchy, dsigma_dF);
+  host.set_F(0, {1, 1e-3, 0, 1});
+  EXPECT_EQ(host.integrate(0), -1);
+  EXPECT_NE(host.message.find("not symmetric"), std::string::npos) << host.message;
+}
+
 }  // namespace
 }  // namespace grainlaw::test
