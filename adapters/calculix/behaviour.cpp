@@ -29,8 +29,9 @@ constexpr double soft = 1;            // Pa; keeps the host's matrix regular wit
 struct ElementPoint : Point {
   using Point::Point;
   bool started = false;
-  // The last answer; CalculiX asks again for what it has just got.
+  // The last answer, and the time step of its increment; CalculiX asks again for what it has just got.
   Tensor2 asked{};
+  double asked_time = 0;
   bool has_stress = false, has_stiffness = false;
   std::array<double, 6> stress{};
   std::array<double, 21> stiffness{};
@@ -75,7 +76,8 @@ Tensor2 from_columns(const double* F) {
 }
 
 void keep(ElementPoint& point, const Response& response, bool with_stiffness) {
-  for (std::size_t a = 0; a < order.size(); ++a) point.stress[a] = response.S[order[a]];
+  const Tensor2 stress = second_piola_stress(response);
+  for (std::size_t a = 0; a < order.size(); ++a) point.stress[a] = stress[order[a]];
   if (!with_stiffness) return;
   Tensor4 tangent;
   second_piola_by_green(response, tangent);
@@ -97,9 +99,10 @@ void give_soft(double* stress, double* stiffness) {
   }
 }
 
-// Stress and elastic stiffness at the start of the increment.
+// Stress and elastic stiffness at the start of the increment, after no time.
 void give_start(ElementPoint& point, double* stress, double* stiffness) {
   give_soft(stress, stiffness);
+  point.set_time_step(0);
   Response response;
   const Answer answer = point.evaluate(point.committed(), GRAINLAW_WANT_TANGENT_ELASTIC, response);
   point.revert();
@@ -112,8 +115,8 @@ void give_start(ElementPoint& point, double* stress, double* stiffness) {
 
 void cut(double* pnewdt, double ratio) { *pnewdt = *pnewdt > 0 ? std::min(*pnewdt, ratio) : ratio; }
 
-void evaluate(ElementPoint& point, const Tensor2& F0, const Tensor2& F1, bool stress_only,
-              double* stress, double* stiffness, double* pnewdt) {
+void evaluate(ElementPoint& point, const Tensor2& F0, const Tensor2& F1, double time_step,
+              bool stress_only, double* stress, double* stiffness, double* pnewdt) {
   const std::lock_guard in_use(point.in_use);
   try {
     if (!(Point::distance(F0, point.committed()) <= rounding)) {
@@ -122,14 +125,16 @@ void evaluate(ElementPoint& point, const Tensor2& F0, const Tensor2& F1, bool st
             "the first increment does not start at the undeformed configuration; an analysis "
             "cannot be restarted without its states");
       }
+      point.set_time_step(point.asked_time);
       point.accept(F0);
       point.has_stress = point.has_stiffness = false;
     }
-    const bool known =
-        point.has_stress && point.asked == F1 && (stress_only || point.has_stiffness);
+    const bool known = point.has_stress && point.asked == F1 && point.asked_time == time_step &&
+                       (stress_only || point.has_stiffness);
     if (!known) {
       point.started = true;
       point.has_stress = point.has_stiffness = false;
+      point.set_time_step(time_step);
       Response response;
       const Answer answer = point.evaluate_symmetric(
           F1, stress_only ? 0u : unsigned{GRAINLAW_WANT_TANGENT_EXACT}, response);
@@ -141,6 +146,7 @@ void evaluate(ElementPoint& point, const Tensor2& F0, const Tensor2& F1, bool st
       }
       keep(point, response, !stress_only);
       point.asked = F1;
+      point.asked_time = time_step;
       point.has_stress = true;
       point.has_stiffness = !stress_only;
     }
@@ -158,8 +164,8 @@ void evaluate(ElementPoint& point, const Tensor2& F0, const Tensor2& F1, bool st
 extern "C" {
 
 void grainlaw_calculix_evaluate(grainlaw_calculix_material* material, int element, int point,
-                                const double* F0, const double* F1, int stress_only, double* stress,
-                                double* stiffness, double* pnewdt) {
+                                const double* F0, const double* F1, double dtime, int stress_only,
+                                double* stress, double* stiffness, double* pnewdt) {
   using namespace grainlaw::adapters;
   const FloatingEnvironment environment;
   PointMap* points = nullptr;
@@ -167,8 +173,8 @@ void grainlaw_calculix_evaluate(grainlaw_calculix_material* material, int elemen
   try {
     points = &points_of<PointMap>(material);
     found = &points->find(element, point);
-    evaluate(*found, from_columns(F0), from_columns(F1), stress_only != 0, stress, stiffness,
-             pnewdt);
+    evaluate(*found, from_columns(F0), from_columns(F1), time_step_of(dtime), stress_only != 0,
+             stress, stiffness, pnewdt);
   } catch (const std::exception& error) {
     if (found == nullptr) give_soft(stress, stiffness);
     cut(pnewdt, default_cut);

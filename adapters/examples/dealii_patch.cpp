@@ -29,6 +29,7 @@ void run(const char* material_path, const char* path_path) {
   dofs.distribute_dofs(element);
   grainlaw_dealii::Points points(mapping, dofs, QGaussSimplex<2>(1),
                                  grainlaw::Material::load(material_path));
+  points.set_time_step(1);
   std::vector<Point<2>> where(dofs.n_dofs());
   DoFTools::map_dofs_to_support_points(mapping, dofs, where);
   const IndexSet in_y =

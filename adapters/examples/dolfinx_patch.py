@@ -19,6 +19,7 @@ def main(material, path):
     V = fem.VectorFunctionSpace(domain, ("Lagrange", 1))
     u, v, du = fem.Function(V), fem.Function(V), fem.Function(V)
     points = Points(domain, grainlaw.Material(material), degree=1)
+    points.set_time_step(1)
     stress, tangent = fem.form(points.stress_power(v)), fem.form(points.stiffness(du, v))
     units = np.eye(4).reshape(4, 2, 2)
     names = [f"{k}{L}" for k in "12" for L in "12"]

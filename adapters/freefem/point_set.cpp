@@ -101,7 +101,7 @@ void PointSet::set_time_step(double step) {
   const grainlaw_status status = grainlaw_points_set_time_step(points_.get(), step);
   if (status == GRAINLAW_BAD_ARGUMENT)
     throw std::invalid_argument("the time step is " + std::to_string(step) +
-                                ", expected a number above 0");
+                                ", expected a number of at least 0");
   check(status);
 }
 

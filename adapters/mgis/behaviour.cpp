@@ -89,7 +89,7 @@ std::size_t place(bool symmetric, std::size_t a) {
 void write_stress(const Request& request, int dimension, const Response& response, double* out) {
   const bool symmetric = request.stress != 2;
   const Tensor2 stress = request.stress == 0   ? cauchy_stress(response)
-                         : request.stress == 1 ? response.S
+                         : request.stress == 1 ? second_piola_stress(response)
                                                : response.P;
   for (std::size_t a = 0; a < size_of(symmetric, dimension); ++a) {
     out[a] = factor(symmetric, a) * stress[place(symmetric, a)];
@@ -126,12 +126,12 @@ struct Start {
   bool is_new = false;
 };
 
-Start start(PointTable& table, const grainlaw_mgis_state& s0, int dimension) {
+Start start(PointTable& table, const grainlaw_mgis_state& s0, int dimension, double time_step) {
   const double name = s0.internal_state_variables[0];
   const double step = s0.internal_state_variables[1];
   Start result;
   if (name == 0 && step == 0) {
-    result.point = table.create();
+    result.point = table.create(time_step);
     result.is_new = true;
   } else {
     result.point = table.find(name, step);
@@ -178,8 +178,10 @@ int integrate(PointTable& table, int dimension, grainlaw_mgis_data& data) {
   if (table.material().dimension() > dimension) {
     throw std::runtime_error("a packing of spheres needs the hypothesis Tridimensional");
   }
-  const Start from = start(table, data.s0, dimension);
+  const double time_step = time_step_of(data.dt);
+  const Start from = start(table, data.s0, dimension, time_step);
   TablePoint& point = *from.point;
+  point.set_time_step(time_step);
   const Tensor2 F =
       request.prediction ? point.committed() : read_gradient(data.s1.gradients, dimension);
   Response response;

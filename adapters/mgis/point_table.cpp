@@ -42,11 +42,25 @@ PointTable::PointTable(const char* name, const char* path, const void* in_librar
   process_ = (1 + random() % ((1u << 20) - 1)) * (std::uint64_t{1} << serial_bits);
 }
 
-std::shared_ptr<TablePoint> PointTable::create() {
+std::shared_ptr<TablePoint> PointTable::create(double time_step) {
   auto point = std::make_shared<TablePoint>(material());
   const std::lock_guard lock(mutex_);
-  point->name = static_cast<double>(process_ + next_++);
+  const std::uint64_t key = process_ + next_;
+  if (time_steps_.empty() || time_steps_.back().second != time_step) {
+    time_steps_.emplace_back(key, time_step);
+  }
+  ++next_;
+  point->name = static_cast<double>(key);
+  point->set_time_step(time_step);
   return point;
+}
+
+double PointTable::first_time_step(std::uint64_t key) const {
+  const std::lock_guard lock(mutex_);
+  const auto after =
+      std::upper_bound(time_steps_.begin(), time_steps_.end(), key,
+                       [](std::uint64_t name, const auto& from) { return name < from.first; });
+  return std::prev(after)->second;
 }
 
 std::shared_ptr<TablePoint> PointTable::find(double name, double step) {
@@ -66,6 +80,7 @@ std::shared_ptr<TablePoint> PointTable::find(double name, double step) {
   // Only its first increment was answered; the caller finds that again from F.
   auto point = std::make_shared<TablePoint>(material());
   point->name = name;
+  point->set_time_step(first_time_step(key));
   add(point);
   return point;
 }

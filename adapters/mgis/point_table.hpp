@@ -20,6 +20,8 @@
 #include <memory>
 #include <mutex>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace grainlaw::adapters {
 
@@ -37,8 +39,8 @@ class PointTable {
 
   const grainlaw::Material& material() { return file_.material(); }
 
-  // A new point at F = I, not yet in the table.
-  std::shared_ptr<TablePoint> create();
+  // A new point at F = I, not yet in the table; the time step of its first increment.
+  std::shared_ptr<TablePoint> create(double time_step);
   // The point of these two numbers, step >= 1. Throws std::runtime_error when it is not known.
   std::shared_ptr<TablePoint> find(double name, double step);
   // The host has got an answer from a new point.
@@ -49,6 +51,7 @@ class PointTable {
   std::size_t size() const;
 
  private:
+  double first_time_step(std::uint64_t key) const;
   void limit_new();
   void free_idle();
 
@@ -56,7 +59,8 @@ class PointTable {
   mutable std::mutex mutex_;
   std::unordered_map<std::uint64_t, std::shared_ptr<TablePoint>> points_;
   std::deque<std::uint64_t> new_;  // in the order of their making; some are kept or gone by now
-  std::uint64_t process_;          // tells names of this process from those of another
+  std::vector<std::pair<std::uint64_t, double>> time_steps_;  // of first increments, from a name on
+  std::uint64_t process_;  // tells names of this process from those of another
   std::uint64_t next_ = 1;
   std::uint64_t calls_ = 0;
   std::uint64_t last_scan_ = 0;

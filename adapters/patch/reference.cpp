@@ -1,5 +1,5 @@
 // Leads one point along a path of deformation gradients, commits each, and prints P and the exact
-// tangent: what every host has to find for the same path.
+// tangent: what every host has to find for the same path. Each row takes a time of 1.
 //
 //   grainlaw_patch MATERIAL.toml PATH.csv > reference.csv
 #include <grainlaw/grainlaw.hpp>
@@ -21,6 +21,7 @@ int main(int count, char** arguments) {
     std::string line;
     if (!std::getline(path, line)) throw std::runtime_error("the path cannot be read");
     grainlaw::State point(grainlaw::Material::load(arguments[1]));
+    point.set_time_step(1);
     std::printf("P11,P12,P21,P22");
     for (int a = 0; a < 16; ++a) {
       std::printf(",A%d%d%d%d", a / 8 + 1, a / 4 % 2 + 1, a / 2 % 2 + 1, a % 2 + 1);

@@ -18,6 +18,8 @@ std::string component_name(int index) {
   return {'F', static_cast<char>('1' + index / 3), static_cast<char>('1' + index % 3)};
 }
 
+double time_step_of(double told) { return std::isfinite(told) ? std::max(told, 0.0) : 0; }
+
 Point::Point(const grainlaw::Material& material)
     : state_(material), dimension_(material.dimension()) {}
 
@@ -66,11 +68,11 @@ Answer Point::evaluate(const Tensor2& F, unsigned want, Response& response) {
 
 Answer Point::evaluate_symmetric(const Tensor2& F, unsigned want, Response& response) {
   Answer answer = evaluate(F, want, response);
-  if (answer.status != GRAINLAW_OK || is_symmetric(response, answer.report.residual)) return answer;
+  if (answer.status != GRAINLAW_OK || is_symmetric(response, answer.report)) return answer;
   if (want == 0) {  // against the stiffness, too
     revert();
     answer = evaluate(F, GRAINLAW_WANT_TANGENT_ELASTIC, response);
-    if (answer.status != GRAINLAW_OK || is_symmetric(response, answer.report.residual)) {
+    if (answer.status != GRAINLAW_OK || is_symmetric(response, answer.report)) {
       return answer;
     }
   }

@@ -106,7 +106,6 @@ void complete(int dimension, const double* P, const double* A, Response& r) {
     }
   }
   r.asymmetry = relative_asymmetry(r.S);
-  symmetrise(r.S);
   if (A == nullptr) return;
   r.A = {};
   for (std::size_t i = 0; i < dim; ++i) {
@@ -123,10 +122,18 @@ void complete(int dimension, const double* P, const double* A, Response& r) {
   }
 }
 
-bool is_symmetric(const Response& r, double residual) {
-  if (r.asymmetry <= std::max(1e-6, 10 * residual)) return true;
-  const double stiffness = std::max(1e-12, 1e-3 * residual) * norm(r.A);
+// The sum of the moments on the particles over the volume is S12 - S21. Let each be at most u R f, with f
+// the mean contact force: the sum is at most u |S| from two contacts a particle on.
+bool is_symmetric(const Response& r, const grainlaw_report& report) {
+  if (r.asymmetry <= std::max({1e-6, 10 * report.residual, report.unbalanced})) return true;
+  const double stiffness = std::max(1e-12, 1e-3 * report.residual) * norm(r.A);
   return r.asymmetry * norm(r.P) <= stiffness;  // P, since what was averaged away counts
+}
+
+Tensor2 second_piola_stress(const Response& r) {
+  Tensor2 stress = r.S;
+  symmetrise(stress);
+  return stress;
 }
 
 Tensor2 cauchy_stress(const Response& r) {

@@ -2,6 +2,8 @@
 // three-dimensional here; a packing of discs enters as plane strain.
 #pragma once
 
+#include <grainlaw/grainlaw.h>
+
 #include <array>
 #include <cstddef>
 
@@ -15,9 +17,9 @@ inline constexpr Tensor2 identity{1, 0, 0, 0, 1, 0, 0, 0, 1};
 struct Response {
   Tensor2 F = identity;  // deformation gradient [-]
   Tensor2 P{};           // first Piola-Kirchhoff stress [Pa], tension positive
-  Tensor2 S{};           // second Piola-Kirchhoff stress F^-1 P [Pa], made symmetric
+  Tensor2 S{};           // F^-1 P [Pa]
   Tensor4 A{};           // dP/dF [Pa]
-  double asymmetry = 0;  // of F^-1 P: largest |S_IJ - S_JI| / |S|, 0 where S is 0 [-]
+  double asymmetry = 0;  // of S: largest |S_IJ - S_JI| / |S|, 0 where S is 0 [-]
 };
 
 // The components of F that a packing of this dimension is asked for: F[dim*dim], row-major.
@@ -30,11 +32,13 @@ int reduce(int dimension, const Tensor2& F, double* reduced);
 // dP_3J/dF_3L = S_LJ is all that the tangent has there.
 void complete(int dimension, const double* P, const double* A, Response& response);
 
-// Whether F^-1 P is symmetric to what a residual of the packing's equilibrium [-] leaves: of the
-// stress, or, where the forces of a packing all but cancel in it, of the stiffness A.
-bool is_symmetric(const Response&, double residual);
+// Whether F^-1 P is symmetric up to what is out of balance on the particles by the report, drag and
+// residual: of the stress, or, where forces all but cancel in it, of the stiffness A.
+bool is_symmetric(const Response&, const grainlaw_report&);
 
-// Cauchy stress P F^T / det F [Pa].
+// The symmetric part of the second Piola-Kirchhoff stress, and of Cauchy stress [Pa]; the tangents below
+// are their derivatives.
+Tensor2 second_piola_stress(const Response&);
 Tensor2 cauchy_stress(const Response&);
 
 // d(Cauchy stress)/dF [Pa].

@@ -212,9 +212,9 @@ GRAINLAW_API grainlaw_status grainlaw_evaluate_batch(size_t n, grainlaw_state* c
                                                      double* A, grainlaw_status* status,
                                                      grainlaw_report* reports, int threads);
 
-/* Set the time of the following increments, in the host's unit. Copies of the state keep it, bytes
- * do not. Only solver.viscous_increment > 0 needs it. Errors: NULL_POINTER, BAD_HANDLE,
- * BAD_ARGUMENT (not finite, or not above 0). */
+/* Set the time of the following increments, in the host's unit; copies and bytes keep it. A material
+ * with solver.viscous_increment > 0 asks for it: without one, or with 0, F has to stay
+ * (BAD_ARGUMENT). Errors: NULL_POINTER, BAD_HANDLE, BAD_ARGUMENT (not finite, or below 0). */
 GRAINLAW_API grainlaw_status grainlaw_state_set_time_step(grainlaw_state*, double time_step);
 
 /* Make the trial the committed state. Errors: NULL_POINTER, BAD_HANDLE, NO_TRIAL. */

@@ -80,7 +80,7 @@ grainlaw_status grainlaw_evaluate_batch(std::size_t n, grainlaw_state* const* st
 
 grainlaw_status grainlaw_state_set_time_step(grainlaw_state* handle, double time_step) {
   if (const auto status = api::check_owned(handle); status != GRAINLAW_OK) return status;
-  if (!(time_step > 0 && std::isfinite(time_step))) return GRAINLAW_BAD_ARGUMENT;
+  if (!(time_step >= 0 && std::isfinite(time_step))) return GRAINLAW_BAD_ARGUMENT;
   handle->point.state.set_time_step(time_step);
   return GRAINLAW_OK;
 }

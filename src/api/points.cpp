@@ -133,7 +133,7 @@ grainlaw_status grainlaw_points_evaluate(grainlaw_points* handle, const double* 
 
 grainlaw_status grainlaw_points_set_time_step(grainlaw_points* handle, double time_step) {
   if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
-  if (!(time_step > 0 && std::isfinite(time_step))) return GRAINLAW_BAD_ARGUMENT;
+  if (!(time_step >= 0 && std::isfinite(time_step))) return GRAINLAW_BAD_ARGUMENT;
   for (IntegrationPoint* const point : handle->points) point->state.set_time_step(time_step);
   return GRAINLAW_OK;
 }

@@ -3,8 +3,17 @@
 #include "base/constants.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace grainlaw::core {
+
+namespace {
+
+// Drag so many times as stiff as a contact lets nothing move against the rest: P is within 1e-6 of its limit.
+// Beyond, distances drown in rounding.
+constexpr double largest_drag = 1e4;
+
+}  // namespace
 
 template <int D>
 DragStart<D> drag_start(const Request<D>& request, int k, int parts) {
@@ -13,7 +22,8 @@ DragStart<D> drag_start(const Request<D>& request, int k, int parts) {
   const auto at = [&](int part) {
     return between<D>(before, request.deformation, static_cast<double>(part) / parts);
   };
-  const double time = request.duration / parts;
+  const double shortest = 1 / std::sqrt(viscosity.time * largest_drag);
+  const double time = std::max(request.duration / parts, shortest);
   const double mass = viscosity.inertia / time;
   const double drag = 1 - viscosity.inertia;
   const double inertia = mass / (mass + drag);

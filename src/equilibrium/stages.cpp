@@ -86,11 +86,12 @@ bool has_drag(const Request<D>& request) {
   return request.options->viscosity.time > 0;
 }
 
-// Tolerance, raised to the rounding error of the present forces [-]. It changes while forces fade.
+// Tolerance, raised to what rounding leaves [-]: more with a stiff drag. It changes while forces fade.
 template <int D>
 double reachable(const Request<D>& request, const Increment<D>& increment) {
-  return std::max(request.tolerance,
-                  std::min(increment.scale().relative_rounding(), tuned::largest_rounding));
+  const double drag = increment.motion().drag().how().rate / tuned::contacts_of_a_particle;
+  const double rounding = std::max(1.0, drag) * increment.scale().relative_rounding();
+  return std::max(request.tolerance, std::min(rounding, tuned::largest_rounding));
 }
 
 // Solves one sub-increment in rounds of relaxation and Newton. Later rounds go on from the last

@@ -23,7 +23,7 @@ constexpr SavedKind kind{"saved points", {'G', 'R', 'A', 'I', 'N', 'P', 'T', 'S'
   throw Error(GRAINLAW_BAD_BYTES, fmt::format("saved points: they end at point {}", point));
 }
 
-AnyConfiguration read_point(const IntegrationPoint& point, std::size_t number, ByteReader& in) {
+SavedState read_point(const IntegrationPoint& point, std::size_t number, ByteReader& in) {
   if (in.left() < sizeof(std::uint64_t)) fail_truncated(number);
   const auto size = in.get<std::uint64_t>();
   if (size > in.left()) fail_truncated(number);
@@ -67,7 +67,7 @@ void load_points(PointSpan points, std::span<const std::byte> bytes) {
   if (const auto count = in.get<std::uint64_t>(); count != points.size())
     throw Error(GRAINLAW_BAD_ARGUMENT,
                 fmt::format("saved points: {} points, expected {}", count, points.size()));
-  std::vector<AnyConfiguration> found;
+  std::vector<SavedState> found;
   found.reserve(points.size());
   for (std::size_t k = 0; k < points.size(); ++k) found.push_back(read_point(*points[k], k, in));
   if (in.left() != 0) throw Error(GRAINLAW_BAD_BYTES, "saved points: there is more behind them");

@@ -80,22 +80,26 @@ std::size_t AnyState::saved_size() const {
 
 void AnyState::save(std::span<std::byte> bytes) const {
   std::visit(
-      [&](const auto& state) { save_configuration(state.material(), state.committed(), bytes); },
-      state_);
-}
-
-AnyConfiguration AnyState::read(std::span<const std::byte> bytes) const {
-  return std::visit(
-      [&](const auto& state) -> AnyConfiguration {
-        return load_configuration(state.material(), bytes);
+      [&](const auto& state) {
+        save_configuration(state.material(), state.committed(), bytes, state.time_step());
       },
       state_);
 }
 
-void AnyState::restore(AnyConfiguration committed) noexcept {
+SavedState AnyState::read(std::span<const std::byte> bytes) const {
+  return std::visit(
+      [&](const auto& state) {
+        SavedState saved;
+        saved.committed = load_configuration(state.material(), bytes, &saved.time_step);
+        return saved;
+      },
+      state_);
+}
+
+void AnyState::restore(SavedState saved) noexcept {
   std::visit(
       [&]<int D>(State<D>& state) {
-        state.restore(std::get<Configuration<D>>(std::move(committed)));
+        state.restore(std::get<Configuration<D>>(std::move(saved.committed)), saved.time_step);
       },
       state_);
 }

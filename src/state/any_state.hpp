@@ -21,7 +21,11 @@ using AnyMaterial =
 // make_material() in the dimension of the description.
 AnyMaterial make_any_material(MaterialDescription description);
 
-using AnyConfiguration = std::variant<Configuration<2>, Configuration<3>>;
+// What bytes hold of a state.
+struct SavedState {
+  std::variant<Configuration<2>, Configuration<3>> committed;
+  double time_step = untold;
+};
 
 class AnyState {
  public:
@@ -47,9 +51,9 @@ class AnyState {
   // Writes the committed state to saved_size() bytes.
   [[nodiscard]] std::size_t saved_size() const;
   void save(std::span<std::byte> bytes) const;
-  [[nodiscard]] AnyConfiguration read(std::span<const std::byte> bytes) const;
-  // Makes a loaded configuration the committed state and drops the trial.
-  void restore(AnyConfiguration committed) noexcept;
+  [[nodiscard]] SavedState read(std::span<const std::byte> bytes) const;
+  // Makes a loaded state the committed one and drops the trial.
+  void restore(SavedState saved) noexcept;
 
   // Measure of the trial, or of the committed state without one.
   void measure(grainlaw_measure what, double* value) const;

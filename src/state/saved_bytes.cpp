@@ -40,8 +40,8 @@ void check_envelope(std::span<const std::byte> bytes, const SavedKind& kind) {
   const auto content = bytes.first(bytes.size() - checksum_size);
   require(ByteReader(bytes.last(checksum_size)).get<std::uint64_t>() == checksum(content),
           GRAINLAW_BAD_BYTES, "damaged or truncated");
-  ByteReader version(bytes.subspan(kind.letters.size()));
-  require(version.get<std::uint32_t>() == kind.version, GRAINLAW_WRONG_VERSION,
+  const auto version = ByteReader(bytes.subspan(kind.letters.size())).get<std::uint32_t>();
+  require(version >= kind.version && version <= kind.newest, GRAINLAW_WRONG_VERSION,
           "of another format version");
 }
 

@@ -16,6 +16,7 @@ struct SavedKind {
   const char* name;  // name in messages
   std::array<char, 8> letters;
   std::uint32_t version;
+  std::uint32_t newest = version;  // that is read
 };
 inline constexpr std::size_t version_end = sizeof(SavedKind::letters) + sizeof(std::uint32_t);
 inline constexpr std::size_t checksum_size = sizeof(std::uint64_t);
@@ -79,7 +80,8 @@ class ByteReader {
   std::span<const std::byte> left_;
 };
 
-inline constexpr SavedKind saved_state{"saved state", {'G', 'R', 'A', 'I', 'N', 'L', 'A', 'W'}, 2};
+inline constexpr SavedKind saved_state{
+    "saved state", {'G', 'R', 'A', 'I', 'N', 'L', 'A', 'W'}, 2, 3};
 
 // Whether bytes begin with the letters of a kind.
 [[nodiscard]] bool begin_as(std::span<const std::byte> bytes, const SavedKind& kind);

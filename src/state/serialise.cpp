@@ -4,9 +4,10 @@
 //   coordinates [number of the material's];
 //   contacts: i32 i  i32 j  i16 shift[dim]  u8 1 sliding, 2 bonded;
 //             tangential force, of spheres three  [moment]  [gap of the bond];
-//   [G - 1 and displacement of the last part with drag];
+//   [G - 1 and displacement of the last part with drag]  [time step];
 //   u64 XXH3 of everything before.
-// Parts in brackets exist only with a law that has bonds, moments or drag.
+// Parts in brackets exist only with a law that has bonds, moments or drag. Version 3 has the time
+// step, of materials that ask for one; version 2 has none.
 #include "state/serialise.hpp"
 
 #include "base/error.hpp"
@@ -20,6 +21,7 @@
 namespace grainlaw::core {
 namespace {
 
+constexpr std::uint32_t version_with_time = saved_state.newest;
 constexpr std::size_t header_size = version_end + sizeof(std::uint32_t) + sizeof(std::uint64_t);
 template <int D>
 constexpr std::size_t plain_contact_size =
@@ -35,11 +37,16 @@ std::size_t move_size(const Material<D>& material) {
 }
 
 template <int D>
-std::size_t size_without_contacts(const Material<D>& material) {
+bool asks_for_time(const Material<D>& material) {
+  return material.solver.viscosity.increment > 0;
+}
+
+template <int D>
+std::size_t size_without_contacts(const Material<D>& material, bool with_time) {
   return header_size + checksum_size +
          sizeof(double) * (2 * squared<D> + (material.law.bonds() ? 2 : 1) +
                            material.initial.coordinates.size() + move_size(material) +
-                           (move_size(material) > 0 ? squared<D> : 0));
+                           (move_size(material) > 0 ? squared<D> : 0) + (with_time ? 1 : 0));
 }
 
 template <int D>
@@ -71,15 +78,18 @@ void check_contacts(const std::vector<ContactHistory<D>>& contacts, std::size_t 
 
 template <int D>
 std::size_t saved_size(const Material<D>& material, const Configuration<D>& configuration) {
-  return size_without_contacts(material) + configuration.contacts.size() * contact_size(material);
+  return size_without_contacts(material, asks_for_time(material)) +
+         configuration.contacts.size() * contact_size(material);
 }
 
 template <int D>
 void save_configuration(const Material<D>& material, const Configuration<D>& configuration,
-                        std::span<std::byte> bytes) {
+                        std::span<std::byte> bytes, double time_step) {
   const std::size_t spins = material.law.moments() ? Dimension<D>::spins : 0;
   ByteWriter out(bytes);
-  out.begin(saved_state);
+  SavedKind written = saved_state;
+  if (asks_for_time(material)) written.version = version_with_time;
+  out.begin(written);
   out.put(static_cast<std::uint32_t>(configuration.contacts.size()));
   out.put(material.fingerprint);
   for (std::size_t k = 0; k < squared<D>; ++k) out.put(configuration.deformation[k]);
@@ -105,18 +115,23 @@ void save_configuration(const Material<D>& material, const Configuration<D>& con
       out.put(configuration.move.empty() ? 0.0 : configuration.move[k]);
     }
   }
+  if (asks_for_time(material)) out.put(time_step);
   out.end();
 }
 
 template <int D>
-Configuration<D> load_configuration(const Material<D>& material, std::span<const std::byte> bytes) {
+Configuration<D> load_configuration(const Material<D>& material, std::span<const std::byte> bytes,
+                                    double* time_step) {
   check_envelope(bytes, saved_state);
   require(bytes.size() >= header_size + checksum_size, GRAINLAW_BAD_BYTES, "truncated");
-  ByteReader in(bytes.subspan(version_end));
+  ByteReader in(bytes.subspan(sizeof(SavedKind::letters)));
+  const bool with_time = in.get<std::uint32_t>() == version_with_time;
   const std::size_t contacts = in.get<std::uint32_t>();
   require(in.get<std::uint64_t>() == material.fingerprint, GRAINLAW_WRONG_MATERIAL,
           "of another material");
-  const std::size_t fixed_size = size_without_contacts(material);
+  require(!with_time || move_size(material) > 0, GRAINLAW_WRONG_VERSION,
+          "of another format version");
+  const std::size_t fixed_size = size_without_contacts(material, with_time);
   require(
       bytes.size() >= fixed_size && bytes.size() - fixed_size == contacts * contact_size(material),
       GRAINLAW_BAD_BYTES, "its length does not fit its content");
@@ -148,6 +163,9 @@ Configuration<D> load_configuration(const Material<D>& material, std::span<const
     found.move.resize(size);
     for (double& component : found.move) component = in.get_finite();
   }
+  const double step = with_time ? in.get_finite() : untold;
+  require(step >= 0 || step == untold, GRAINLAW_BAD_BYTES, "a time step below 0");
+  if (time_step != nullptr) *time_step = step;
   const auto none = [](double gap) { return gap == 0; };
   if (std::all_of(found.bond_gaps.begin(), found.bond_gaps.end(), none)) found.bond_gaps.clear();
   require(determinant<D>(found.deformation) > 0, GRAINLAW_BAD_BYTES, "det F <= 0");
@@ -155,11 +173,12 @@ Configuration<D> load_configuration(const Material<D>& material, std::span<const
   return found;
 }
 
-#define GRAINLAW_FOR(D)                                                         \
-  template std::size_t saved_size(const Material<D>&, const Configuration<D>&); \
-  template void save_configuration(const Material<D>&, const Configuration<D>&, \
-                                   std::span<std::byte>);                       \
-  template Configuration<D> load_configuration(const Material<D>&, std::span<const std::byte>);
+#define GRAINLAW_FOR(D)                                                                        \
+  template std::size_t saved_size(const Material<D>&, const Configuration<D>&);                \
+  template void save_configuration(const Material<D>&, const Configuration<D>&,                \
+                                   std::span<std::byte>, double);                              \
+  template Configuration<D> load_configuration(const Material<D>&, std::span<const std::byte>, \
+                                               double*);
 GRAINLAW_FOR(2)
 GRAINLAW_FOR(3)
 

@@ -3,6 +3,7 @@
 
 #include "increment/configuration.hpp"
 #include "material/material.hpp"
+#include "state/time_step.hpp"
 
 #include <cstddef>
 #include <span>
@@ -14,15 +15,16 @@ template <int D>
 [[nodiscard]] std::size_t saved_size(const Material<D>& material,
                                      const Configuration<D>& configuration);
 
-// Writes saved_size() bytes.
+// Writes saved_size() bytes, with the time step where the material asks for it.
 template <int D>
 void save_configuration(const Material<D>& material, const Configuration<D>& configuration,
-                        std::span<std::byte> bytes);
+                        std::span<std::byte> bytes, double time_step = untold);
 
 // Loads a configuration from any bytes of any length. Throws Error (BAD_BYTES, WRONG_VERSION,
 // WRONG_MATERIAL).
 template <int D>
 [[nodiscard]] Configuration<D> load_configuration(const Material<D>& material,
-                                                  std::span<const std::byte> bytes);
+                                                  std::span<const std::byte> bytes,
+                                                  double* time_step = nullptr);
 
 }  // namespace grainlaw::core

@@ -170,8 +170,9 @@ bool State<D>::commit() {
 }
 
 template <int D>
-void State<D>::restore(Configuration<D> committed) {
+void State<D>::restore(Configuration<D> committed, double time_step) {
   committed_ = std::move(committed);
+  time_step_ = time_step;
   has_trial_ = false;
 }
 
@@ -216,9 +217,7 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
   request.tolerance = material.solver.tolerance;
   request.loose_tolerance = material.solver.loose_tolerance;
   request.sensitivities = kind == TangentKind::exact;
-  if (const double usual = material.solver.viscosity.increment; usual > 0 && time_step_ > 0) {
-    request.duration = time_step_ / usual;
-  }
+  request.duration = duration_of(material, committed_, F, time_step_);
   if (had_trial && material.solver.start == Start::trial) {
     guess_from_trial(committed_, trial_, particles, w, request);
     request.guess_loose = trial_loose_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "material/material.hpp"
+#include "state/time_step.hpp"
 
 #include <grainlaw/grainlaw.h>
 
@@ -32,15 +33,16 @@ class State {
   // F with its found components replaced by the committed ones.
   [[nodiscard]] Tensor<D> effective(const double* F) const;
 
-  // Sets the time of the following increments, in the host's unit.
+  // Sets the time of the following increments, in the host's unit; 0: none.
   void set_time_step(double step) { time_step_ = step; }
+  [[nodiscard]] double time_step() const { return time_step_; }
 
   bool commit();  // returns false without a trial
   void revert() { has_trial_ = false; }
   [[nodiscard]] bool has_trial() const { return has_trial_; }
   [[nodiscard]] const Configuration<D>& committed() const { return committed_; }
   [[nodiscard]] const Configuration<D>& current() const { return has_trial_ ? trial_ : committed_; }
-  void restore(Configuration<D> committed);
+  void restore(Configuration<D> committed, double time_step = untold);
   [[nodiscard]] const Material<D>& material() const { return *material_; }
 
  private:
@@ -51,7 +53,7 @@ class State {
   Configuration<D> committed_;
   Configuration<D> trial_;
   bool has_trial_ = false;
-  double time_step_ = 0;         // 0: unknown
+  double time_step_ = untold;
   bool trial_loose_ = false;     // converged to the loose tolerance
   bool trial_advanced_ = false;  // found by advancing history
 };

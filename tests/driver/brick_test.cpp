@@ -57,6 +57,29 @@ class brick : public testing::Test {
     }
   }
 
+  void expect_one_volume(const std::string& solver) {
+    const BrickScene read = read_brick_scene(scene("steps = 3\n", solver + box + drained));
+    const Material material = make_material(read.material, 3);
+    BrickNewton body(read.model, material, read.newton, 1);
+    body.advance(0, 0, {});
+    PointDriverOf<3> point(material, {});
+    point.run(triaxial_segment(0, -lateral, 1), {});
+    for (int step = 1; step <= 3; ++step) {
+      const BrickStep made = body.advance(step / 3.0, step, {});
+      point.run(triaxial_segment(-1e-3, -lateral, 1), {});
+      EXPECT_LE(made.record.effort.iterations, 5) << step;
+      EXPECT_LE(made.residuals.back(), 1e-8) << step;
+      const RecordOf<3>& expected = point.record();
+      EXPECT_LT((made.record.cauchy - expected.cauchy).norm(), 1e-6 * expected.cauchy.norm());
+      EXPECT_LT((made.record.deformation - expected.deformation).norm(), 1e-9);
+    }
+    for (std::size_t p = 1; p < 8; ++p)
+      EXPECT_LT((deformation_gradient<3>(body.field().state(p)) -
+                 deformation_gradient<3>(body.field().state(0)))
+                    .norm(),
+                1e-12);
+  }
+
   grainlaw::test::TemporaryDirectory directory_;
 };
 
@@ -110,27 +133,11 @@ TEST(brick_mesh, stiffness_of_a_pressure_matches_central_differences) {
   }
 }
 
-TEST_F(brick, under_triaxial_compression_is_one_volume) {
-  const BrickScene read = read_brick_scene(scene("steps = 3\n", box + drained));
-  const Material material = make_material(read.material, 3);
-  BrickNewton body(read.model, material, read.newton, 1);
-  body.advance(0, 0, {});
-  PointDriverOf<3> point(material, {});
-  point.run(triaxial_segment(0, -lateral, 1), {});
-  for (int step = 1; step <= 3; ++step) {
-    const BrickStep made = body.advance(step / 3.0, step, {});
-    point.run(triaxial_segment(-1e-3, -lateral, 1), {});
-    EXPECT_LE(made.record.effort.iterations, 5) << step;
-    EXPECT_LE(made.residuals.back(), 1e-8) << step;
-    const RecordOf<3>& expected = point.record();
-    EXPECT_LT((made.record.cauchy - expected.cauchy).norm(), 1e-6 * expected.cauchy.norm());
-    EXPECT_LT((made.record.deformation - expected.deformation).norm(), 1e-9);
-  }
-  for (std::size_t p = 1; p < 8; ++p)
-    EXPECT_LT((deformation_gradient<3>(body.field().state(p)) -
-               deformation_gradient<3>(body.field().state(0)))
-                  .norm(),
-              1e-12);
+TEST_F(brick, under_triaxial_compression_is_one_volume) { expect_one_volume(""); }
+
+// The points of both are told the same time.
+TEST_F(brick, with_drag_is_one_volume) {
+  expect_one_volume("solver = { viscous_time = 100, viscous_increment = 1 }\n");
 }
 
 TEST_F(brick, several_are_as_one) {

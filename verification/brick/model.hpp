@@ -64,6 +64,8 @@ class BrickField {
  public:
   BrickField(const BrickModel& model, const Material& material, int threads);
 
+  // Sets the number of load steps that following increments take.
+  void set_time_step(double step) { set_.set_time_step(step); }
   // Evaluates all points and keeps the result for assemble(). Returns recoverable failures; throws
   // StatusError.
   grainlaw_status evaluate(const Eigen::VectorXd& displacement, unsigned want);

@@ -57,6 +57,7 @@ Attempt BrickNewton::equilibrate(double time, double tolerance, std::vector<doub
   Eigen::VectorXd prescribed = (time - time_) * unknowns_.end;
   residuals.push_back(unknowns_.reduce(system.residual - system.stiffness * prescribed).norm() /
                       system.scale);
+  field_.set_time_step(time > time_ ? (time - time_) / options_.load_step : 1);
   double best = std::numeric_limits<double>::infinity();
   int best_iteration = 0;
   bool stalled = false;

@@ -13,7 +13,8 @@ struct BrickNewtonOptions {
   int max_iterations = 20;  // per attempt; then the step is cut
   int max_cuts = 10;        // halvings of one step
   double loose_tolerance =
-      0;  // accepted at the smallest part of a step, counted as loose; 0: never [-]
+      0;                 // accepted at the smallest part of a step, counted as loose; 0: never [-]
+  double load_step = 1;  // share of the time, which the points are told as 1
 };
 
 struct BrickStep {

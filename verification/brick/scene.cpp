@@ -133,6 +133,7 @@ BrickScene read_brick_scene(const SceneFile& file) {
       scene.material);
   scene.threads = table.integer_or("threads", 0, 0);
   scene.steps = table.integer("steps", 1);
+  scene.newton.load_step = 1.0 / scene.steps;
   scene.abscissa =
       table.choice_or("abscissa", axial_abscissa, {axial_abscissa, shear_abscissa, "F13", "F23"});
   scene.model.mesh = read_mesh(table.table("mesh"));

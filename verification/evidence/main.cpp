@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   add_tangent_study(app, options);
   add_newton_study(app, options);
   add_objectivity_study(app, options);
+  add_asymmetry_study(app, options);
   add_servo_study(app, options);
   add_ensemble_study(app, options);
   add_drag_study(app, options);

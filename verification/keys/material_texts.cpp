@@ -127,8 +127,10 @@ constexpr KeyText texts[] = {
     {"solver.viscous_inertia", "-",
      "share of masses with `viscous_time`; the rest is a plain drag"},
     {"solver.viscous_increment", "of the host",
-     "host time of an increment that lasts `viscous_time`, see `grainlaw_state_set_time_step`; 0: "
-     "all increments last it, however the host cuts them"},
+     "host time of an increment that lasts `viscous_time`; the host has to tell its time step "
+     "(`grainlaw_state_set_time_step`), or the first increment is refused; 0: all increments last "
+     "it, "
+     "however the host cuts them"},
     {"solver.viscous_steps", "-", "parts of an increment with `viscous_time`"},
     {"solver.published.damping", "-", "of \"published\": local damping"},
     {"solver.published.time_step_ratio", "-", "of \"published\": time step / critical one"},

@@ -60,11 +60,11 @@ class Host {
   // One call at the end of the increment; whether it may go on.
   bool call(const std::array<double, 9>& F1, bool stress_only = false) {
     const int one = 1, none = 0, command = stress_only ? 3 : 0, constants = -101, points = 8;
-    const double zero[9]{}, step = 1;
+    const double zero[9]{};
     double state = 0;
     pnewdt = -1;
     material_("@GRAIN_SAND", &element_, &point_, &constants, zero, zero, zero, zero, F0.data(),
-              zero, F1.data(), zero, &none, zero, &step, &step, zero, &command, &none, &points,
+              zero, F1.data(), zero, &none, zero, &dtime, &dtime, zero, &command, &none, &points,
               &none, &state, &state, stress.data(), stiffness.data(), &none, zero, zero, &pnewdt,
               &one, 80);
     ++calls;
@@ -86,6 +86,7 @@ class Host {
   std::array<double, 6> stress{};
   std::array<double, 21> stiffness{};
   double pnewdt = -1;
+  double dtime = 1;
   int calls = 0;
 
  private:

@@ -121,6 +121,22 @@ TEST_F(calculix_material, an_increment_that_was_cut_ends_like_the_same_increment
   EXPECT_EQ(point.stress, uncut.stress);
 }
 
+// Drag takes moments, so that P F^T is not symmetric: CalculiX gets the symmetric part.
+TEST_F(calculix_material, a_law_in_time_gets_the_time_of_the_increment) {
+  Host point(library.function("INTIME"), 1, 1);
+  grainlaw::State state = direct_state(materials + "/../in_time.toml");
+  double dtime = 0.5;
+  for (const F2& F : path) {
+    point.dtime = 4 * dtime;  // cut by the host
+    point.call(columns(F));
+    point.dtime = dtime;
+    ASSERT_TRUE(point.increment({elsewhere, F}));
+    state.set_time_step(dtime);
+    expect_reference(point, reference(state, F, true));
+    dtime *= 2;
+  }
+}
+
 TEST_F(calculix_material, points_in_threads_give_the_bits_of_one_thread) {
   const auto run = [&](int threads, int first_element) {
     constexpr int points = 8;
@@ -186,6 +202,15 @@ TEST_F(calculix_bad_input, a_start_elsewhere_is_told) {
   Host point = host(7);
   point.F0 = columns(path[1]);
   refused(point, columns(path[2]), "cannot be restarted without its states");
+}
+
+TEST_F(calculix_bad_input, a_law_in_time_without_a_time) {
+  Host point(library.function("INTIME"), 1, 2);
+  point.dtime = 0;
+  ASSERT_TRUE(point.increment({{1, 0, 0, 1}}));  // of nothing
+  refused(point, columns(path[0]), "no time step above 0");
+  point.dtime = 1;
+  EXPECT_TRUE(point.call(columns(path[0])));
 }
 
 // Discs that do not turn carry moments: in shear S12 and S21 differ.

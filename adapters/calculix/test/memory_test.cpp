@@ -32,7 +32,7 @@ Outcome run(long failing_allocation) {
     stress.fill(std::nan(""));
     stiffness.fill(std::nan(""));
     double pnewdt = -1;
-    grainlaw_calculix_evaluate(&material, 1, point, F0.data(), F1.data(), 0, stress.data(),
+    grainlaw_calculix_evaluate(&material, 1, point, F0.data(), F1.data(), 1, 0, stress.data(),
                                stiffness.data(), &pnewdt);
     for (const double value : stress) EXPECT_TRUE(std::isfinite(value));
     for (const double value : stiffness) EXPECT_TRUE(std::isfinite(value));

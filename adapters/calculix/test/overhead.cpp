@@ -32,7 +32,7 @@ void measure(int points) {
       const double start = cpu_time();
       for (int p = 0; p < points; ++p) {
         double stress[6], stiffness[21], pnewdt = -1;
-        grainlaw_calculix_evaluate(&material, 1 + p / 8, 1 + p % 8, F0, F1, call == 3, stress,
+        grainlaw_calculix_evaluate(&material, 1 + p / 8, 1 + p % 8, F0, F1, 1, call == 3, stress,
                                    stiffness, &pnewdt);
         if (pnewdt > 0) std::printf("refused\n");
       }

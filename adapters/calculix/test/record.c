@@ -19,7 +19,8 @@ GRAINLAW_API void SAND(const char* amat, const int* iel, const int* iint, const 
   const char* path = getenv("GRAINLAW_RECORD");
   FILE* record;
   int k;
-  grainlaw_calculix_evaluate(&material, *iel, *iint, F0, F1, *icmd == 3, stress, ddsdde, pnewdt);
+  grainlaw_calculix_evaluate(&material, *iel, *iint, F0, F1, *dtime, *icmd == 3, stress, ddsdde,
+                             pnewdt);
   if (path == NULL || *iel != 1 || *iint != 1) return;
   record = fopen(path, "a");
   if (record == NULL) return;

@@ -45,6 +45,7 @@ grainlaw_status grainlaw_evaluate(grainlaw_state* state, const double* F, unsign
   state->trial = true;
   return GRAINLAW_OK;
 }
+grainlaw_status grainlaw_state_set_time_step(grainlaw_state*, double) { return GRAINLAW_OK; }
 grainlaw_status grainlaw_commit(grainlaw_state* state) {
   state->trial = false;
   return GRAINLAW_OK;

@@ -116,7 +116,7 @@ class Manager {
     double options[3];  // without a tangent MGIS hands over these alone
     mfront_gb_BehaviourData data{};
     data.error_message = text;
-    data.dt = 1;
+    data.dt = dt;
     data.rdt = step;
     data.K = request == no_tangent ? options : &K[point * tangent_size];
     data.K[0] = request;
@@ -155,6 +155,7 @@ class Manager {
   State s0, s1;
   std::vector<double> K;
   std::string message;
+  double dt = 1;  // of the step
   double rdt = 1;
 };
 

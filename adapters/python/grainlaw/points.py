@@ -88,7 +88,6 @@ class States:
         count = whole("number of points", count, 0, sys.maxsize, bad_argument)
         self.material = material
         self.dimension = material.dimension
-        self._time_step: float | None = None
         self._handle = Handle(library.grainlaw_points_create, library.grainlaw_points_destroy,
                               material._handle, count)
 
@@ -102,7 +101,6 @@ class States:
         """An independent copy, committed and trial."""
         copy = self.__class__.__new__(self.__class__)
         copy.material, copy.dimension = self.material, self.dimension
-        copy._time_step = self._time_step
         copy._handle = Handle(library.grainlaw_points_clone, library.grainlaw_points_destroy,
                               self._handle)
         return copy
@@ -114,7 +112,7 @@ class States:
         return self.clone()
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restore, (type(self), self.material, len(self), self.save(), self._time_step)
+        return _restore, (type(self), self.material, len(self), self.save())
 
     def evaluate(self, F: npt.ArrayLike, tangent: int | None = None, threads: int = 0) -> Evaluation:
         """Evaluation of all points at the total deformation gradients F (n, d, d) [-], with a
@@ -140,12 +138,12 @@ class States:
 
     def set_time_step(self, step: float) -> None:
         """How long increments take from now on, in the host's unit, e.g. `LoadSteps.part`: a
-        material with solver.viscous_increment asks for it."""
+        material with solver.viscous_increment asks for it before it deforms. 0: they take no time,
+        and F has to stay."""
         step = number("time step", step, bad_argument)
-        if step <= 0:
-            raise bad_argument(f"time step {step!r}: expected a number above 0")
+        if step < 0:
+            raise bad_argument(f"time step {step!r}: expected a number of at least 0")
         check(library.grainlaw_points_set_time_step(self._handle, step))
-        self._time_step = step
 
     def commit(self) -> None:
         """Make the trial the committed state: of all points or, when one has none, of none."""
@@ -284,12 +282,9 @@ def _saved(function: Callable[..., int], handle: Any) -> bytes:
     return data.raw
 
 
-def _restore(kind: type[States], material: Material, count: int, saved: bytes,
-             time_step: float | None) -> States:
+def _restore(kind: type[States], material: Material, count: int, saved: bytes) -> States:
     states = kind(material, count)
     states.load(saved)
-    if time_step is not None:
-        states.set_time_step(time_step)
     return states
 
 

@@ -9,6 +9,7 @@ import grainlaw
 
 def main(material, path):
     point = grainlaw.State(grainlaw.Material(material))
+    point.set_time_step(1)
     component = [f"{k}{L}" for k in "12" for L in "12"]
     print(",".join([f"P{c}" for c in component]
                    + [f"A{c}{e}" for c in component for e in component]))

@@ -49,7 +49,19 @@ class Points(Case):
         self.assertEqual(stresses[0].tobytes(), stresses[1].tobytes())
         difference = np.linalg.norm(stresses[2] - stresses[0])
         self.assertGreater(difference, 1e-6 * np.linalg.norm(stresses[0]))
-        self.assert_refused(Status.BAD_ARGUMENT, [], states.set_time_step, 0)
+
+    def test_a_law_in_time_asks_for_it_before_it_deforms(self):
+        drag = "[solver]\nviscous_time = 100\nviscous_increment = 1\n"
+        with open(MATERIAL, encoding="utf-8") as file:
+            states = grainlaw.States(grainlaw.Material.parse(file.read() + drag, DATA), 2)
+        self.assertTrue(states.evaluate([np.eye(2)] * 2, Tangent.EXACT).ok)
+        for told in (False, True):
+            if told:
+                states.set_time_step(0)
+            self.assert_refused(Status.BAD_ARGUMENT, ["viscous_increment", "time step"],
+                                states.evaluate, [COMPRESSED] * 2)
+        states.set_time_step(0.5)
+        self.assertTrue(states.evaluate([COMPRESSED] * 2).ok)
 
     def test_without_a_tangent_there_is_none(self):
         answer = grainlaw.State(material()).evaluate(COMPRESSED)

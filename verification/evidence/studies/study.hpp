@@ -62,6 +62,7 @@ inline constexpr double drained_pressure = -100e3;
 void add_tangent_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_newton_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_objectivity_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
+void add_asymmetry_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_servo_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_ensemble_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);
 void add_drag_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options);

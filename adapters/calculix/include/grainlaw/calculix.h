@@ -50,7 +50,7 @@ typedef struct grainlaw_calculix_material {
 } grainlaw_calculix_material;
 
 /* One call of CalculiX. F0, F1[9]: deformation gradient at the start and the end of the increment,
- * column by column. stress_only: icmd is 3. stress[6]: second Piola-Kirchhoff stress 11 22 33 12 13
+ * column by column. dtime: its time, for solver.viscous_increment. stress_only: icmd is 3. stress[6]: second Piola-Kirchhoff stress 11 22 33 12 13
  * 23 [Pa]. stiffness[21]: dS/dE, upper triangle column by column, of the symmetric part [Pa].
  * pnewdt: set to a number in 0..1 when the increment has to be cut; stress and stiffness are then
  * those of the start, the stiffness elastic, since CalculiX solves once more before it cuts. What
@@ -58,8 +58,9 @@ typedef struct grainlaw_calculix_material {
  * upon which CalculiX ends the analysis; states stay as committed. Any number of threads at once.
  */
 GRAINLAW_API void grainlaw_calculix_evaluate(grainlaw_calculix_material*, int element, int point,
-                                             const double* F0, const double* F1, int stress_only,
-                                             double* stress, double* stiffness, double* pnewdt);
+                                             const double* F0, const double* F1, double dtime,
+                                             int stress_only, double* stress, double* stiffness,
+                                             double* pnewdt);
 
 /* Free all states; the next call starts anew. No other thread may be inside. */
 GRAINLAW_API void grainlaw_calculix_release(grainlaw_calculix_material*);
@@ -80,11 +81,11 @@ GRAINLAW_API void grainlaw_calculix_release(grainlaw_calculix_material*);
       double* statev1, double* stress, double* ddsdde, const int* iorien, const double* pgauss,    \
       const double* orab, double* pnewdt, const int* ipkon, int size) {                            \
     (void)amat, (void)nprops, (void)mprops, (void)stran1, (void)stran0, (void)beta, (void)voj;     \
-    (void)vj, (void)ithermal, (void)temp1, (void)dtime, (void)time, (void)ttime, (void)ielas;      \
+    (void)vj, (void)ithermal, (void)temp1, (void)time, (void)ttime, (void)ielas;                   \
     (void)mi, (void)nstatv, (void)statev0, (void)statev1, (void)iorien, (void)pgauss, (void)orab;  \
     (void)ipkon, (void)size;                                                                       \
-    grainlaw_calculix_evaluate(&grainlaw_material_##NAME, *iel, *iint, F0, F1, *icmd == 3, stress, \
-                               ddsdde, pnewdt);                                                    \
+    grainlaw_calculix_evaluate(&grainlaw_material_##NAME, *iel, *iint, F0, F1, *dtime, *icmd == 3, \
+                               stress, ddsdde, pnewdt);                                            \
   }                                                                                                \
   __attribute__((destructor)) static void grainlaw_unload_##NAME(void) {                           \
     grainlaw_calculix_release(&grainlaw_material_##NAME);                                          \

@@ -1,0 +1,18 @@
+// Time as a host tells it, and how long an increment lasts by it.
+#pragma once
+
+#include "increment/configuration.hpp"
+#include "material/material.hpp"
+
+namespace grainlaw::core {
+
+// The time step of a state that no host has told one.
+inline constexpr double untold = -1;
+
+// How long the increment from `committed` to F lasts, an ordinary one lasting 1. Throws Error
+// (BAD_ARGUMENT) where the material asks for a time step, F moves and there is none above 0.
+template <int D>
+[[nodiscard]] double duration_of(const Material<D>& material, const Configuration<D>& committed,
+                                 const Tensor<D>& F, double time_step);
+
+}  // namespace grainlaw::core

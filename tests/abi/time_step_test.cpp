@@ -1,0 +1,118 @@
+// A law in time: what it is told of the time of its increments, what it is not told, and what bytes
+// keep of it.
+#include "support.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace grainlaw::test {
+namespace {
+
+Material in_time(const std::string& solver) {
+  return Material::parse(read_text(material_path) + "\n[solver]\n" + solver, data_directory);
+}
+const Material& law_in_time() {
+  static const Material instance = in_time("viscous_time = 100\nviscous_increment = 2\n");
+  return instance;
+}
+
+grainlaw_report refused(State& state, const Tensor& F) {
+  grainlaw_report report = grainlaw_report_default();
+  EXPECT_EQ(grainlaw_evaluate(state.get(), F.data(), 0, nullptr, nullptr, &report),
+            GRAINLAW_BAD_ARGUMENT);
+  return report;
+}
+
+double distance(const Tensor& a, const Tensor& b) {
+  double squares = 0, norm = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    squares += (a[k] - b[k]) * (a[k] - b[k]);
+    norm += b[k] * b[k];
+  }
+  return std::sqrt(squares / norm);
+}
+
+TEST(time_step, is_asked_for_before_the_first_increment) {
+  State state(law_in_time());
+  stress(state, identity);  // of the start
+  const grainlaw_report report = refused(state, compressed);
+  EXPECT_NE(std::string(report.message).find("viscous_increment"), std::string::npos);
+  EXPECT_NE(std::string(report.message).find("grainlaw_state_set_time_step"), std::string::npos);
+  EXPECT_EQ(report.step_ratio, 0);
+  EXPECT_EQ(grainlaw_commit(state.get()), GRAINLAW_NO_TRIAL);
+  state.set_time_step(2);
+  stress(state, compressed);
+  State plain(in_time("viscous_time = 100\n"));
+  EXPECT_TRUE(same_bits(stress(state, compressed), stress(plain, compressed)));
+}
+
+TEST(time_step, of_nothing_is_for_an_increment_of_nothing) {
+  State state(law_in_time());
+  state.set_time_step(2);
+  const Tensor before = stress(state, compressed);
+  state.commit();
+  state.set_time_step(0);
+  refused(state, further);
+  EXPECT_LT(distance(stress(state, compressed), before), 1e-6);
+  state.commit();
+  State longer = state;
+  longer.set_time_step(200);  // drag fades meanwhile
+  EXPECT_GT(distance(stress(longer, compressed), before), 1e-4);
+}
+
+// Nothing has the time to move against the rest.
+TEST(time_step, may_be_as_short_as_it_likes) {
+  const auto at = [](double step) {
+    State state(law_in_time());
+    state.set_time_step(step);
+    const Tensor first = stress(state, compressed);
+    state.commit();
+    stress(state, further);
+    return first;
+  };
+  const Tensor none = at(1e-300);
+  for (const double step : {1e-12, 1e-6, 1e-4}) EXPECT_LT(distance(at(step), none), 1e-4) << step;
+  EXPECT_GT(distance(at(2), none), 1e-2);
+}
+
+TEST(time_step, is_in_saved_bytes_and_in_copies) {
+  State state(law_in_time());
+  state.set_time_step(0.5);
+  stress(state, compressed);
+  state.commit();
+  State loaded(law_in_time()), copy = state;
+  loaded.load(state.save());
+  const Tensor next = stress(state, further);
+  EXPECT_TRUE(same_bits(stress(loaded, further), next));
+  EXPECT_TRUE(same_bits(stress(copy, further), next));
+  loaded.set_time_step(2);
+  EXPECT_FALSE(same_bits(stress(loaded, further), next));
+}
+
+TEST(time_step, that_was_never_told_is_none_in_saved_bytes_either) {
+  State state(law_in_time()), loaded(law_in_time());
+  loaded.set_time_step(1);
+  loaded.load(state.save());
+  refused(loaded, compressed);
+}
+
+TEST(time_step, takes_no_bytes_of_a_law_that_does_not_ask_for_it) {
+  State asks(law_in_time()), plain(in_time("viscous_time = 100\n"));
+  asks.set_time_step(1);
+  plain.set_time_step(1);
+  EXPECT_EQ(asks.save().size(), plain.save().size() + sizeof(double));
+  State other(law_in_time());
+  other.load(plain.save());  // of a material that differs in this alone
+  refused(other, compressed);
+}
+
+TEST(bad_time_step, is_refused) {
+  State state(law_in_time());
+  for (const double step : {-1.0, -0.5, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    expect_refused(grainlaw_state_set_time_step(state.get(), step), GRAINLAW_BAD_ARGUMENT,
+                   "time step " + std::to_string(step));
+  }
+}
+
+}  // namespace
+}  // namespace grainlaw::test
