@@ -1,6 +1,7 @@
 #include "equilibrium/strategy.hpp"
 
 #include "base/constants.hpp"
+#include "base/error.hpp"
 #include "equilibrium/stages.hpp"
 #include "packing/geometry.hpp"
 
@@ -180,9 +181,18 @@ class Walk {
 
 }  // namespace
 
+// A guess from which positions run away is dropped for the committed start.
 template <int D>
 Outcome solve(const Request<D>& request, Workspace<D>& workspace) {
-  return Walk<D>(request, workspace).run();
+  try {
+    return Walk<D>(request, workspace).run();
+  } catch (const Error& error) {
+    if (request.guess == nullptr || error.status != GRAINLAW_NOT_CONVERGED) throw;
+  }
+  Request<D> from_committed = request;
+  from_committed.guess = nullptr;
+  from_committed.guess_loose = from_committed.guess_advanced = false;
+  return Walk<D>(from_committed, workspace).run();
 }
 
 template Outcome solve(const Request<2>&, Workspace<2>&);

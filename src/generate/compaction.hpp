@@ -11,7 +11,8 @@ namespace grainlaw::core {
 // above 1e3 (t of spheres a diameter), are compressed to where it is 1e3 and expanded again in equilibrium. A wanted anisotropy
 // comes by anisotropic consolidation: the deviatoric stress that makes it stays at F = I. Regular
 // packings: lattices of equal particles at the distance that gives the pressure. The contact law is that of the material with
-// options.friction in place of its friction (0: the densest random packing).
+// options.friction in place of its friction (0: the densest random packing); friction that is found leads to
+// the void ratio at the pressure, to 1e-3 of 1 + void ratio.
 // The result is in equilibrium to 1e-9 of the mean contact force, and either all normal stresses
 // are -pressure, or the void ratio is the target and all normal stresses are equal, to 1e-6. It
 // carries its contact forces. Same options, same machine: same bits. Throws Error: BAD_PACKING for

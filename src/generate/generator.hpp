@@ -35,8 +35,9 @@ struct GeneratorOptions {
   double radius_min = 3e-3;  // [m]
   double radius_max = 7e-3;  // [m]
   std::uint64_t seed = 1;
-  double void_ratio = 0;  // target instead of the pressure [-]; 0: the pressure is the target
-  double friction = 0;    // tan(phi) during consolidation [-]
+  double void_ratio = 0;        // target instead of the pressure [-]; 0: the pressure is the target
+  double friction = 0;          // tan(phi) during consolidation [-]
+  bool finds_friction = false;  // that leads to the pressure and the void ratio together
   // Wanted fabric anisotropy, largest / smallest eigenvalue - 1 (Liu et al. eq. 38), and its major
   // direction: of discs the angle against axis 1 [rad], of spheres a vector; below 0: as it comes.
   double anisotropy = -1;

@@ -46,6 +46,8 @@ MaterialText material_text(const MaterialSource& source);
 
 // 3 when the description says so, else 2: what is wrong is told when the material is made.
 int dimension_of(const MaterialSource& source);
+// Whether its law is one in time.
+bool has_drag(const MaterialSource& source);
 
 // Throws InputError for a wrong description, or one of another dimension, ComputationError when there
 // is no equilibrium at F = I.

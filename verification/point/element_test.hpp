@@ -35,9 +35,12 @@ struct TestStop {
 
 struct ElementTest {
   TestKind kind = TestKind::drained;
-  double step = 1e-3;           // strain of a step [-]; of stress-led tests 1 / steps of the way
-  double end = 0.1;             // strain [-], or stress [Pa] of isotropic and k0
-  std::optional<double> held;   // lateral stress of drained, normal stress of shear_pressure [Pa]
+  double step = 1e-3;          // strain of a step [-]; of stress-led tests 1 / steps of the way
+  double end = 0.1;            // strain [-], or stress [Pa] of isotropic and k0
+  std::optional<double> held;  // lateral stress of drained, normal stress of shear_pressure [Pa]
+  // (sigma2 - sigma3) / (sigma1 - sigma3) of true triaxial compression: sigma22 between sigma11 and the
+  // axial stress [-].
+  std::optional<double> b;
   int cycles = 0;               // loops; 0: one way
   bool amplitude_of_q = false;  // loops turn at +-q of the start, else at +-strain
   double amplitude = 0;         // [Pa] or [-]
@@ -58,7 +61,7 @@ inline constexpr std::string_view test_names =
     "shear_constant_stress";
 
 // The keys of a [[segment]] with `test`. Throws InputError.
-ElementTest read_element_test(SceneTable& table);
+ElementTest read_element_test(SceneTable& table, int dimension);
 
 // Leads the driver along it. Throws StepError as PointDriver::run does.
 template <int D>

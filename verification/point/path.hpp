@@ -15,7 +15,7 @@ enum class Control {
   piola,        // the component of P of the same indices [Pa]; F there is unknown
   cauchy,       // the component of sigma of the same indices [Pa]; F there is unknown
   mean,         // tr sigma / D [Pa]; F there is unknown
-  difference    // the component of sigma less `other` [Pa]; F there is unknown
+  difference  // the component of sigma less one between `other` and the last [Pa]; F there is unknown
 };
 
 // What one component is led to, linearly from its value at the start of the segment.
@@ -24,6 +24,7 @@ struct Target {
   bool increment = true;  // value is added to the start value, not the end value itself
   double value = 0;       // default: F stays as it is
   int other = 0;          // the component that a difference is from
+  double share = 0;       // of the way from there to the last component of the diagonal [-]
 };
 
 struct ElementTest;

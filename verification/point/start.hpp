@@ -22,6 +22,7 @@ struct PackingStart {
                           // the contacts; Hertz-Mindlin: their secant; 0 without pressure [-]
   double void_ratio = 0;  // [-]
   double overlap = 0;     // mean, of the contacts' mean radius [-]
+  bool drag = false;      // a law in time
   std::vector<std::string> unusual;  // one text each
 
   // "mean pressure 1e+05 Pa, kn/p 300 [-], void ratio 0.2 [-]", and the same with
@@ -42,9 +43,15 @@ void warn(const std::string& name, const PackingStart& start);
 // One line on stdout, "NAME: starts at mean pressure ...", and what is unusual.
 void tell_start(const std::string& name, const PackingStart& start);
 
-// What a failure in one of the first steps may come of, and what to try; "" after them.
-std::string why_at_start(const PackingStart& start, int steps_done, const std::string& to_try);
-// For a path: smaller steps, when these are large for contacts so stiff.
-std::string smaller_steps(const PackingStart& start, const Segment& segment);
+// Whether kn/p is out of the usual range, as a text, else "".
+std::string unusual_stiffness(double stiffness);
+
+// What a failure in one of the first steps may come of; "" after them.
+std::string why_at_start(const PackingStart& start, int steps_done);
+// What to try after a load step of a body failed.
+std::string load_advice(const PackingStart& start, int steps_done);
+// What to try after a step of a path failed at this Cauchy stress, components row by row [Pa].
+std::string path_advice(const PackingStart& start, int steps_done, grainlaw_status status,
+                        const Segment& segment, const Eigen::VectorXd& cauchy);
 
 }  // namespace verification
