@@ -1,11 +1,13 @@
 #include "equilibrium/strategy.hpp"
 
 #include "base/constants.hpp"
+#include "base/error.hpp"
 #include "equilibrium/stages.hpp"
 #include "packing/geometry.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <utility>
 
 namespace grainlaw::core {
@@ -122,6 +124,7 @@ class Walk {
 
   Outcome run() {
     if (!find()) {
+      if (ran_away_) std::rethrow_exception(ran_away_);
       const auto& increment = workspace_.increment;
       outcome_.status = workspace_.increment.collapsed()    ? GRAINLAW_COLLAPSED
                         : increment.scale().touching() == 0 ? GRAINLAW_CONTACTS_LOST
@@ -141,6 +144,7 @@ class Walk {
       if (stage.kind == Stage::advancing && advancing_fails) return false;
       const bool done = enter(stage);
       if (stage.kind == Stage::fading) advancing_fails = !done;
+      if (ran_away_) continue;
       const bool accepted = done && (stage.kind != Stage::fading || !increment.bears());
       cost_.add(increment.cost);
       if (accepted && !increment.collapsed()) {
@@ -154,7 +158,17 @@ class Walk {
     return false;
   }
 
+  // A guess from which positions run away is dropped for the committed start.
   bool enter(const Stage& stage) {
+    bool done = attempt([&] { return go(stage); });
+    if (ran_away_ && request_.guess != nullptr) {
+      request_.guess = nullptr;
+      done = attempt([&] { return go(stage); });
+    }
+    return done;
+  }
+
+  bool go(const Stage& stage) {
     switch (stage.kind) {
       case Stage::as_asked:
         return solve_advancing(request_, request_.options->method, workspace_, outcome_);
@@ -167,17 +181,31 @@ class Walk {
     return false;
   }
 
+  // Whether it ended in an equilibrium; positions that run away are none.
+  template <class Action>
+  bool attempt(Action&& action) {
+    ran_away_ = nullptr;
+    try {
+      return action();
+    } catch (const Error& error) {
+      if (error.status != GRAINLAW_NOT_CONVERGED) throw;
+      ran_away_ = std::current_exception();
+      return false;
+    }
+  }
+
   void straighten() {
     workspace_.detour = workspace_.increment;
-    const bool whole = solve_whole(request_, workspace_, outcome_);
+    const bool whole = attempt([&] { return solve_whole(request_, workspace_, outcome_); });
     cost_.add(workspace_.increment.cost);
     if (!whole) std::swap(workspace_.increment, workspace_.detour);
   }
 
-  const Request<D>& request_;
+  Request<D> request_;
   Workspace<D>& workspace_;
   Outcome outcome_;
-  Cost cost_;  // of all stages together
+  Cost cost_;                    // of all stages together
+  std::exception_ptr ran_away_;  // of the last attempt, when positions did
 };
 
 }  // namespace

@@ -129,7 +129,7 @@ class Consolidation {
 };
 
 template <int D>
-Packing make_random(const GeneratorOptions& options, const ContactLaw& material_law) {
+Packing make_with_friction(const GeneratorOptions& options, const ContactLaw& material_law) {
   check_target<D>(options, material_law, 0.5 * (options.radius_min + options.radius_max));
   ContactLaw law = material_law;
   law.friction = options.friction;
@@ -140,6 +140,55 @@ Packing make_random(const GeneratorOptions& options, const ContactLaw& material_
     law.typical_overlap = overlap_at<D>(options.pressure, loose, law);
   }
   return Consolidation<D>(loose, options, law).run();
+}
+
+// At a pressure the void ratio rises with the friction, in jumps of few particles: bisection.
+template <int D>
+Packing find_friction(const GeneratorOptions& options, const ContactLaw& law) {
+  constexpr double close = 1e-3;  // of 1 + void ratio
+  constexpr int most_trials = 16;
+  GeneratorOptions trial = options;
+  trial.void_ratio = 0;
+  double found = 0;
+  const auto make = [&](double friction) {
+    trial.friction = friction;
+    Packing packing = make_with_friction<D>(trial, law);
+    found = cell_size<D>(packing) / solid_size<D>(packing) - 1;
+    return packing;
+  };
+  const auto met = [&] {
+    return std::abs(found - options.void_ratio) <= close * (1 + options.void_ratio);
+  };
+  double low = 0, high = law.friction;
+  Packing packing = make(low);
+  if (met()) return packing;
+  const double densest = found;
+  packing = make(high);
+  if (met()) return packing;
+  const double loosest = found;
+  if (options.void_ratio < densest || options.void_ratio > loosest)
+    wrong("void_ratio", options.void_ratio,
+          fmt::format(
+              "{:.4f} to {:.4f} at {:.6g} Pa: what friction from 0 to contact.friction while the "
+              "packing is made allows",
+              densest, loosest, options.pressure));
+  for (int k = 0; k < most_trials; ++k) {
+    const double middle = 0.5 * (low + high);
+    packing = make(middle);
+    if (met()) return packing;
+    (found < options.void_ratio ? low : high) = middle;
+  }
+  throw Error(
+      GRAINLAW_NOT_CONVERGED,
+      fmt::format("generator: void_ratio = {} at {:.6g} Pa was not met, found {:.4f}; try another "
+                  "seed or more {}",
+                  options.void_ratio, options.pressure, found, D == 2 ? "discs" : "spheres"));
+}
+
+template <int D>
+Packing make_random(const GeneratorOptions& options, const ContactLaw& law) {
+  return options.finds_friction ? find_friction<D>(options, law)
+                                : make_with_friction<D>(options, law);
 }
 
 }  // namespace

@@ -35,8 +35,9 @@ struct GeneratorOptions {
   double radius_min = 3e-3;  // [m]
   double radius_max = 7e-3;  // [m]
   std::uint64_t seed = 1;
-  double void_ratio = 0;  // target instead of the pressure [-]; 0: none
-  double friction = 0;    // tan(phi) during consolidation [-]
+  double void_ratio = 0;        // target instead of the pressure [-]; 0: none
+  double friction = 0;          // tan(phi) during consolidation [-]
+  bool finds_friction = false;  // finds the one that leads to the pressure and the void ratio
   // Wanted fabric anisotropy, largest / smallest eigenvalue - 1 (Liu et al. eq. 38); below 0: not
   // controlled. Its major direction is an angle from axis 1 for discs [rad], a vector for spheres.
   double anisotropy = -1;

@@ -51,7 +51,12 @@ void read_random(TomlTable& table, GeneratorOptions& generator, long dimension) 
   generator.radius_min = radii[0];
   generator.radius_max = radii[1];
   table.required("seed", integer_between(0), generator.seed);
-  table.require_either("pressure", "void_ratio");
+  generator.finds_friction = table.has("pressure") && table.has("void_ratio");
+  if (!generator.finds_friction) table.require_either("pressure", "void_ratio");
+  for (const char* key : {"friction", "anisotropy"})
+    if (generator.finds_friction && table.has(key))
+      table.fail(key, "a number",
+                 "none beside pressure and void_ratio together, which find friction");
   table.optional("pressure", number_above(0), generator.pressure);
   table.optional("void_ratio", number_above(0), generator.void_ratio);
   table.optional("friction", number_at_least(0), generator.friction);

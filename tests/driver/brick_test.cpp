@@ -181,10 +181,36 @@ TEST_F(brick, mistakes_of_scenes_are_told) {
   expect_told(steps, box + moved("top", "w", 0), "component: found \"w\", expected one of x, y, z");
   expect_told(steps, box + rollers + "[[tie]]\non = 'bottom'\ncomponent = 'z'\n",
               "on: found nodes whose displacement is prescribed or tied already");
-  expect_told(steps, box + moved("left", "x", 0), "displacement: found none of front or back");
+  expect_told(steps, box + moved("left", "x", 0),
+              "displacement: found nothing that holds 3 independent rigid motions");
   expect_told(steps, box + rollers + moved("front", "y", 1), "value: found 1, expected 0");
   expect_told(steps + "solver = 'relaxation'\n", box + rollers, "solver: found \"relaxation\"");
   expect_told(steps, box + rollers + "[cycle]\non = 'top'\n", "cycle");
+}
+
+TEST_F(brick, is_held_when_its_conditions_leave_no_rigid_motion) {
+  const auto tied = [](const std::string& set, const std::string& component) {
+    return "[[tie]]\non = '" + set + "'\ncomponent = '" + component + "'\n";
+  };
+  const auto on = [](const std::string& set, const std::string& components) {
+    std::string all;
+    for (const char component : components) all += moved(set, std::string(1, component), 0);
+    return all;
+  };
+  const std::string clamped = on("bottom", "xyz");
+  EXPECT_NO_THROW(read_brick_scene(scene("steps = 1\n", box + clamped)));
+  EXPECT_NO_THROW(read_brick_scene(scene("steps = 1\n", box + on("right", "y") + on("top", "xz"))));
+  const auto expect_free = [&](const std::string& conditions, const std::string& motion) {
+    expect_told("steps = 1\n", box + conditions,
+                "found nothing that holds " + motion + ", expected");
+  };
+  expect_free(on("left", "x") + on("front", "y"), "translation along z");
+  expect_free(on("bottom", "z") + tied("left", "x") + tied("front", "y"),
+              "2 independent rigid motions");
+  expect_free(on("left", "z") + on("bottom", "x") + on("front", "y"),
+              "rotation about an axis along y");
+  expect_free(on("bottom", "z"), "3 independent rigid motions");
+  expect_free("", "6 independent rigid motions");
 }
 
 }  // namespace

@@ -150,19 +150,64 @@ TEST_F(laboratory_test, shears_keep_their_volume_or_the_stress_on_their_planes) 
   EXPECT_EQ(stress.back().deformation(0, 0), 1);
 }
 
+// q at every turn, as it was asked for, on the step that a test has by itself and on others.
+template <int D>
+void expect_turns(const std::vector<RecordOf<D>>& records, int cycles, double amplitude) {
+  const auto q = [&](std::size_t k) {
+    return records[k].axial_stress() - records[k].lateral_stress() -
+           (records[0].axial_stress() - records[0].lateral_stress());
+  };
+  std::vector<double> turns;
+  for (std::size_t k = 1; k + 1 < records.size(); ++k)
+    if ((records[k].axial_strain() - records[k - 1].axial_strain()) *
+            (records[k + 1].axial_strain() - records[k].axial_strain()) <
+        0)
+      turns.push_back(q(k));
+  turns.push_back(q(records.size() - 1));
+  ASSERT_EQ(turns.size(), static_cast<std::size_t>(2 * cycles + 1));
+  for (std::size_t k = 0; k + 1 < turns.size(); ++k)
+    EXPECT_NEAR(turns[k], k % 2 == 0 ? amplitude : -amplitude, 1e-6 * amplitude) << k;
+  EXPECT_NEAR(turns.back(), 0, 1e-6 * amplitude);
+}
+
 TEST_F(laboratory_test, loops_between_stresses_turn_at_them) {
-  const auto records =
-      path<2>("[[segment]]\ntest = 'drained'\ncycles = 2\namplitude = { q = 20e3 }\nstep = 2e-4\n");
-  double high = -1e9, low = 1e9;
-  for (const Record& record : records) {
-    const double q = record.axial_stress() - record.lateral_stress();
-    high = std::max(high, q);
-    low = std::min(low, q);
+  const std::string loops = "cycles = 2\namplitude = { q = 20e3 }\n";
+  for (const char* step : {"", "step = 2e-4\n"}) {
+    expect_turns<2>(path<2>(std::string("[[segment]]\ntest = 'drained'\n") + loops + step), 2,
+                    20e3);
+    expect_turns<3>(path<3>(std::string("[[segment]]\ntest = 'undrained'\n") + loops + step), 2,
+                    20e3);
   }
-  const double q = records.front().axial_stress() - records.front().lateral_stress();
-  EXPECT_NEAR(high, q + 20e3, 1e3);
-  EXPECT_NEAR(low, q - 20e3, 1e3);
-  EXPECT_NEAR(records.back().axial_stress() - records.back().lateral_stress(), q, 1e3);
+}
+
+TEST_F(laboratory_test, a_step_that_may_not_stay_is_taken_back) {
+  const PointScene scene = read("[[segment]]\nsteps = 1\ndF22 = -1e-3\n");
+  const Material material = make_material(scene.material);
+  PointDriver driver(material, scene.options), straight(material, scene.options);
+  const Segment& step = scene.segments[0];
+  int seen = 0;
+  const auto observe = [&](const PointStep&) { ++seen; };
+  EXPECT_FALSE(driver.run_steps(step, observe, {}, [](const Record&) { return false; }));
+  EXPECT_EQ(seen, 0);
+  EXPECT_EQ(driver.record().step, 0);
+  EXPECT_TRUE(driver.run_steps(step, observe, {}, [](const Record&) { return true; }));
+  straight.run_steps(step, {});
+  EXPECT_EQ(seen, 1);
+  EXPECT_EQ(driver.record().stress, straight.record().stress);
+  EXPECT_EQ(driver.record().effort.evaluations, 2 * straight.record().effort.evaluations);
+}
+
+TEST_F(laboratory_test, b_keeps_the_intermediate_stress_between_the_others) {
+  for (const char* test : {"drained", "constant_p", "undrained"}) {
+    const auto records = path<3>(std::string("[[segment]]\ntest = '") + test +
+                                 "'\nb = 0.3\nstrain = 0.005\nsteps = 5\n");
+    const auto& sigma = records.back().cauchy;
+    EXPECT_LT(sigma(2, 2), 1.05 * sigma(0, 0)) << test;
+    EXPECT_NEAR((sigma(1, 1) - sigma(0, 0)) / (sigma(2, 2) - sigma(0, 0)), 0.3, 1e-4) << test;
+  }
+  EXPECT_LT(largest_change_of_volume<3>(
+                path<3>("[[segment]]\ntest = 'undrained'\nb = 1\nstrain = 0.002\nsteps = 2\n")),
+            1e-12);
 }
 
 TEST_F(laboratory_test, stops_where_it_is_asked_to) {
@@ -197,6 +242,9 @@ TEST_F(laboratory_test, refuses_what_it_does_not_know) {
   expect_refused("test = 'drained'\ncycles = 3\n", "amplitude");
   expect_refused("test = 'drained'\namplitude = { q = 1e3 }\n", "one beside cycles");
   expect_refused("test = 'drained'\nstop = { f = 1.0 }\n", "stop.f");
+  expect_refused("test = 'drained'\nb = 2\n", "from 0 to 1");
+  expect_refused("test = 'drained'\nb = 0.5\n", "b: found two dimensions");
+  expect_refused("test = 'isotropic'\nb = 0.5\n", "b: found an unknown key");
   expect_refused("steps = 1\nsigma11 = 'sigma33'\n", "the name of another stress");
   expect_refused("steps = 1\nsigma11 = 'sigma22'\nsigma22 = 'sigma11'\n",
                  "which equals sigma11 itself");

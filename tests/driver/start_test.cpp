@@ -133,5 +133,35 @@ TEST_F(start, a_failure_in_the_first_steps_says_what_the_packing_is_like_and_wha
       << end.text;
 }
 
+TEST_F(start, of_a_path_that_leaves_the_usual_stiffness_is_told_once) {
+  const PointScene scene = read("test = 'isotropic'\npressure = 20e6\nsteps = 20\n");
+  testing::internal::CaptureStderr();
+  const PointEnd end = run(scene);
+  const std::string told = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(end.status, GRAINLAW_OK) << end.text;
+  const auto first = told.find("unusual from step ");
+  ASSERT_NE(first, std::string::npos) << told;
+  EXPECT_NE(told.find(" on: kn/p = 2", first), std::string::npos) << told;
+  EXPECT_EQ(told.find("unusual from step ", first + 1), std::string::npos) << told;
+}
+
+TEST_F(start, a_stress_beyond_the_strength_is_told_once_and_strain_is_advised) {
+  PointScene scene = read("steps = 10\nsigma22 = -1000e3\nsigma11 = -100e3\n");
+  scene.may_end = false;
+  testing::internal::CaptureStdout();
+  std::string told;
+  try {
+    run(scene);
+  } catch (const ComputationError& error) {
+    told = error.what();
+  }
+  const std::string out = testing::internal::GetCapturedStdout();
+  EXPECT_NE(told.find("the packing may not carry this stress: prescribe F22, not sigma22"),
+            std::string::npos)
+      << told;
+  EXPECT_EQ(told.find("tolerance"), std::string::npos) << told;
+  EXPECT_EQ(out.find("ended:"), std::string::npos) << out;
+}
+
 }  // namespace
 }  // namespace verification

@@ -10,8 +10,11 @@
 
 namespace verification {
 
-History::History(std::filesystem::path stem, const std::vector<std::string>& columns)
-    : stem_(std::move(stem)), csv_(stem_.string() + ".csv", columns) {}
+History::History(std::filesystem::path stem, int dimension, bool drag)
+    : stem_(std::move(stem)),
+      drag_(drag),
+      csv_(stem_.string() + ".csv",
+           dimension == 3 ? record_columns<3>(drag) : record_columns<2>(drag)) {}
 
 bool History::draw_figure(const std::string& abscissa) const {
   return draw_history(read_csv(csv_.path()), abscissa, stem_);
@@ -159,6 +162,19 @@ bool draw_history(const CsvTable& table, const std::string& abscissa,
   return draw(figure, stem);
 }
 
+std::string much_drag_text(const CsvTable& table) {
+  if (std::find(table.names.begin(), table.names.end(), "unbalanced") == table.names.end())
+    return {};
+  const std::vector<double>& values = table["unbalanced"];
+  const auto above =
+      std::count_if(values.begin(), values.end(), [](double value) { return value > much_drag; });
+  if (above == 0) return {};
+  return fmt::format(
+      "\n  unbalanced up to {:.2g} [-], above {:g} in {} steps: drag carries part of the load; a "
+      "larger solver.viscous_time lowers it",
+      *std::max_element(values.begin(), values.end()), much_drag, above);
+}
+
 std::string history_summary(const CsvTable& table, const Effort& unfinished) {
   const auto sum = [&](const char* name, double more) {
     const std::vector<double>& values = table[name];
@@ -166,12 +182,13 @@ std::string history_summary(const CsvTable& table, const Effort& unfinished) {
   };
   return fmt::format(
       "{:.0f} steps, {:.0f} iterations, {:.0f} evaluations, {:.0f} relaxation steps, "
-      "{:.0f} factorisations, {:.0f} cuts, {:.0f} loose, {:.0f} with advanced history",
+      "{:.0f} factorisations, {:.0f} cuts, {:.0f} loose, {:.0f} with advanced history{}",
       table.rows() == 0 ? 0 : table["step"].back(), sum("newton_iterations", unfinished.iterations),
       sum("evaluations", unfinished.evaluations),
       sum("relaxation_steps", static_cast<double>(unfinished.relaxation_steps)),
       sum("factorisations", unfinished.factorisations), sum("step_cuts", unfinished.cuts),
-      sum("loose_parts", unfinished.loose), sum("history_advanced", unfinished.history_advanced));
+      sum("loose_parts", unfinished.loose), sum("history_advanced", unfinished.history_advanced),
+      much_drag_text(table));
 }
 
 void write_vtk(const grainlaw_state* state, const std::filesystem::path& stem, int step) {

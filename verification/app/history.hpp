@@ -23,24 +23,33 @@ std::string strain_text(const std::string& abscissa, double strain);
 bool draw_history(const CsvTable& table, const std::string& abscissa,
                   const std::filesystem::path& stem);
 
-// One line about what the run of such a table cost, with that of a step that did not end.
+// Drag beyond this share of the mean contact force is told: it then carries what a weak contact does,
+// and stress is a per cent or more above that of a slower path [-].
+inline constexpr double much_drag = 0.1;
+
+// A line about the largest drag, "" where it is not much.
+std::string much_drag_text(const CsvTable& table);
+
+// One line about what the run of such a table cost, with that of a step that did not end, and
+// much_drag_text.
 std::string history_summary(const CsvTable& table, const Effort& unfinished = {});
 
 class History {
  public:
-  // Opens stem.csv, of records of discs or of spheres.
-  explicit History(std::filesystem::path stem,
-                   const std::vector<std::string>& columns = record_columns());
+  // Opens stem.csv, of records of discs or of spheres, with drag or without.
+  explicit History(std::filesystem::path stem, int dimension = 2, bool drag = false);
 
   template <int D>
   void add(const RecordOf<D>& record) {
-    csv_.row(record_values(record));
+    csv_.row(record_values(record, drag_));
   }
   [[nodiscard]] bool draw_figure(const std::string& abscissa) const;
+  [[nodiscard]] std::string much_drag() const { return much_drag_text(read_csv(csv_.path())); }
   [[nodiscard]] std::string summary(const Effort& unfinished = {}) const;
 
  private:
   std::filesystem::path stem_;
+  bool drag_;
   CsvWriter csv_;
 };
 

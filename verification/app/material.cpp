@@ -114,6 +114,10 @@ int dimension_of(const MaterialSource& source) {
   return unfold(source).changes["dimension"].value_or(0) == 3 ? 3 : 2;
 }
 
+bool has_drag(const MaterialSource& source) {
+  return unfold(source).changes["solver"]["viscous_time"].value_or(0.0) > 0;
+}
+
 Material make_material(const MaterialSource& source, int dimension) {
   const bool as_it_is = source.changes.empty() && !source.file.empty();
   const MaterialText text = as_it_is ? MaterialText{} : material_text(source);

@@ -47,6 +47,8 @@ MaterialText material_text(const MaterialSource& source);
 
 // 3 when the description says so, else 2; errors are reported when the material is created.
 int dimension_of(const MaterialSource& source);
+// Whether its law is one in time.
+bool has_drag(const MaterialSource& source);
 
 // Creates the material. Throws InputError for a wrong description or dimension, ComputationError
 // without an equilibrium at F = I.

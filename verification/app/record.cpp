@@ -53,6 +53,7 @@ RecordOf<D> make_record(const grainlaw_state* state, const TensorOf<D>& deformat
   record.contacts = report.contacts;
   record.sliding = report.sliding;
   record.status_changes = report.status_changes;
+  record.unbalanced = report.unbalanced;
   return record;
 }
 
@@ -76,11 +77,12 @@ RecordOf<D> mean(const std::vector<RecordOf<D>>& records) {
         &Record::external_work, &Record::contacts, &Record::sliding, &Record::status_changes,
         &Record::broken_bonds, &Record::escaped_particles})
     add(member);
+  for (const Record& record : records) sum.unbalanced = std::max(sum.unbalanced, record.unbalanced);
   return sum;
 }
 
 template <int D>
-std::vector<std::string> record_columns() {
+std::vector<std::string> record_columns(bool drag) {
   std::vector<std::string> columns{"step[-]", "axial_strain[-]", "volumetric_strain[-]",
                                    "stress_ratio[-]"};
   const auto tensor = [&](const std::string& name, const char* unit) {
@@ -106,11 +108,12 @@ std::vector<std::string> record_columns() {
        "relaxation_steps[-]", "servo_corrections[-]", "factorisations[-]", "subincrements[-]",
        "history_advanced[-]", "broken_bonds[-]", "escaped_particles[-]", "jumps_crossed[-]"});
   // clang-format on
+  if (drag) columns.emplace_back("unbalanced[-]");
   return columns;
 }
 
 template <int D>
-std::vector<double> record_values(const RecordOf<D>& r) {
+std::vector<double> record_values(const RecordOf<D>& r, bool drag) {
   std::vector<double> values{static_cast<double>(r.step), r.axial_strain(), r.volumetric_strain(),
                              r.stress_ratio()};
   const auto tensor = [&](const TensorOf<D>& t) {
@@ -133,6 +136,7 @@ std::vector<double> record_values(const RecordOf<D>& r) {
   values.push_back(r.broken_bonds);
   values.push_back(r.escaped_particles);
   values.push_back(e.crossed);
+  if (drag) values.push_back(r.unbalanced);
   return values;
 }
 
@@ -142,9 +146,9 @@ template RecordOf<3> make_record<3>(const grainlaw_state*, const TensorOf<3>&, c
                                     const grainlaw_report&);
 template RecordOf<2> mean<2>(const std::vector<RecordOf<2>>&);
 template RecordOf<3> mean<3>(const std::vector<RecordOf<3>>&);
-template std::vector<std::string> record_columns<2>();
-template std::vector<std::string> record_columns<3>();
-template std::vector<double> record_values<2>(const RecordOf<2>&);
-template std::vector<double> record_values<3>(const RecordOf<3>&);
+template std::vector<std::string> record_columns<2>(bool);
+template std::vector<std::string> record_columns<3>(bool);
+template std::vector<double> record_values<2>(const RecordOf<2>&, bool);
+template std::vector<double> record_values<3>(const RecordOf<3>&, bool);
 
 }  // namespace verification

@@ -48,6 +48,7 @@ struct RecordOf {
   double status_changes = 0;
   double broken_bonds = 0;       // since F = I
   double escaped_particles = 0;  // inner particles outside the polygon of a frame
+  double unbalanced = 0;         // with drag: the largest on a particle / mean contact force [-]
   Effort effort;
 
   // Axial axis: 2 of discs, 3 of spheres. Axial strain 1 - F22 or 1 - F33, compression positive;
@@ -74,13 +75,14 @@ template <int D>
 RecordOf<D> make_record(const grainlaw_state* state, const TensorOf<D>& deformation,
                         const TensorOf<D>& stress, const grainlaw_report& report);
 
-// Mean over points, except for step, effort and numbers derived from F.
+// Mean over points, except for step, effort and numbers derived from F; of `unbalanced` the largest.
 template <int D>
 RecordOf<D> mean(const std::vector<RecordOf<D>>& records);
 
+// With drag the last one is `unbalanced`.
 template <int D = 2>
-std::vector<std::string> record_columns();
+std::vector<std::string> record_columns(bool drag = false);
 template <int D>
-std::vector<double> record_values(const RecordOf<D>& record);
+std::vector<double> record_values(const RecordOf<D>& record, bool drag = false);
 
 }  // namespace verification

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ctime>
 #include <exception>
 #include <optional>
@@ -34,7 +35,7 @@ void run_brick_scene(const SceneFile& file, const std::string& directory, int st
   tell_start(scene.name, begin);
   BrickNewton solver(scene.model, material, scene.newton, scene.threads);
   Written written(stem);
-  History history(stem, record_columns<3>());
+  History history(stem, 3, has_drag(scene.material));
   std::vector<std::string> columns = force_columns(scene.model);
   columns.insert(columns.begin(), "step[-]");
   CsvWriter forces(stem.string() + "_force.csv", columns);
@@ -65,13 +66,13 @@ void run_brick_scene(const SceneFile& file, const std::string& directory, int st
       if (done < scene.steps) Interrupt::check();
     }
   } catch (const StepError& error) {
-    end = error.what() + why_at_start(begin, done, "try more load steps or smaller loads");
-    stopped = std::make_exception_ptr(StepError(error.status, end));
+    stopped = std::make_exception_ptr(
+        StepError(error.status, error.what() + load_advice(begin, std::max(done, 0))));
   } catch (const Interrupted& stop) {
     stopped = std::current_exception();
     end = fmt::format("{} after step {} of {}", stop.text(), done, scene.steps);
   }
-  if (end.empty() && done < scene.steps)
+  if (!stopped && done < scene.steps)
     end = fmt::format("left after step {} of {} as asked", done, scene.steps);
   progress.reset();
   if (done >= 0) {

@@ -2,6 +2,7 @@
 
 #include "app/history.hpp"
 #include "app/parts.hpp"
+#include "brick/rigid_motion.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -100,25 +101,6 @@ void read_conditions(SceneTable& scene, BrickModel& model) {
   }
 }
 
-// Fails unless each axis has a side with prescribed normal component, which excludes rigid motions.
-void check_held(SceneTable& scene, const BrickModel& model) {
-  constexpr std::array<std::array<const char*, 2>, 3> sides{
-      {{"left", "right"}, {"front", "back"}, {"bottom", "top"}}};
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto& side = sides[static_cast<std::size_t>(axis)];
-    const bool held = std::any_of(model.displacements.begin(), model.displacements.end(),
-                                  [&](const auto& condition) {
-                                    return condition.component == axis &&
-                                           (condition.nodes == model.mesh.node_sets.at(side[0]) ||
-                                            condition.nodes == model.mesh.node_sets.at(side[1]));
-                                  });
-    if (!held)
-      scene.fail("displacement",
-                 fmt::format("none of {} or {} in direction {}", side[0], side[1], "xyz"[axis]),
-                 "one for each axis, which holds the body");
-  }
-}
-
 }  // namespace
 
 BrickScene read_brick_scene(const SceneFile& file) {
@@ -139,7 +121,9 @@ BrickScene read_brick_scene(const SceneFile& file) {
   scene.model.mesh = read_mesh(table.table("mesh"));
   read_conditions(table, scene.model);
   table.close();
-  check_held(table, scene.model);
+  if (const std::string motion = free_motion(scene.model); !motion.empty())
+    table.fail("displacement", "nothing that holds " + motion,
+               "[[displacement]] or [[tie]] that prevent every rigid motion");
   return scene;
 }
 

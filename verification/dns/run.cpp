@@ -50,7 +50,7 @@ SpecimenEnd run_specimen(const SpecimenScene& scene, const std::filesystem::path
   Specimen specimen(scene, stem);
   Written written(stem);
   written.add("_specimen_*.csv");
-  History history(stem);
+  History history(stem, 2, has_drag(scene.material));
   written.add(".csv");
   const SnapshotFiles files(stem.string() + "_state");
   std::optional<Progress> progress(scene.name);
@@ -92,7 +92,7 @@ SpecimenEnd run_specimen(const SpecimenScene& scene, const std::filesystem::path
   if (!panels.empty() &&
       draw_snapshots(panels, scene.picture_force, "", stem.string() + "_packing"))
     written.add("_packing.svg");
-  fmt::print("{}: {}\n{}\n", scene.name, description(end), written.text());
+  fmt::print("{}: {}{}\n{}\n", scene.name, description(end), history.much_drag(), written.text());
   if (stopped) std::rethrow_exception(stopped);
   if (end.steps < end.steps_wanted && !scene.may_end) throw ComputationError(end.text);
   return end;

@@ -26,12 +26,13 @@ MaterialSource prestressed(const MaterialSource& source, const std::vector<Segme
   const std::string prefix = stem.string() + "_prestress";
   PackingStart start = look_at_start(driver.state(), source, prefix);
   for (std::string& text : far_targets(start, path)) start.unusual.push_back(std::move(text));
+  const Segment* led = nullptr;
   try {
-    for (const Segment& segment : path) driver.run(segment, {});
+    for (const Segment& segment : path) driver.run(*(led = &segment), {});
   } catch (const StepError& error) {
-    const std::string to_try = smaller_steps(start, path.front());
     throw ComputationError(fmt::format("{}: prestress: {}{}", source.scene.string(), error.what(),
-                                       why_at_start(start, driver.record().step, to_try)));
+                                       path_advice(start, driver.record().step, error.status, *led,
+                                                   components_of<2>(driver.record().cauchy))));
   }
   check(grainlaw_state_write_packing(driver.state(), prefix.c_str()), "writing " + prefix);
   return with_packing(source, prefix);

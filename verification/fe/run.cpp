@@ -123,11 +123,12 @@ class Run {
         finish(true);
       } catch (const std::exception&) {  // adds nothing to the reported error
       }
-      const char* to_try = done_ < 0 ? "look at the loads that act from time 0 on, which load "
-                                       "steps do not divide; pressure presses where it is above 0"
-                                     : "try more load steps or smaller loads";
-      throw ComputationError(fmt::format("{}: {}{}", file_.string(), error.what(),
-                                         why_at_start(start_, std::max(done_, 0), to_try)));
+      const std::string advice =
+          done_ < 0 ? why_at_start(start_, 0) +
+                          "; look at the loads that act from time 0 on, which load "
+                          "steps do not divide; pressure presses where it is above 0"
+                    : load_advice(start_, done_);
+      throw ComputationError(fmt::format("{}: {}{}", file_.string(), error.what(), advice));
     } catch (const Interrupted&) {
       finish();
       throw;

@@ -21,7 +21,9 @@ constexpr KeyText texts[] = {
     {"packing.radii", "m", "uniform by number between the two, of compaction and growth"},
     {"packing.seed", "-", "of chance: the same seed makes the same packing"},
     {"packing.pressure", "Pa", "to which the packing is brought, compression positive"},
-    {"packing.void_ratio", "-", "to which the packing is brought instead of a pressure"},
+    {"packing.void_ratio", "-",
+     "to which the packing is brought instead of a pressure; with one, by a friction up to "
+     "contact.friction that is found"},
     {"packing.friction", "-", "tan(phi) while the packing is made; 0 makes the densest"},
     {"packing.anisotropy", "-",
      "wanted anisotropy of the contact normals; needs `friction` > 0; -1: as it comes"},

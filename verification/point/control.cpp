@@ -43,8 +43,11 @@ Controlled<D> controlled(const Conditions<D>& conditions, const TensorOf<D>& def
         }
         break;
       case Control::difference:
-        result.value(k) = sigma(k) - sigma(target.other);
-        result.derivative.row(k) = spatial.row(k) - spatial.row(target.other);
+        result.value(k) = sigma(k) - sigma(target.other) -
+                          target.share * (sigma(D * D - 1) - sigma(target.other));
+        result.derivative.row(k) =
+            spatial.row(k) - spatial.row(target.other) -
+            target.share * (spatial.row(D * D - 1) - spatial.row(target.other));
         break;
     }
   }

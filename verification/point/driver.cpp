@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace verification {
@@ -213,16 +214,17 @@ TestEnd PointDriverOf<D>::run(const Segment& segment, const PointObserver& obser
 }
 
 template <int D>
-void PointDriverOf<D>::run_steps(const Segment& segment, const PointObserver& observe,
-                                 const CutObserver& observe_cut) {
+bool PointDriverOf<D>::run_steps(const Segment& segment, const PointObserver& observe,
+                                 const CutObserver& observe_cut, const PointJudgeOf<D>& may_stay) {
   const ComponentsOf<D> start =
       controlled<D>(conditions_of<D>(segment), deformation_, evaluation_).value;
   const double volume = segment.volume > 0 ? segment.volume : deformation_.determinant();
   if (goal_at(segment, start, volume, 0).mixed && !has_tangent_) renew_tangent();
   for (int step = 1; step <= segment.steps; ++step) {
-    if (left()) return;
+    if (left()) return true;
     const int number = record_.step + 1;
-    effort_ = {};
+    std::optional<PointDriverOf> before;
+    if (may_stay) before.emplace(*this);
     double done = 0;
     double fraction = 0;
     TensorOf<D> committed;
@@ -250,14 +252,20 @@ void PointDriverOf<D>::run_steps(const Segment& segment, const PointObserver& ob
                                          D, deformation_(D - 1, D - 1), deformation_(0, 1));
     const Parts parts = solve_in_parts(0, 1, name, options_.max_cuts, options_.loose_tolerance > 0,
                                        attempt, observe_cut);
-    effort_.loose = parts.loose;
+    effort_.loose += parts.loose;
     record_ = make_record<D>(state_.get(), deformation_, evaluation_.stress, evaluation_.report);
     record_.step = number;
     record_.external_work = work_;
+    if (may_stay && !may_stay(record_)) {
+      before->effort_ = effort_;
+      *this = std::move(*before);
+      return false;
+    }
     record_.effort = std::exchange(effort_, {});
     if (observe) observe({state_, committed, evaluation_, record_, fraction});
     state_.commit();
   }
+  return true;
 }
 
 template class PointDriverOf<2>;

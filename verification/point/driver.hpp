@@ -33,6 +33,9 @@ struct PointStepOf {
 };
 template <int D>
 using PointObserverOf = std::function<void(const PointStepOf<D>&)>;
+// Whether a step may stay, by its record.
+template <int D>
+using PointJudgeOf = std::function<bool(const RecordOf<D>&)>;
 
 template <int D>
 class PointDriverOf {
@@ -47,6 +50,10 @@ class PointDriverOf {
   // earlier parts stay done.
   TestEnd run(const Segment& segment, const PointObserver& observe,
               const CutObserver& observe_cut = {});
+  // A segment without a test. A step that may not stay is taken back before anybody observes it, and
+  // the rest is left: false.
+  bool run_steps(const Segment& segment, const PointObserver& observe,
+                 const CutObserver& observe_cut = {}, const PointJudgeOf<D>& may_stay = {});
 
   // Whether max_steps is reached.
   [[nodiscard]] bool left() const {
@@ -58,8 +65,6 @@ class PointDriverOf {
   [[nodiscard]] const grainlaw_state* state() const { return state_.get(); }
 
  private:
-  void run_steps(const Segment& segment, const PointObserver& observe,
-                 const CutObserver& observe_cut);
   struct Goal;
   struct Iterate;
   Goal goal_at(const Segment& segment, const ComponentsOf<D>& start, double volume,

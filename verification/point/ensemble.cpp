@@ -50,7 +50,9 @@ Spread spread_of(const std::vector<CsvTable>& tables) {
 }
 
 void write_table(const Spread& spread, bool spheres, const std::filesystem::path& path) {
-  const std::vector<std::string> units = spheres ? record_columns<3>() : record_columns<2>();
+  const bool drag = spread.column("unbalanced") < spread.names.size();
+  const std::vector<std::string> units =
+      spheres ? record_columns<3>(drag) : record_columns<2>(drag);
   std::vector<std::string> columns{"runs[-]"};
   for (const std::string& name : units) columns.insert(columns.end(), {name, "sd_" + name});
   std::vector<std::vector<double>> rows;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 namespace verification {
 namespace {
@@ -52,9 +53,10 @@ class Course {
 
   [[nodiscard]] const RecordOf<D>& record() const { return driver_.record(); }
   [[nodiscard]] double pressure() const { return record().mean_pressure(); }
-  [[nodiscard]] double deviator() const {
-    return test_.shear() ? record().cauchy(0, D - 1) : record().deviatoric_stress();
+  [[nodiscard]] double deviator(const RecordOf<D>& at) const {
+    return test_.shear() ? at.cauchy(0, D - 1) : at.deviatoric_stress();
   }
+  [[nodiscard]] double deviator() const { return deviator(record()); }
 
   // Reason to stop after a step; "" to continue.
   [[nodiscard]] TestEnd stopped(const RecordOf<D>& before) const {
@@ -114,50 +116,79 @@ class Course {
                    : Target{Control::difference, false, sigma_(i, i) - sigma_(0, 0), 0};
     }
     if (test_.kind == TestKind::undrained) step.volume = start_.determinant();
+    if (test_.b) {
+      constexpr std::size_t intermediate = 1;
+      step.target[(D + 1) * intermediate] = {Control::difference, false, 0, 0, *test_.b};
+      step.keeps_volume[intermediate] = false;
+    }
     if (test_.kind == TestKind::shear_pressure)
       stress(axial, test_.held ? -*test_.held : sigma_(D - 1, D - 1));
     return step;
   }
 
-  // Makes a step; returns false when the test has ended.
-  bool make(double way, double pressure = 0) {
+  // Makes a step; returns false when it was taken back.
+  bool make(double way, double pressure = 0, const PointJudgeOf<D>& may_stay = {}) {
     const RecordOf<D> before = record();
-    driver_.run(step_to(way, pressure), observe_, observe_cut_);
+    if (!driver_.run_steps(step_to(way, pressure), observe_, observe_cut_, may_stay)) return false;
     way_ = way;
     end_ = stopped(before);
-    return end_.text.empty() && !driver_.left();
+    return true;
   }
+
+  [[nodiscard]] bool over() const { return !end_.text.empty() || driver_.left(); }
 
   // Drives to a strain in equal steps.
   bool lead(double to) {
     const double from = way_;
     const int count =
         std::max(1, static_cast<int>(std::ceil(std::abs(to - from) / test_.step - 1e-9)));
-    for (int k = 1; k <= count; ++k)
-      if (!make(k == count ? to : from + (to - from) * k / count)) return false;
-    return true;
+    for (int k = 1; k <= count && !over(); ++k)
+      make(k == count ? to : from + (to - from) * k / count);
+    return !over();
   }
 
-  // Drives in this direction until q reaches the wanted value; the last steps are shorter.
+  // Drives in this direction until q reaches the wanted value: whole steps, and a last one as long as
+  // it takes.
   bool lead_to_q(double wanted, double direction) {
-    constexpr double near = 1e-3, least = 0.02;  // tolerance over amplitude; least part
-    const double goal = direction * wanted, close = near * test_.amplitude;
-    double share = 1;
+    constexpr double close = 1e-6;                  // of the amplitude
+    const auto rest = [&](const RecordOf<D>& at) {  // of the amplitude [-]
+      return direction * (wanted - deviator(at)) / test_.amplitude;
+    };
     for (int k = 0; k < most_legs; ++k) {
-      const double before = direction * deviator(), from = way_;
-      if (before >= goal - close) return true;
-      if (!make(way_ + direction * share * test_.step)) return false;
-      const double gained = direction * deviator() - before;
-      const double slope = gained / std::abs(way_ - from);
-      share = slope > 0
-                  ? std::clamp((goal - direction * deviator()) / (slope * test_.step), least, 1.0)
-                  : 1;
+      if (rest(record()) <= close) return true;
+      step_towards(rest, close, direction);
+      if (over()) return false;
       if (std::abs(way_) > std::abs(test_.end)) {
         end_ = {fmt::format("strain {:.4g} reached before q {:.4g} Pa", way_, wanted), false};
         return false;
       }
     }
     return false;
+  }
+
+  // A whole step, or the share of it where nothing is left, by regula falsi (Illinois). Where q jumps
+  // over the goal, the least share that does.
+  template <class Rest>
+  void step_towards(const Rest& rest, double close, double direction) {
+    constexpr double least = 1e-10;  // of a step, between two shares
+    const double from = way_;
+    double share = 1, low = 0, left_at_low = rest(record()), high = 1, left_at_high = 0, left = 0;
+    bool jump = false;
+    const auto may_stay = [&](const RecordOf<D>& at) {
+      const double previous = std::exchange(left, rest(at));
+      if (jump || std::abs(left) <= close || (share == 1 && left > 0)) return true;
+      const bool again = previous * left > 0;  // on the same side: the other end is stale
+      (left > 0 ? low : high) = share;
+      (left > 0 ? left_at_low : left_at_high) = left;
+      if (again) (left > 0 ? left_at_high : left_at_low) /= 2;
+      return false;
+    };
+    while (!make(from + direction * share * test_.step, 0, may_stay)) {
+      jump = high - low < least;
+      share =
+          jump ? high : (low * left_at_high - high * left_at_low) / (left_at_high - left_at_low);
+    }
+    if (jump) ++jumps_;
   }
 
   void loop() {
@@ -171,10 +202,11 @@ class Course {
           return;
         }
       }
-    if (test_.amplitude_of_q)
-      lead_to_q(q_, 1);
-    else
+    if (!test_.amplitude_of_q)
       lead(0);
+    else if (lead_to_q(q_, 1) && jumps_ > 0)
+      end_.text = fmt::format("q jumped past its amplitude at {} of {} turns", jumps_,
+                              2 * test_.cycles + 1);
   }
 
   void lead_by_stress() {
@@ -184,7 +216,8 @@ class Course {
     for (int leg = 0; leg < std::max(1, 2 * test_.cycles); ++leg)
       for (int k = 1; k <= count; ++k) {
         const double share = static_cast<double>(k) / count;
-        if (!make(leg % 2 == 0 ? share : 1 - share, end)) return;
+        make(leg % 2 == 0 ? share : 1 - share, end);
+        if (over()) return;
       }
   }
 
@@ -195,6 +228,7 @@ class Course {
   const TensorOf<D> start_, sigma_;
   const double p_, q_;
   double way_ = 0;
+  int jumps_ = 0;  // of q over an amplitude
   TestEnd end_;
 };
 

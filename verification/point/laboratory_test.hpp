@@ -37,9 +37,12 @@ struct TestStop {
 
 struct ElementTest {
   TestKind kind = TestKind::drained;
-  double step = 1e-3;           // strain per step [-]; stress-driven tests: 1 / steps
-  double end = 0.1;             // strain [-], or stress [Pa] of isotropic and k0
-  std::optional<double> held;   // lateral stress of drained, normal stress of shear_pressure [Pa]
+  double step = 1e-3;          // strain per step [-]; stress-driven tests: 1 / steps
+  double end = 0.1;            // strain [-], or stress [Pa] of isotropic and k0
+  std::optional<double> held;  // lateral stress of drained, normal stress of shear_pressure [Pa]
+  // (sigma2 - sigma3) / (sigma1 - sigma3) of true triaxial compression: sigma22 between sigma11 and
+  // the axial stress [-].
+  std::optional<double> b;
   int cycles = 0;               // cycles; 0: monotonic
   bool amplitude_of_q = false;  // cycles reverse at +-q of the start, else at +-strain
   double amplitude = 0;         // [Pa] or [-]
@@ -62,7 +65,7 @@ inline constexpr std::string_view test_names =
     "shear_constant_stress";
 
 // Reads a [[segment]] with `test`. Throws InputError.
-ElementTest read_element_test(SceneTable& table);
+ElementTest read_element_test(SceneTable& table, int dimension);
 
 // Drives the driver along the test. Throws StepError as PointDriver::run does.
 template <int D>

@@ -74,6 +74,17 @@ void read_cycles(SceneTable& table, ElementTest& test) {
   amplitude.close();
 }
 
+void read_b(SceneTable& table, ElementTest& test, int dimension) {
+  const bool triaxial = test.kind == TestKind::drained || test.kind == TestKind::undrained ||
+                        test.kind == TestKind::constant_p;
+  if (!triaxial || !table.has("b")) return;
+  constexpr Range share{0, 1, false, "(sigma2 - sigma3) / (sigma1 - sigma3), from 0 to 1"};
+  test.b = table.number("b", share);
+  if (dimension == 2) table.fail("b", "two dimensions", "a material with dimension = 3");
+  if (test.cycles > 0 || test.end < 0)
+    table.fail("b", "a test that extends", "compression: a strain above 0, without cycles");
+}
+
 }  // namespace
 
 int ElementTest::expected_steps() const {
@@ -97,7 +108,7 @@ std::vector<std::pair<std::string, double>> ElementTest::stresses() const {
   return given;
 }
 
-ElementTest read_element_test(SceneTable& table) {
+ElementTest read_element_test(SceneTable& table, int dimension) {
   const Name name = read_name(table);
   ElementTest test;
   test.kind = name.kind;
@@ -118,6 +129,7 @@ ElementTest read_element_test(SceneTable& table) {
   if (test.kind == TestKind::shear_pressure && table.has("normal_stress"))
     test.held = table.number("normal_stress", positive);
   read_cycles(table, test);
+  read_b(table, test, dimension);
   if (table.has("step") && table.has("steps"))
     table.fail("step", "a number beside steps", "one of the two");
   if (test.led_by_stress()) {

@@ -180,7 +180,7 @@ std::vector<Segment> read_segments(SceneTable& scene, bool carries_tension, int 
   for (SceneTable& table : scene.tables("segment")) {
     Segment segment;
     if (table.has("test")) {
-      segment.test = std::make_shared<ElementTest>(read_element_test(table));
+      segment.test = std::make_shared<ElementTest>(read_element_test(table, dimension));
       segment.steps = segment.test->expected_steps();
       for (Stretch& one : stretch) one.lose();
       table.close();

@@ -15,7 +15,7 @@ enum class Control {
   piola,        // the component of P of the same indices [Pa]; F there is unknown
   cauchy,       // the component of sigma of the same indices [Pa]; F there is unknown
   mean,         // tr sigma / D [Pa]; F there is unknown
-  difference    // the component of sigma less `other` [Pa]; F there is unknown
+  difference  // the component of sigma less one between `other` and the last [Pa]; F there is unknown
 };
 
 // Target of one component, reached linearly from its value at the start of the segment.
@@ -24,6 +24,7 @@ struct Target {
   bool increment = true;  // value is added to the start value
   double value = 0;       // default: F does not change
   int other = 0;          // component that is subtracted in a difference
+  double share = 0;       // of the way from there to the last component of the diagonal [-]
 };
 
 struct ElementTest;

@@ -104,7 +104,7 @@ void run_path(const PointScene& scene, const std::filesystem::path& stem, PointE
     return;
   }
   Written written(stem);
-  History history(stem, record_columns<D>());
+  History history(stem, D, has_drag(scene.material));
   written.add(".csv");
   Observer observer(scene, stem, written);
   start = cpu_seconds();
@@ -119,12 +119,23 @@ void run_path(const PointScene& scene, const std::filesystem::path& stem, PointE
   observer.see(driver.state(), driver.record());
 
   std::optional<Progress> progress(scene.name);
+  // Tells where the path leaves the usual stiffness, once: kn/p goes as one over overlaps and contacts.
+  const double overlaps = driver.record().mean_overlap * driver.record().coordination;
+  bool usual = unusual_stiffness(begin.stiffness).empty();
+  const auto watch_stiffness = [&](const RecordOf<D>& record) {
+    const double now = record.mean_overlap * record.coordination;
+    const std::string text = unusual_stiffness(now > 0 ? begin.stiffness * overlaps / now : 0);
+    if (!usual || text.empty()) return;
+    usual = false;
+    tell(fmt::format("{}: unusual from step {} on: {}\n", scene.name, record.step, text));
+  };
   const auto observe = [&](const PointStepOf<D>& step) {
     end.cpu += cpu_seconds() - start;
     const RecordOf<D>& record = step.record;
     end.effort.add(record.effort);
     history.add(record);
     observer.see(step.state.get(), record);
+    watch_stiffness(record);
     progress->update(std::min(1.0, static_cast<double>(record.step) / end.steps_wanted),
                      fmt::format("sigma{0}{0} {1:.1f} kPa, F{0}{0} {2:.4f}, F12 {3:.4f}", D,
                                  record.cauchy(D - 1, D - 1) / 1e3,
@@ -140,9 +151,12 @@ void run_path(const PointScene& scene, const std::filesystem::path& stem, PointE
   };
   start = cpu_seconds();
   std::exception_ptr stopped;
-  std::vector<std::string> reached;  // by tests that stop before their end
+  bool told_later = false;           // as an error of the command
+  std::vector<std::string> reached;  // by tests that stop before their strain or stress
+  const Segment* led = nullptr;
   try {
     for (const Segment& segment : scene.segments) {
+      led = &segment;
       const TestEnd test = driver.run(segment, observe, observe_cut);
       if (!test.text.empty()) reached.push_back(test.text);
       if (test.liquefied) break;
@@ -152,9 +166,10 @@ void run_path(const PointScene& scene, const std::filesystem::path& stem, PointE
     if (!reached.empty()) end.text = fmt::format("{}", fmt::join(reached, "; "));
   } catch (const StepError& error) {
     end.status = error.status;
-    end.text = error.what() + why_at_start(begin, driver.record().step,
-                                           smaller_steps(begin, scene.segments.front()));
-    if (!scene.may_end) stopped = std::make_exception_ptr(StepError(error.status, end.text));
+    end.text = error.what() + path_advice(begin, driver.record().step, error.status, *led,
+                                          components_of<D>(driver.record().cauchy));
+    told_later = !scene.may_end;
+    if (told_later) stopped = std::make_exception_ptr(StepError(error.status, end.text));
   } catch (const Interrupted& stop) {
     stopped = std::current_exception();
     end.text =
@@ -178,7 +193,8 @@ void run_path(const PointScene& scene, const std::filesystem::path& stem, PointE
   }
   observer.draw();
   fmt::print("{}: {}; {:.2f} s of CPU{}\n{}\n", scene.name, history.summary(driver.unfinished()),
-             end.cpu, end.text == PointEnd().text ? "" : "\n  ended: " + end.text, written.text());
+             end.cpu, told_later || end.text == PointEnd().text ? "" : "\n  ended: " + end.text,
+             written.text());
   if (stopped) std::rethrow_exception(stopped);
 }
 

@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace verification {
 namespace {
@@ -42,12 +43,7 @@ std::vector<std::string> unusual_of(const PackingStart& start, const MaterialSou
         start.pressure));
   if (start.pressure > most_pressure)
     say(fmt::format("a mean pressure of {:.3g} Pa: stiffer than any grain", start.pressure));
-  if (start.stiffness > 0 && start.stiffness < least_stiffness)
-    say(fmt::format("kn/p = {:.3g}, soft: usual are 300 to 1e5 (stiffer contacts or less pressure)",
-                    start.stiffness));
-  if (start.stiffness > most_stiffness)
-    say(fmt::format("kn/p = {:.3g}, stiff: steps have to be as small as p/kn; usual are 300 to 1e5",
-                    start.stiffness));
+  if (const std::string text = unusual_stiffness(start.stiffness); !text.empty()) say(text);
   if (start.overlap > most_overlap)
     say(fmt::format("a mean overlap of {:.3g} % of a radius", 100 * start.overlap));
   return unusual;
@@ -66,6 +62,43 @@ double mean_diameter(const Snapshot& snapshot) {
 // Indices of the diagonal among a tensor's components.
 std::vector<std::size_t> diagonal(int dimension) {
   return dimension == 3 ? std::vector<std::size_t>{0, 4, 8} : std::vector<std::size_t>{0, 3};
+}
+
+// The largest strain that a step prescribes [-].
+double strain_of_step(const Segment& segment, int dimension) {
+  double strain = 0;
+  for (const Target& target : segment.target)
+    if (target.control == Control::deformation && target.increment)
+      strain = std::max(strain, std::abs(target.value) / segment.steps);
+  for (const std::size_t k : diagonal(dimension))
+    if (segment.target[k].control == Control::deformation && !segment.target[k].increment)
+      strain = std::max(strain, std::abs(segment.target[k].value - 1) / segment.steps);
+  return strain;
+}
+
+// The component of stress furthest from where it is led, -1 where strain leads.
+int leading_stress(const Segment& segment, const Eigen::VectorXd& cauchy) {
+  if (segment.test) return -1;
+  int leading = -1;
+  double furthest = 0;
+  for (Eigen::Index k = 0; k < cauchy.size(); ++k) {
+    const Target& target = segment.target[static_cast<std::size_t>(k)];
+    const bool stress = target.control == Control::cauchy || target.control == Control::piola;
+    if (target.control == Control::deformation && !(target.increment && target.value == 0))
+      return -1;
+    if (!stress || std::abs(target.value - cauchy(k)) <= furthest) continue;
+    furthest = std::abs(target.value - cauchy(k));
+    leading = static_cast<int>(k);
+  }
+  return leading;
+}
+
+// Where smaller steps do not help.
+std::string cure_of(grainlaw_status status) {
+  if (status == GRAINLAW_CONTACTS_LOST)
+    return "; extend it less, or solver.contacts_lost = \"stress_free\" where that is meant";
+  if (status == GRAINLAW_COLLAPSED) return "; try boundary.type = \"frame-p\", or more particles";
+  return {};
 }
 
 }  // namespace
@@ -108,6 +141,7 @@ PackingStart look_at_start(const grainlaw_state* state, const MaterialSource& so
   const double thickness = spheres ? mean_diameter(snapshot) : thickness_of(state, snapshot);
   if (overlap > 0 && start.pressure > 0)
     start.stiffness = force / overlap / (start.pressure * thickness);
+  start.drag = has_drag(source);
   start.unusual = unusual_of(start, source);
   return start;
 }
@@ -133,28 +167,51 @@ std::vector<std::string> far_targets(const PackingStart& start, const std::vecto
   return texts;
 }
 
-std::string smaller_steps(const PackingStart& start, const Segment& segment) {
-  double strain = 0;
-  for (const Target& target : segment.target)
-    if (target.control == Control::deformation && target.increment)
-      strain = std::max(strain, std::abs(target.value) / segment.steps);
-  for (const std::size_t k : diagonal(start.dimension))
-    if (segment.target[k].control == Control::deformation && !segment.target[k].increment)
-      strain = std::max(strain, std::abs(segment.target[k].value - 1) / segment.steps);
-  const double hard = strain * start.stiffness;
-  if (hard > 1)
-    return fmt::format(
-        "try {:.6g} steps or more instead of {}: each strains by {:.2g}, {:.2g} times "
-        "p/kn",
-        std::ceil(hard * segment.steps), segment.steps, strain, hard);
-  return "try smaller steps, solver.tolerance = 1e-8, or loose_tolerance";
+std::string unusual_stiffness(double stiffness) {
+  std::string text;
+  const auto say = [&](std::string what) { text = std::move(what); };
+  if (stiffness > 0 && stiffness < least_stiffness)
+    say(fmt::format("kn/p = {:.3g}, soft: usual are 300 to 1e5 (stiffer contacts or less pressure)",
+                    stiffness));
+  if (stiffness > most_stiffness)
+    say(fmt::format("kn/p = {:.3g}, stiff: steps have to be as small as p/kn; usual are 300 to 1e5",
+                    stiffness));
+  return text;
 }
 
-std::string why_at_start(const PackingStart& start, int steps_done, const std::string& to_try) {
+std::string why_at_start(const PackingStart& start, int steps_done) {
   constexpr int first_steps = 3;
   if (steps_done >= first_steps) return {};
-  return fmt::format("; the packing starts with {}; {}", start.text(),
-                     start.unusual.empty() ? to_try : "look at what is unusual, then " + to_try);
+  return fmt::format("; the packing starts with {}{}", start.text(),
+                     start.unusual.empty() ? "" : "; look at what is unusual first");
+}
+
+std::string load_advice(const PackingStart& start, int steps_done) {
+  return why_at_start(start, steps_done) +
+         fmt::format(
+             "; try more load steps{}, or displacement in place of a load that the body may not "
+             "carry",
+             start.drag ? "" : ", solver.viscous_time = 100");
+}
+
+std::string path_advice(const PackingStart& start, int steps_done, grainlaw_status status,
+                        const Segment& segment, const Eigen::VectorXd& cauchy) {
+  const std::string why = why_at_start(start, steps_done);
+  if (const int k = leading_stress(segment, cauchy); k >= 0) {
+    const std::string index = fmt::format("{}{}", 1 + k / start.dimension, 1 + k % start.dimension);
+    return why + fmt::format(
+                     "; the packing may not carry this stress: prescribe F{0}, not sigma{0}, "
+                     "to see how much it carries",
+                     index);
+  }
+  if (const std::string cure = cure_of(status); !cure.empty()) return why + cure;
+  const double strain = strain_of_step(segment, start.dimension), hard = strain * start.stiffness;
+  if (!why.empty() && hard > 1 && !segment.test)
+    return why + fmt::format(
+                     "; try {:.6g} steps or more instead of {}: each strains by {:.2g}, {:.2g} "
+                     "times p/kn",
+                     std::ceil(hard * segment.steps), segment.steps, strain, hard);
+  return why + (start.drag ? "; try more steps" : "; try more steps, or solver.viscous_time = 100");
 }
 
 void warn(const std::string& name, const PackingStart& start) {

@@ -21,6 +21,7 @@ struct PackingStart {
                           // contacts' mean, secant of Hertz-Mindlin; 0 without pressure [-]
   double void_ratio = 0;  // [-]
   double overlap = 0;     // mean overlap over the contacts' mean radius [-]
+  bool drag = false;      // a law in time
   std::vector<std::string> unusual;  // one text each
 
   // brief(): "mean pressure 1e+05 Pa, kn/p 300 [-], void ratio 0.2 [-]". The full text adds ", mean
@@ -42,9 +43,15 @@ void warn(const std::string& name, const PackingStart& start);
 // Prints one line, "NAME: starts at mean pressure ...", and unusual values to stdout.
 void tell_start(const std::string& name, const PackingStart& start);
 
-// Probable cause of a failure in one of the first steps, and its cure; "" after them.
-std::string why_at_start(const PackingStart& start, int steps_done, const std::string& to_try);
-// Cure of a path: smaller steps, when these are large for contacts so stiff.
-std::string smaller_steps(const PackingStart& start, const Segment& segment);
+// Tells kn/p out of the usual range; "" within it.
+std::string unusual_stiffness(double stiffness);
+
+// Probable cause of a failure in one of the first steps; "" after them.
+std::string why_at_start(const PackingStart& start, int steps_done);
+// Cure after a load step of a body failed.
+std::string load_advice(const PackingStart& start, int steps_done);
+// Cure after a step of a path failed at this Cauchy stress, components row by row [Pa].
+std::string path_advice(const PackingStart& start, int steps_done, grainlaw_status status,
+                        const Segment& segment, const Eigen::VectorXd& cauchy);
 
 }  // namespace verification

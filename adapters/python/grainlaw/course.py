@@ -16,7 +16,7 @@ from .progress import Progress
 from .result import Result
 
 MOST_STEPS_OF_A_LEG = 100000
-NEAR, LEAST = 1e-3, 0.02   # of an amplitude of stress that is met; of a step that leads to it
+NEAR, LEAST = 1e-6, 1e-10  # of an amplitude of stress that is met; of a step, between two shares of it
 WEAK = 0.1                 # of the pressure at the start: what is left then does not carry
 
 
@@ -93,6 +93,7 @@ class Course:
         self._liquefied = share if self._stop.liquefied is None else self._stop.liquefied
         self._start_F, self._p, self._q = lead.F, self.pressure, self.deviator
         self._way = 0.0
+        self._jumps = 0   # of q over an amplitude
 
     @property
     def pressure(self) -> float:
@@ -144,16 +145,20 @@ class Course:
         if loops.q is None:
             self._to(0)
         else:
-            self._to_q(self._q, 1, loops.amplitude)
+            if self._to_q(self._q, 1, loops.amplitude) and self._jumps:
+                self._result.ended = (f"q jumped past its amplitude at {self._jumps} of "
+                                      f"{2 * loops.count + 1} turns")
 
-    def _make(self, way: float) -> bool:
-        """One step; False when the test is over."""
+    def _make(self, way: float, may_stay: Callable[[], bool] | None = None) -> bool:
+        """One step; False when it was taken back."""
         p, axial = self.pressure, self.axial
-        self._lead.run(self._plan.to(way), lambda: self._result.add(self._lead), self._tell_cut)
+        if not self._lead.run(self._plan.to(way), lambda: self._result.add(self._lead),
+                              self._tell_cut, may_stay):
+            return False
         self._tell_step()
         self._way = way
         self._result.ended = self._stopped(p, axial)
-        return not self._result.ended
+        return True
 
     def _tell_step(self) -> None:
         d, F = len(self._lead.F), self._lead.F
@@ -183,25 +188,48 @@ class Course:
         start = self._way
         count = self._steps(abs(to - start))
         return all(self._make(to if k == count else start + (to - start) * k / count)
-                   for k in range(1, count + 1))
+                   and not self._result.ended for k in range(1, count + 1))
 
     def _to_q(self, wanted: float, direction: float, amplitude: float) -> bool:
-        """Until q is what is wanted, in this direction; the last steps are shorter, so that it is
-        met."""
-        share, step = 1.0, self._plan.step
+        """Until q is what is wanted, in this direction: whole steps, and a last one as long as it
+        takes."""
+        def rest() -> float:   # of the amplitude [-]
+            return direction * (wanted - self.deviator) / amplitude
+
         for _ in range(MOST_STEPS_OF_A_LEG):
-            before, start = direction * self.deviator, self._way
-            if before >= direction * wanted - NEAR * amplitude:
+            if rest() <= NEAR:
                 return True
-            if not self._make(start + direction * share * step):
+            if not self._step_towards(rest, direction):
                 return False
-            slope = (direction * self.deviator - before) / abs(self._way - start)
-            rest = direction * (wanted - self.deviator)
-            share = min(max(rest / (slope * step), LEAST), 1.0) if slope > 0 else 1.0
             if abs(self._way) > abs(self._plan.end):
                 self._result.ended = f"strain {self._way:.4g} reached before q {wanted:.4g} Pa"
                 return False
         return False
+
+    def _step_towards(self, rest: Callable[[], float], direction: float) -> bool:
+        """A whole step, or the share of it where nothing is left, by regula falsi (Illinois). Where q
+        jumps over the goal, the least share that does. False when the test is over."""
+        start, step = self._way, self._plan.step
+        share, jump, left = 1.0, False, 0.0
+        ends = {True: (0.0, rest()), False: (1.0, 0.0)}   # shares that fall short or not, what is left
+
+        def may_stay() -> bool:
+            nonlocal left
+            last, left = left, rest()
+            if jump or abs(left) <= NEAR or (share == 1 and left > 0):
+                return True
+            ends[left > 0] = (share, left)
+            if last * left > 0:   # twice on a side: the other end is stale
+                at, value = ends[left <= 0]
+                ends[left <= 0] = (at, value / 2)
+            return False
+
+        while not self._make(start + direction * share * step, may_stay):
+            (low, short), (high, over) = ends[True], ends[False]
+            jump = high - low < LEAST
+            share = high if jump else (low * over - high * short) / (over - short)
+        self._jumps += jump
+        return not self._result.ended
 
     def _stopped(self, p_before: float, axial_before: float) -> str:
         stop, p, q = self._stop, self.pressure, abs(self.deviator)

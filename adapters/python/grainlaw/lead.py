@@ -83,14 +83,17 @@ class Lead:
         return controlled(conditions, self.F, self.P, self._tangent())[0]
 
     def run(self, segment: Segment, record: Callable[[], None],
-            tell_cut: Callable[[float, str], None]) -> None:
+            tell_cut: Callable[[float, str], None],
+            may_stay: Callable[[], bool] | None = None) -> bool:
         """One step. Calls record() at its end; where Ctrl-C or a failure ends it before, at the end of
         the last part of it that was committed, if any. Calls tell_cut(part, reason) with the part of
-        the step that comes next. Raises KeyboardInterrupt and StepError."""
+        the step that comes next. A step that may not stay is taken back instead: False. Raises
+        KeyboardInterrupt and StepError."""
         start = self.values(segment.conditions)
         end = np.array([start[k] + one.value if one.added else one.value
                         for k, one in enumerate(segment.conditions)])
         F = self.F
+        before = None if may_stay is None else self._keep()
         try:
             self._solve_in_parts(segment, start, end, tell_cut)
         except (KeyboardInterrupt, StepError):
@@ -98,7 +101,18 @@ class Lead:
             if self.F is not F:
                 record()
             raise
+        if before is not None and may_stay is not None and not may_stay():
+            self._go_back(before)
+            return False
         record()
+        return True
+
+    def _keep(self) -> tuple[Any, ...]:
+        return (self.state.save(), self.F, self.P, self.A, self.report, self.work, self.loose_parts)
+
+    def _go_back(self, kept: tuple[Any, ...]) -> None:
+        self.state.load(kept[0])
+        _, self.F, self.P, self.A, self.report, self.work, self.loose_parts = kept
 
     def _solve_in_parts(self, segment: Segment, start: Array, end: Array,
                         tell_cut: Callable[[float, str], None]) -> None:

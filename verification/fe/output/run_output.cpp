@@ -55,7 +55,8 @@ RunOutput::RunOutput(const FiniteElementScene& scene, RunTables tables, const So
       solver_(solver),
       tables_(std::move(tables)),
       written_(tables_.stem()),
-      history_(open(".csv", record_columns())),
+      drag_(has_drag(scene.material)),
+      history_(open(".csv", record_columns(drag_))),
       newton_(open("_newton.csv", {"step[-]", "iteration[-]", "relative_residual[-]"})),
       forces_(open("_force.csv", force_columns(scene.model))),
       costs_(open("_cost.csv", cost_columns())),
@@ -86,7 +87,7 @@ void RunOutput::add(const LoadStep& step, bool ends_before) {
 
 void RunOutput::write(const LoadStep& step, bool ends_before) {
   const int number = step.record.step;
-  history_.row(record_values(step.record));
+  history_.row(record_values(step.record, drag_));
   for (std::size_t k = 0; k < step.residuals.size(); ++k)
     newton_.row({static_cast<double>(number), static_cast<double>(k), step.residuals[k]});
   std::vector<double> forces{static_cast<double>(number)};

@@ -43,6 +43,7 @@ class RunOutput {
   const Solver& solver_;
   RunTables tables_;
   Written written_;
+  bool drag_;
   CsvWriter& history_;
   CsvWriter& newton_;
   CsvWriter& forces_;
