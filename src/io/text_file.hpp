@@ -17,9 +17,6 @@ std::string read_text(const std::string& path);
 
 struct Writing {
   bool wait = false;  // until the file and its name are on the disk, against a machine that stops
-  bool alone =
-      false;  // no other process or thread writes this file: what a killed one left beside it
-              // is written over
 };
 
 // Throws Error (FILE_ERROR) when not all of it could be written; the old file is then as it was, and
@@ -31,6 +28,8 @@ void write_text(const std::string& path, std::string_view text, Writing writing 
 struct TextFile {
   std::string path;
   std::string text;
+  std::string first{};  // where it is written before it takes its place, over what a killed process
+                        // left there; "": beside it, under a name that nothing has
 };
 void write_together(std::span<const TextFile> files, Writing writing = {.wait = true});
 

@@ -1,5 +1,5 @@
 // Files that are either the old ones or the whole new ones, whenever the process or the machine
-// stops: those of src/io, with errors of the program.
+// stops: those of src/io, with errors of the program. Files of others stay (app/own_files.hpp).
 #pragma once
 
 #include "io/text_file.hpp"
@@ -32,9 +32,13 @@ void sync_file(const std::filesystem::path& path);
 // A file that grows by whole pieces: what cannot be written to its end leaves nothing of itself.
 class GrowingFile {
  public:
-  // Empty, or with its first `length` bytes. Throw ComputationError, as append() does.
-  explicit GrowingFile(const std::filesystem::path& path);
+  // With this beginning alone, or with the first `length` bytes of what is there. Throw
+  // ComputationError, as append() does.
+  GrowingFile(const std::filesystem::path& path, std::string_view beginning);
   GrowingFile(const std::filesystem::path& path, std::uintmax_t length);
+  ~GrowingFile();
+  GrowingFile(const GrowingFile&) = delete;
+  GrowingFile& operator=(const GrowingFile&) = delete;
 
   void append(std::string_view bytes);
   [[nodiscard]] std::uintmax_t length() const { return file_.length(); }

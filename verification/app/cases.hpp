@@ -14,14 +14,6 @@ namespace verification {
 // with material.packing.seed = K. Throws InputError for a case without a name and for two results of one.
 std::vector<toml::table> scene_cases(const SceneFile& file);
 
-// A file that a command is going to write, and what of.
-struct Output {
-  std::string file, owner;
-};
-
-// Throws InputError for two of one name and not of one owner: the second would take the place of the first.
-void check_outputs(const std::string& file, const std::vector<Output>& outputs);
-
 // Runs of which none ends the others. Threads may share it.
 class CaseFailures {
  public:

@@ -5,6 +5,7 @@
 #include "app/scene.hpp"
 
 #include <filesystem>
+#include <vector>
 
 namespace verification {
 
@@ -43,6 +44,9 @@ struct MaterialText {
   std::string origin;
 };
 MaterialText material_text(const MaterialSource& source);
+
+// The files that a material is made from: of the description and of its packing.
+std::vector<std::filesystem::path> files_of(const MaterialSource& source);
 
 // 3 when the description says so, else 2: what is wrong is told when the material is made.
 int dimension_of(const MaterialSource& source);

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace verification {
@@ -38,25 +37,8 @@ struct Snapshot {
   [[nodiscard]] bool spheres() const { return !z.empty(); }
 };
 
-// The trial of a state, or the committed one without a trial. Writes `stem`_particles.csv,
-// _contacts.csv, _cell.csv and .vtp, and reads them. Throws ComputationError.
-Snapshot take_snapshot(const grainlaw_state* state, const std::filesystem::path& stem);
-
-// The files that take_snapshot leaves; they go with it.
-class SnapshotFiles {
- public:
-  explicit SnapshotFiles(std::filesystem::path stem) : stem_(std::move(stem)) {}
-  ~SnapshotFiles();
-  SnapshotFiles(const SnapshotFiles&) = delete;
-  SnapshotFiles& operator=(const SnapshotFiles&) = delete;
-
-  [[nodiscard]] Snapshot take(const grainlaw_state* state) const {
-    return take_snapshot(state, stem_);
-  }
-
- private:
-  std::filesystem::path stem_;
-};
+// The trial of a state, or the committed one without a trial. Throws ComputationError.
+Snapshot take_snapshot(const grainlaw_state* state);
 
 // Mean over the touching contacts of overlap / mean radius of the two (Liu, Bosco & Suiker 2017,
 // eq. 39) [-].

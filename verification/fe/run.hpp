@@ -1,15 +1,15 @@
 // A run of a finite element scene from beginning to end, or from where an interrupted one was left.
 #pragma once
 
+#include "app/output.hpp"
 #include "fe/scene.hpp"
 
 #include <optional>
-#include <string>
 
 namespace verification {
 
 struct RunOptions {
-  std::string directory = ".";          // for the results
+  Destination destination;              // of the results
   bool restart = false;                 // go on from the checkpoint, if there is one
   std::optional<int> checkpoint_every;  // instead of the scene's; 0: when interrupted only
   std::optional<int> stop_after;        // end with a checkpoint after this load step

@@ -30,9 +30,8 @@ struct PackingStart {
   [[nodiscard]] std::string text() const;
 };
 
-// Of a state at its start. Writes and removes files that begin with `stem`. Throws ComputationError.
-PackingStart look_at_start(const grainlaw_state* state, const MaterialSource& source,
-                           const std::filesystem::path& stem);
+// Of a state at its start. Throws ComputationError.
+PackingStart look_at_start(const grainlaw_state* state, const MaterialSource& source);
 
 // What of a path goes far from where the packing starts, one text each.
 std::vector<std::string> far_targets(const PackingStart& start, const std::vector<Segment>& path);
