@@ -81,7 +81,7 @@ TEST_F(own_files, that_are_tables_may_end_after_any_row_and_are_not_changed_when
     CsvWriter table(path("t"), {"a[-]"});
     table.row({1});
     const std::string begun = contents("t");
-    for (const std::string& left : {std::string(), std::string("a[-]\n"), begun, begun + "2\n"}) {
+    for (const std::string& left : {std::string("a[-]\n"), begun, begun + "2\n"}) {
       put("t", left);
       EXPECT_FALSE(is_of_others(path("t"))) << left;
     }
@@ -122,6 +122,14 @@ TEST_F(own_files, are_not_links_of_others) {
   process([&] { write_file(path("link"), "ours"); }, OwnFiles::Others::write_over);
   EXPECT_TRUE(std::filesystem::is_symlink(path("link")));
   EXPECT_EQ(contents("theirs"), "ours");
+}
+
+TEST_F(own_files, that_are_tables_begin_anew_beside_hard_links_to_the_old_ones) {
+  process([&] { CsvWriter(path("t"), {"a[-]"}).row({1}); });
+  std::filesystem::create_hard_link(path("t"), path("kept"));
+  process([&] { CsvWriter(path("t"), {"a[-]"}).row({2}); });
+  EXPECT_EQ(contents("t"), "a[-]\n2\n");
+  EXPECT_EQ(contents("kept"), "a[-]\n1\n");
 }
 
 TEST_F(own_files, are_listed_shortly_and_beside_what_others_list) {

@@ -10,10 +10,11 @@
 namespace verification {
 namespace {
 
-void write(std::initializer_list<NewFile> files, grainlaw::core::Writing writing) {
+void write(std::initializer_list<NewFile> files, grainlaw::core::Writing writing,
+           Content content = Content::whole) {
   std::vector<grainlaw::core::TextFile> texts;
   for (const auto& [path, bytes] : files) {
-    list_before(path, bytes, Content::whole);
+    list_before(path, bytes, content);
     texts.push_back({path.string(), std::string(bytes), written_first(path).string()});
   }
   as<ComputationError>([&] { grainlaw::core::write_together(texts, writing); });
@@ -37,11 +38,12 @@ void sync_file(const std::filesystem::path& path) {
 
 GrowingFile::GrowingFile(const std::filesystem::path& path, std::string_view beginning)
     : file_(as<ComputationError>([&] {
-        list_before(path, beginning, Content::beginning);
-        return grainlaw::core::GrowingFile(path.string());
-      })) {
-  append(beginning);
-}
+        write({{path, beginning}}, {.wait = false}, Content::beginning);
+        const std::string name = path.string();
+        return std::filesystem::is_regular_file(path)
+                   ? grainlaw::core::GrowingFile(name, beginning.size())
+                   : grainlaw::core::GrowingFile(name);  // e.g. /dev/null
+      })) {}
 
 GrowingFile::GrowingFile(const std::filesystem::path& path, std::uintmax_t length)
     : file_(as<ComputationError>([&] {

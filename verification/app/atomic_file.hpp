@@ -32,7 +32,7 @@ void sync_file(const std::filesystem::path& path);
 // A file that grows by whole pieces: what cannot be written to its end leaves nothing of itself.
 class GrowingFile {
  public:
-  // With this beginning alone, or with the first `length` bytes of what is there. Throw
+  // A new file with this beginning, or what is there with its first `length` bytes alone. Throw
   // ComputationError, as append() does.
   GrowingFile(const std::filesystem::path& path, std::string_view beginning);
   GrowingFile(const std::filesystem::path& path, std::uintmax_t length);

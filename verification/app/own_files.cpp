@@ -64,7 +64,6 @@ struct Mark {
     std::error_code error;
     const std::uint64_t found = fs::file_size(path, error);
     if (error) return false;
-    if (content == Content::beginning && found == 0) return true;  // opened and not begun
     if (content == Content::whole ? found != size : found < size) return false;
     return checksum(path, size) == sum;
   }
