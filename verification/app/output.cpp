@@ -25,8 +25,10 @@ void check_kept(const std::vector<std::filesystem::path>& found,
     std::error_code error;
     for (const auto& input : inputs)
       if (std::filesystem::equivalent(input, output, error))
-        throw InputError(fmt::format("{}: is read and would be written over{}; {}", input.string(),
-                                     input == output ? "" : " as " + output.string(), cure));
+        throw InputError(fmt::format(
+            "{}: is read and would be written over{}; {}", input.string(),
+            input.lexically_normal() == output.lexically_normal() ? "" : " as " + output.string(),
+            cure));
     if (is_of_others(output))
       throw InputError(
           fmt::format("{}: is there, and was not written by grainlaw or was changed since; {}",
