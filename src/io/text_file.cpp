@@ -55,7 +55,7 @@ class NoSizeSignal {
 // A temporary file in the directory of its target.
 class Beside {
  public:
-  Beside(const std::string& path, std::string_view text, Writing writing)
+  Beside(const std::string& path, std::string_view text, const std::string& first, Writing writing)
       : path_(path), target_(path), writing_(writing) {
     struct stat old {};
     const bool exists = ::stat(path_.c_str(), &old) == 0;
@@ -64,16 +64,20 @@ class Beside {
       return;
     }
     if (exists && ::access(path_.c_str(), W_OK) != 0) fail_file(path_, "written", errno);
-    if (exists) target_ = behind_links(path_);
+    struct stat name {};
+    const bool link = exists && ::lstat(path_.c_str(), &name) == 0 && S_ISLNK(name.st_mode);
+    if (link) target_ = behind_links(path_);
     const std::size_t end = target_.rfind('/');
     directory_ = end == std::string::npos ? "." : target_.substr(0, end + 1);
     static std::atomic<unsigned> number{0};
+    const bool unique = first.empty() || link;  // behind a link may be another disk
     for (;;) {
-      name_ = writing_.alone ? target_ + ".new"
-                             : fmt::format("{}.{}.{}.new", target_, ::getpid(), number++);
-      Descriptor beside(name_, O_WRONLY | O_CREAT | (writing_.alone ? O_TRUNC : O_EXCL));
-      if (!beside.valid() && errno == EEXIST && !writing_.alone) continue;
+      const std::string beside_it =
+          unique ? fmt::format("{}.{}.{}.new", target_, ::getpid(), number++) : first;
+      Descriptor beside(beside_it, O_WRONLY | O_CREAT | (unique ? O_EXCL : O_TRUNC));
+      if (!beside.valid() && errno == EEXIST && unique) continue;
       if (!beside.valid()) fail_file(path_, "written", errno);
+      name_ = beside_it;
       int error = beside.write(text);
       if (error == 0 && exists) error = beside.keep_mode(old.st_mode & 07777U);
       if (error == 0 && writing_.wait) error = beside.sync();
@@ -137,14 +141,14 @@ std::string read_text(const std::string& path) {
 
 void write_text(const std::string& path, std::string_view text, Writing writing) {
   const NoSizeSignal no_signal;
-  Beside(path, text, writing).take_place();
+  Beside(path, text, {}, writing).take_place();
 }
 
 void write_together(std::span<const TextFile> files, Writing writing) {
   const NoSizeSignal no_signal;
   std::vector<std::unique_ptr<Beside>> whole;
   for (const TextFile& file : files)
-    whole.push_back(std::make_unique<Beside>(file.path, file.text, writing));
+    whole.push_back(std::make_unique<Beside>(file.path, file.text, file.first, writing));
   for (const auto& file : whole) file->take_place();
 }
 

@@ -16,8 +16,7 @@ namespace grainlaw::core {
 std::string read_text(const std::string& path);
 
 struct Writing {
-  bool wait = false;   // until file and name are on disk, safe against power loss
-  bool alone = false;  // no other writer: a leftover of a killed process is overwritten
+  bool wait = false;  // until file and name are on disk, safe against power loss
 };
 
 // Throws Error (FILE_ERROR) when writing fails; the old file is then unchanged, and no temporary
@@ -29,6 +28,8 @@ void write_text(const std::string& path, std::string_view text, Writing writing 
 struct TextFile {
   std::string path;
   std::string text;
+  std::string first{};  // where it is written before it takes its place, over what a killed process
+                        // left there; "": beside it, under a name that nothing has
 };
 void write_together(std::span<const TextFile> files, Writing writing = {.wait = true});
 

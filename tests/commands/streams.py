@@ -48,7 +48,7 @@ class Streams(unittest.TestCase):
         self.assertIn(b"scene.csv: cannot be written", run.stderr)
 
     def test_a_file_that_cannot_be_written_is_told_with_the_cause(self):
-        self.place.write("scene.toml", f'name = "{"a" * 240}"\nfigure = false\nvtk_every = 1\n' + SCENE)
+        self.place.write("scene.toml", f'name = "{"a" * 250}"\nfigure = false\nvtk_every = 1\n' + SCENE)
         run = self.run_point("long")
         self.assertNotEqual(run.returncode, 0)
         self.assertIn(b"File name too long", run.stderr)

@@ -50,7 +50,7 @@ value = 100e3
 on = "right"
 value = 100e3
 )";
-    run_fe_scene(SceneFile(path), {directory_.path().string(), false, {}, {}});
+    run_fe_scene(SceneFile(path), {{directory_.path().string()}, false, {}, {}});
   }
   [[nodiscard]] CsvTable table(const std::string& end) const {
     return read_csv(directory_.path() / ("biaxial" + end + ".csv"));

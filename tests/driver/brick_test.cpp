@@ -153,7 +153,7 @@ TEST_F(brick, several_are_as_one) {
 }
 
 TEST_F(brick, run_writes_its_table_and_stops_where_it_is_asked_to) {
-  run_brick_scene(scene("steps = 3\nname = 'run'\n", box + drained), directory_.string(), 1);
+  run_brick_scene(scene("steps = 3\nname = 'run'\n", box + drained), {directory_.string()}, 1);
   const CsvTable table = read_csv(directory_ / "run.csv");
   ASSERT_EQ(table.rows(), 2U);
   EXPECT_NEAR(table["axial_strain"][1], 1e-3, 1e-9);

@@ -3,6 +3,7 @@
 
 #include "../temporary_directory.hpp"
 #include "app/atomic_file.hpp"
+#include "app/own_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -91,15 +92,17 @@ TEST(checkpoint, with_any_byte_changed_or_missing_is_refused) {
 TEST(checkpoint, that_cannot_be_written_leaves_the_older_one) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "a";
+  const OwnFiles own(OwnFiles::Others::keep);
   write_atomically(path, "old");
   // A directory where the new file would be put stands for whatever prevents it.
-  std::filesystem::create_directory(directory.path() / "a.new");
+  const auto first = written_first(path);
+  std::filesystem::create_directory(first);
   EXPECT_THROW(write_atomically(path, "new"), ComputationError);
   EXPECT_EQ(contents(path), "old");
-  std::filesystem::remove(directory.path() / "a.new");
+  std::filesystem::remove(first);
   write_atomically(path, "new");
   EXPECT_EQ(contents(path), "new");
-  EXPECT_FALSE(std::filesystem::exists(directory.path() / "a.new"));
+  EXPECT_FALSE(std::filesystem::exists(first));
   EXPECT_THROW(write_atomically(directory.path() / "missing" / "a", "new"), ComputationError);
 }
 

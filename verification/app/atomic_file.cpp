@@ -1,44 +1,62 @@
 #include "app/atomic_file.hpp"
 
 #include "app/library.hpp"
+#include "app/own_files.hpp"
 
+#include <exception>
 #include <string>
 #include <vector>
 
 namespace verification {
 namespace {
 
-// One run writes a file: its temporary name need not be unique, and a leftover of a killed run is
-// replaced.
-constexpr grainlaw::core::Writing at_once{.wait = false, .alone = true};
-constexpr grainlaw::core::Writing on_disk{.wait = true, .alone = true};
+void write(std::initializer_list<NewFile> files, grainlaw::core::Writing writing,
+           Content content = Content::whole) {
+  std::vector<grainlaw::core::TextFile> texts;
+  for (const auto& [path, bytes] : files) {
+    list_before(path, bytes, content);
+    texts.push_back({path.string(), std::string(bytes), written_first(path).string()});
+  }
+  as<ComputationError>([&] { grainlaw::core::write_together(texts, writing); });
+}
 
 }  // namespace
 
 void write_atomically(const std::filesystem::path& path, std::string_view bytes) {
-  as<ComputationError>([&] { grainlaw::core::write_text(path.string(), bytes, on_disk); });
+  write({{path, bytes}}, {.wait = true});
 }
 
-void write_together(std::initializer_list<NewFile> files) {
-  std::vector<grainlaw::core::TextFile> texts;
-  for (const NewFile& file : files) texts.push_back({file.path.string(), std::string(file.bytes)});
-  as<ComputationError>([&] { grainlaw::core::write_together(texts, on_disk); });
-}
+void write_together(std::initializer_list<NewFile> files) { write(files, {.wait = true}); }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {
-  as<ComputationError>([&] { grainlaw::core::write_text(path.string(), bytes, at_once); });
+  write({{path, bytes}}, {.wait = false});
 }
 
 void sync_file(const std::filesystem::path& path) {
   as<ComputationError>([&] { grainlaw::core::sync_file(path.string()); });
 }
 
-GrowingFile::GrowingFile(const std::filesystem::path& path)
-    : file_(as<ComputationError>([&] { return grainlaw::core::GrowingFile(path.string()); })) {}
+GrowingFile::GrowingFile(const std::filesystem::path& path, std::string_view beginning)
+    : file_(as<ComputationError>([&] {
+        write({{path, beginning}}, {.wait = false}, Content::beginning);
+        const std::string name = path.string();
+        return std::filesystem::is_regular_file(path)
+                   ? grainlaw::core::GrowingFile(name, beginning.size())
+                   : grainlaw::core::GrowingFile(name);  // e.g. /dev/null
+      })) {}
 
 GrowingFile::GrowingFile(const std::filesystem::path& path, std::uintmax_t length)
-    : file_(as<ComputationError>(
-          [&] { return grainlaw::core::GrowingFile(path.string(), length); })) {}
+    : file_(as<ComputationError>([&] {
+        list_beginning(path, length);
+        return grainlaw::core::GrowingFile(path.string(), length);
+      })) {}
+
+GrowingFile::~GrowingFile() {
+  try {
+    list_as_it_is(file_.path());
+  } catch (const std::exception&) {  // its beginning is listed
+  }
+}
 
 void GrowingFile::append(std::string_view bytes) {
   as<ComputationError>([&] { file_.append(bytes); });

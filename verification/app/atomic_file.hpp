@@ -1,5 +1,5 @@
 // Files that have their old or their new content whenever process or machine stop: those of src/io,
-// with errors of the program.
+// with errors of the program. Files of others stay (app/own_files.hpp).
 #pragma once
 
 #include "io/text_file.hpp"
@@ -32,10 +32,13 @@ void sync_file(const std::filesystem::path& path);
 // A file that grows by whole pieces; a piece that cannot be written completely is removed.
 class GrowingFile {
  public:
-  // Opens the file empty, or with its first `length` bytes. Constructors and append() throw
-  // ComputationError.
-  explicit GrowingFile(const std::filesystem::path& path);
+  // Begins a new file with this text, or keeps the first `length` bytes of the present one.
+  // Constructors and append() throw ComputationError.
+  GrowingFile(const std::filesystem::path& path, std::string_view beginning);
   GrowingFile(const std::filesystem::path& path, std::uintmax_t length);
+  ~GrowingFile();
+  GrowingFile(const GrowingFile&) = delete;
+  GrowingFile& operator=(const GrowingFile&) = delete;
 
   void append(std::string_view bytes);
   [[nodiscard]] std::uintmax_t length() const { return file_.length(); }

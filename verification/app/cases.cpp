@@ -63,18 +63,6 @@ std::vector<toml::table> scene_cases(const SceneFile& file) {
   return scenes;
 }
 
-void check_outputs(const std::string& file, const std::vector<Output>& outputs) {
-  std::map<std::string, std::string> owners;
-  for (const Output& output : outputs) {
-    const auto [first, own] = owners.emplace(output.file, output.owner);
-    if (!own && first->second != output.owner)
-      throw InputError(
-          fmt::format("{}: found two outputs called {}, of {} and of {}, expected names of cases "
-                      "that keep them apart",
-                      file, output.file, first->second, output.owner));
-  }
-}
-
 std::string CaseFailures::guard(std::size_t number, const std::string& name,
                                 const std::function<void()>& run) {
   Failure& failure = failures_[number];

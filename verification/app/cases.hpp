@@ -15,15 +15,6 @@ namespace verification {
 // with one name.
 std::vector<toml::table> scene_cases(const SceneFile& file);
 
-// An output file of a command, and its owner.
-struct Output {
-  std::string file, owner;
-};
-
-// Throws InputError for two outputs with one name and different owners, since the second would
-// replace the first.
-void check_outputs(const std::string& file, const std::vector<Output>& outputs);
-
 // Collects failures of independent runs, for several threads.
 class CaseFailures {
  public:

@@ -182,12 +182,13 @@ struct Arguments {
   std::vector<std::string> against;  // names
   std::string title = "Drained compression";
   std::string name = "comparison";
-  std::string output = ".";
+  Destination destination;
   Bounds bounds;
 };
 
 void compare(const Arguments& arguments) {
   std::vector<Curves> runs;
+  std::vector<std::filesystem::path> inputs;
   for (const std::string& table : arguments.tables) {
     const std::size_t end = table.rfind('=');
     if (end == std::string::npos || end == 0)
@@ -195,7 +196,8 @@ void compare(const Arguments& arguments) {
     const std::string name = table.substr(0, end);
     if (std::any_of(runs.begin(), runs.end(), [&](const Curves& run) { return run.name == name; }))
       throw InputError(fmt::format("{}: found the NAME {} twice, expected another", table, name));
-    runs.push_back(read_curves(name, table.substr(end + 1)));
+    inputs.emplace_back(table.substr(end + 1));
+    runs.push_back(read_curves(name, inputs.back()));
   }
   std::vector<const Curves*> references;
   for (const std::string& name : arguments.against) {
@@ -206,7 +208,11 @@ void compare(const Arguments& arguments) {
     references.push_back(&*found);
   }
   if (references.empty()) references.push_back(&runs.back());
-  const std::filesystem::path stem = output_stem(arguments.output, arguments.name);
+  Outputs outputs;
+  outputs.add(arguments.name, arguments.name, {".csv"});
+  outputs.add_pictures(arguments.name, arguments.name);
+  const OwnFiles own = arguments.destination.claim(outputs, inputs);
+  const std::filesystem::path stem = arguments.destination.stem(arguments.name);
   print_stresses(runs, stem.string() + ".csv");
   fmt::print("\nlargest relative difference of the axial stress up to 1 % axial strain\n");
   for (const Curves* reference : references)
@@ -244,8 +250,7 @@ void add_compare_command(CLI::App& app) {
       ->check(at_least(0));
   command->add_option("--title", arguments->title, "of the picture")->capture_default_str();
   command->add_option("--name", arguments->name, "of the files")->capture_default_str();
-  command->add_option("--output", arguments->output, "directory for the results")
-      ->capture_default_str();
+  arguments->destination.add_options(*command);
   command->callback([arguments] { compare(*arguments); });
 }
 

@@ -52,9 +52,7 @@ std::uintmax_t checked(const std::filesystem::path& path, const std::vector<std:
 }  // namespace
 
 CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns)
-    : file_(path), columns_(columns.size()) {
-  file_.append(header(columns));
-}
+    : file_(path, header(columns)), columns_(columns.size()) {}
 
 CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns,
                      std::uintmax_t length)

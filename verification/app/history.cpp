@@ -191,9 +191,4 @@ std::string history_summary(const CsvTable& table, const Effort& unfinished) {
       much_drag_text(table));
 }
 
-void write_vtk(const grainlaw_state* state, const std::filesystem::path& stem, int step) {
-  const std::string path = fmt::format("{}_{:04d}.vtp", stem.string(), step);
-  check(grainlaw_state_write_vtk(state, path.c_str()), "writing " + path);
-}
-
 }  // namespace verification

@@ -53,7 +53,4 @@ class History {
   CsvWriter csv_;
 };
 
-// stem_0010.vtp: particles and force chains of the state. Throws ComputationError.
-void write_vtk(const grainlaw_state* state, const std::filesystem::path& stem, int step);
-
 }  // namespace verification

@@ -110,6 +110,16 @@ MaterialText material_text(const MaterialSource& source) {
   return {text.str(), source.base.empty() ? "." : source.base.string(), origin};
 }
 
+std::vector<std::filesystem::path> files_of(const MaterialSource& source) {
+  std::vector<std::filesystem::path> files;
+  if (!source.file.empty()) files.push_back(source.file);
+  const toml::table material = unfold(source).changes;
+  for (const char* key : {"particles", "contacts", "cell"})
+    if (const auto path = material["packing"][key].value<std::string>())
+      files.push_back(source.base / *path);
+  return files;
+}
+
 int dimension_of(const MaterialSource& source) {
   return unfold(source).changes["dimension"].value_or(0) == 3 ? 3 : 2;
 }

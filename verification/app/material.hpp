@@ -5,6 +5,7 @@
 #include "app/scene.hpp"
 
 #include <filesystem>
+#include <vector>
 
 namespace verification {
 
@@ -44,6 +45,9 @@ struct MaterialText {
   std::string origin;
 };
 MaterialText material_text(const MaterialSource& source);
+
+// The files that a material is made from: the description's and its packing's.
+std::vector<std::filesystem::path> files_of(const MaterialSource& source);
 
 // 3 when the description says so, else 2; errors are reported when the material is created.
 int dimension_of(const MaterialSource& source);

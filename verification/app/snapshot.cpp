@@ -1,6 +1,7 @@
 #include "app/snapshot.hpp"
 
 #include "app/csv.hpp"
+#include "app/scratch.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +11,6 @@
 #include <fstream>
 #include <map>
 #include <sstream>
-#include <system_error>
 
 namespace verification {
 namespace {
@@ -51,8 +51,9 @@ std::vector<int> boundary_in_order(const CsvTable& particles) {
 
 }  // namespace
 
-Snapshot take_snapshot(const grainlaw_state* state, const std::filesystem::path& stem) {
-  const std::string prefix = stem.string();
+Snapshot take_snapshot(const grainlaw_state* state) {
+  const ScratchDirectory scratch;
+  const std::string prefix = (scratch / "state").string();
   check(grainlaw_state_write_packing(state, prefix.c_str()), "writing " + prefix);
   check(grainlaw_state_write_vtk(state, (prefix + ".vtp").c_str()), "writing " + prefix + ".vtp");
   const CsvTable particles = read_csv(prefix + "_particles.csv");
@@ -101,12 +102,6 @@ Snapshot take_snapshot(const grainlaw_state* state, const std::filesystem::path&
     snapshot.contacts.push_back(contact);
   }
   return snapshot;
-}
-
-SnapshotFiles::~SnapshotFiles() {
-  std::error_code error;
-  for (const char* end : {"_particles.csv", "_contacts.csv", "_cell.csv", ".vtp"})
-    std::filesystem::remove(stem_.string() + end, error);
 }
 
 double normalised_overlap(const Snapshot& snapshot) {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace verification {
@@ -37,25 +36,8 @@ struct Snapshot {
   [[nodiscard]] bool spheres() const { return !z.empty(); }
 };
 
-// Snapshot of the trial, or of the committed state without a trial. Writes and reads
-// `stem`_particles.csv, _contacts.csv, _cell.csv and .vtp. Throws ComputationError.
-Snapshot take_snapshot(const grainlaw_state* state, const std::filesystem::path& stem);
-
-// Owner of the files of take_snapshot(), removed by the destructor.
-class SnapshotFiles {
- public:
-  explicit SnapshotFiles(std::filesystem::path stem) : stem_(std::move(stem)) {}
-  ~SnapshotFiles();
-  SnapshotFiles(const SnapshotFiles&) = delete;
-  SnapshotFiles& operator=(const SnapshotFiles&) = delete;
-
-  [[nodiscard]] Snapshot take(const grainlaw_state* state) const {
-    return take_snapshot(state, stem_);
-  }
-
- private:
-  std::filesystem::path stem_;
-};
+// Takes a snapshot of the trial, or of the committed state without a trial. Throws ComputationError.
+Snapshot take_snapshot(const grainlaw_state* state);
 
 // Mean over touching contacts of overlap / mean radius of the pair (Liu, Bosco & Suiker 2017, eq.
 // 39) [-].

@@ -1,12 +1,11 @@
 #include "app/table.hpp"
 
-#include "app/library.hpp"
+#include "app/atomic_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
 #include <stdexcept>
 
 namespace verification {
@@ -39,18 +38,16 @@ void Table::print() const {
 
 void Table::write(const std::filesystem::path& path) const {
   std::filesystem::create_directories(path.has_parent_path() ? path.parent_path() : ".");
-  std::ofstream stream(path);
-  stream << fmt::format("{}\n", fmt::join(columns_, ","));
+  std::string text = fmt::format("{}\n", fmt::join(columns_, ","));
   for (const auto& row : rows_) {
     std::vector<std::string> fields;
     for (const Cell& cell : row) {
       fields.push_back(cell.full);
       std::replace(fields.back().begin(), fields.back().end(), ',', ';');  // keeps it one field
     }
-    stream << fmt::format("{}\n", fmt::join(fields, ","));
+    text += fmt::format("{}\n", fmt::join(fields, ","));
   }
-  stream.close();
-  if (!stream) throw ComputationError(fmt::format("{}: cannot be written", path.string()));
+  write_file(path, text);
 }
 
 }  // namespace verification

@@ -24,14 +24,20 @@ double cpu() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 }  // namespace
 
-void run_brick_scene(const SceneFile& file, const std::string& directory, int stop_after) {
+void run_brick_scene(const SceneFile& file, const Destination& destination, int stop_after) {
   const BrickScene scene = read_brick_scene(file);
-  const std::filesystem::path stem = output_stem(directory, scene.name);
+  Outputs outputs;
+  outputs.add(scene.name, scene.name, {".csv", "_force.csv"});
+  outputs.add_pictures(scene.name, scene.name);
+  outputs.add_pictures(scene.name, scene.name + "_force");
+  std::vector<std::filesystem::path> inputs = files_of(scene.material);
+  inputs.push_back(file.path);
+  const OwnFiles own = destination.claim(outputs, inputs);
+  const std::filesystem::path stem = destination.stem(scene.name);
   const Material material = make_material(scene.material, 3);
   const Interrupt interrupt;
   const double start = cpu();
-  const PackingStart begin =
-      look_at_start(State(material).get(), scene.material, stem.string() + "_start");
+  const PackingStart begin = look_at_start(State(material).get(), scene.material);
   tell_start(scene.name, begin);
   BrickNewton solver(scene.model, material, scene.newton, scene.threads);
   Written written(stem);

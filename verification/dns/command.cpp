@@ -8,29 +8,35 @@
 #include "app/output.hpp"
 #include "dns/run.hpp"
 
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace verification {
 namespace {
 
-void run_dns(const std::string& path, const std::string& directory, int jobs) {
+void run_dns(const std::string& path, const Destination& destination, int jobs) {
   const std::vector<SpecimenScene> scenes = read_specimen_scenes(SceneFile(path));
-  std::vector<Output> outputs;
+  Outputs outputs;
+  std::vector<std::filesystem::path> inputs{path};
   for (const SpecimenScene& scene : scenes) {
-    for (const char* end : {".csv", ".svg", ".png", "_cost.csv"})
-      outputs.push_back({scene.name + end, scene.name});
-    if (scene.pictures.empty()) continue;
-    for (const char* end : {"_packing.svg", "_packing.png"})
-      outputs.push_back({scene.name + end, scene.name});
+    const std::string& name = scene.name;
+    outputs.add(name, name, {".csv", "_cost.csv"});
+    outputs.add_packing(name, name + "_specimen");
+    outputs.add_pictures(name, name);
+    if (!scene.pictures.empty()) outputs.add_pictures(name, name + "_packing");
+    if (scene.vtk_every > 0) outputs.add_series(name, name + "_", ".vtp");
+    for (auto& file : files_of(scene.material)) inputs.push_back(std::move(file));
   }
-  check_outputs(path, outputs);
+  outputs.check_apart(path);
+  const OwnFiles own = destination.claim(outputs, inputs);
   CaseFailures failures(scenes.size());
   const Interrupt interrupt;
   run_jobs(scenes.size(), jobs, [&](std::size_t k) {
     failures.guard(k, scenes[k].name,
-                   [&] { run_specimen(scenes[k], output_stem(directory, scenes[k].name)); });
+                   [&] { run_specimen(scenes[k], destination.stem(scenes[k].name)); });
   });
   failures.check(path);
 }
@@ -43,14 +49,14 @@ void add_dns_command(CLI::App& app) {
                          "simulate a specimen of repeated frames directly, particle by "
                          "particle");
   auto scene = std::make_shared<std::string>();
-  auto output = std::make_shared<std::string>(".");
+  auto destination = std::make_shared<Destination>();
   command->add_option("SCENE", *scene, "scene file (TOML)")->required();
-  command->add_option("--output", *output, "directory for the results")->capture_default_str();
+  destination->add_options(*command);
   auto jobs = std::make_shared<int>(1);
   command->add_option("--jobs", *jobs, "cases at a time")
       ->check(at_least(1))
       ->capture_default_str();
-  command->callback([scene, output, jobs] { run_dns(*scene, *output, *jobs); });
+  command->callback([scene, destination, jobs] { run_dns(*scene, *destination, *jobs); });
 }
 
 }  // namespace verification

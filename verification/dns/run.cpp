@@ -4,6 +4,7 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/snapshot.hpp"
+#include "app/state_files.hpp"
 #include "app/written.hpp"
 #include "point/start.hpp"
 
@@ -52,7 +53,6 @@ SpecimenEnd run_specimen(const SpecimenScene& scene, const std::filesystem::path
   written.add("_specimen_*.csv");
   History history(stem, 2, has_drag(scene.material));
   written.add(".csv");
-  const SnapshotFiles files(stem.string() + "_state");
   std::optional<Progress> progress(scene.name);
   std::optional<Record> start;
   std::vector<SnapshotPanel> panels;
@@ -61,7 +61,7 @@ SpecimenEnd run_specimen(const SpecimenScene& scene, const std::filesystem::path
   const auto observe = [&](const grainlaw_state* state, const Record& record) {
     if (!start) {
       start = record;
-      tell_start(scene.name, look_at_start(state, scene.material, stem.string() + "_state"));
+      tell_start(scene.name, look_at_start(state, scene.material));
     }
     done = record.step;
     history.add(record);
@@ -73,7 +73,7 @@ SpecimenEnd run_specimen(const SpecimenScene& scene, const std::filesystem::path
     constexpr double rounding = 1e-9;
     while (panels.size() < scene.pictures.size() &&
            strain > scene.pictures[panels.size()] - rounding)
-      panels.push_back({strain_text(axial_abscissa, strain), files.take(state)});
+      panels.push_back({strain_text(axial_abscissa, strain), take_snapshot(state)});
     progress->update(static_cast<double>(record.step) / steps,
                      fmt::format("axial strain {:.2f} %, sigma22 {:.1f} kPa", 100 * strain,
                                  record.cauchy(1, 1) / 1e3));

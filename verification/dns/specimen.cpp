@@ -3,7 +3,7 @@
 #include "app/cpu_time.hpp"
 #include "app/interrupt.hpp"
 #include "app/packing_source.hpp"
-#include "app/snapshot.hpp"
+#include "app/scratch.hpp"
 #include "dns/repeat.hpp"
 
 #include <fmt/format.h>
@@ -31,8 +31,8 @@ Specimen::Specimen(const SpecimenScene& scene, const std::filesystem::path& stem
   MaterialSource frame = unfold(scene.material);
   frame.changes.insert_or_assign("boundary", toml::table{{"type", "frame-p"}});
   const std::string prefix = stem.string() + "_specimen";
-  const std::string one = stem.string() + "_state_frame";
-  const SnapshotFiles files(one);
+  const ScratchDirectory scratch;
+  const std::string one = (scratch / "frame").string();
   {
     const State state(make_material(frame));
     check(grainlaw_state_write_packing(state.get(), one.c_str()), "writing " + one);

@@ -18,7 +18,7 @@ void run(const SceneFile& file, const RunOptions& options) {
   if (options.restart || options.checkpoint_every)
     throw InputError(file.path.string() +
                      ": found a checkpoint asked for, expected none with dimension = 3");
-  run_brick_scene(file, options.directory, options.stop_after.value_or(-1));
+  run_brick_scene(file, options.destination, options.stop_after.value_or(-1));
 }
 
 }  // namespace
@@ -29,8 +29,7 @@ void add_solve_command(CLI::App& app) {
   auto scene = std::make_shared<std::string>();
   auto options = std::make_shared<RunOptions>();
   command->add_option("SCENE", *scene, "scene file (TOML)")->required();
-  command->add_option("--output", options->directory, "directory for the results")
-      ->capture_default_str();
+  options->destination.add_options(*command);
   command->add_flag("--restart", options->restart,
                     "go on from NAME.checkpoint, as if the run had not been interrupted");
   command

@@ -1,6 +1,7 @@
 #include "fe/prestress.hpp"
 
 #include "app/packing_source.hpp"
+#include "app/state_files.hpp"
 #include "point/driver.hpp"
 #include "point/start.hpp"
 
@@ -24,7 +25,7 @@ MaterialSource prestressed(const MaterialSource& source, const std::vector<Segme
   const Material material = make_material(source);
   PointDriver driver(material, {});
   const std::string prefix = stem.string() + "_prestress";
-  PackingStart start = look_at_start(driver.state(), source, prefix);
+  PackingStart start = look_at_start(driver.state(), source);
   for (std::string& text : far_targets(start, path)) start.unusual.push_back(std::move(text));
   const Segment* led = nullptr;
   try {
@@ -34,7 +35,7 @@ MaterialSource prestressed(const MaterialSource& source, const std::vector<Segme
                                        path_advice(start, driver.record().step, error.status, *led,
                                                    components_of<2>(driver.record().cauchy))));
   }
-  check(grainlaw_state_write_packing(driver.state(), prefix.c_str()), "writing " + prefix);
+  write_packing(driver.state(), prefix);
   return with_packing(source, prefix);
 }
 

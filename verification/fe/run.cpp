@@ -2,7 +2,6 @@
 
 #include "app/history.hpp"
 #include "app/interrupt.hpp"
-#include "app/output.hpp"
 #include "app/progress.hpp"
 #include "app/text.hpp"
 #include "fe/output/run_output.hpp"
@@ -60,6 +59,17 @@ void check_same_scene(const CheckpointReader& in, const std::string& saved,
                   in.path().string(), line_now, line_before));
 }
 
+OwnFiles claim(const FiniteElementScene& scene, const SceneFile& file, const RunOptions& options) {
+  const std::filesystem::path directory = options.destination.directory;
+  const bool goes_on =
+      options.restart && std::filesystem::exists(directory / (scene.name + ".checkpoint"));
+  std::vector<std::filesystem::path> inputs = files_of(scene.material);
+  inputs.push_back(file.path);
+  if (const auto mesh = file.content["mesh"]["file"].value<std::string>())
+    inputs.push_back(file.path.parent_path() / *mesh);
+  return options.destination.claim(outputs_of(scene, goes_on), inputs);
+}
+
 class Run {
  public:
   Run(const SceneFile& file, const RunOptions& options)
@@ -68,14 +78,15 @@ class Run {
         file_(file.path),
         every_(options.checkpoint_every.value_or(scene_.output.checkpoint_every)),
         stop_after_(options.stop_after.value_or(std::numeric_limits<int>::max())),
-        directory_(options.directory),
-        stem_(output_stem(options.directory, scene_.name)),
+        directory_(options.destination.directory),
+        own_(claim(scene_, file, options)),
+        stem_(options.destination.stem(scene_.name)),
         checkpoint_(stem_.string() + ".checkpoint"),
         progress_(scene_.name) {
     const Material material = make_material(
         scene_.prestress.empty() ? scene_.material
                                  : prestressed(scene_.material, scene_.prestress, stem_));
-    start_ = look_at_start(State(material).get(), scene_.material, stem_.string() + "_start");
+    start_ = look_at_start(State(material).get(), scene_.material);
     tell_start(scene_.name, start_);
     if (scene_.cycle) cycle_.emplace(*scene_.cycle, scene_.model, 1.0 / scene_.steps);
     const bool found = std::filesystem::exists(checkpoint_);
@@ -84,6 +95,7 @@ class Run {
       check_same_scene(in, in.get<std::string>(), identity_.scene);
       if (in.get<std::string>() != identity_.mesh)
         throw InputError(checkpoint_.string() + ": was made with another mesh");
+      list_as_it_is(checkpoint_);
       in.read(done_);
       RunTables tables(stem_, in);
       solver_ = make_solver(scene_.solver, scene_.model, material, scene_.threads);
@@ -194,6 +206,7 @@ class Run {
   int every_;
   int stop_after_;
   std::string directory_;
+  OwnFiles own_;
   std::filesystem::path stem_;
   std::filesystem::path checkpoint_;
   std::unique_ptr<Solver> solver_;

@@ -1,15 +1,15 @@
 // Run of a finite element scene from its start, or from a checkpoint.
 #pragma once
 
+#include "app/output.hpp"
 #include "fe/scene.hpp"
 
 #include <optional>
-#include <string>
 
 namespace verification {
 
 struct RunOptions {
-  std::string directory = ".";          // of the results
+  Destination destination;              // of the results
   bool restart = false;                 // from the checkpoint, if there is one
   std::optional<int> checkpoint_every;  // replaces the scene's; 0: only at an interrupt
   std::optional<int> stop_after;        // load step after which the run ends with a checkpoint

@@ -5,6 +5,8 @@
 #include "app/commands.hpp"
 #include "app/material.hpp"
 #include "app/output.hpp"
+#include "app/scratch.hpp"
+#include "app/state_files.hpp"
 #include "app/text.hpp"
 #include "app/written.hpp"
 #include "import/contact_law.hpp"
@@ -19,7 +21,6 @@
 #include <memory>
 #include <sstream>
 #include <string>
-#include <system_error>
 #include <vector>
 
 namespace verification {
@@ -48,17 +49,14 @@ std::string name_of(const ImportArguments& arguments) {
   return name;
 }
 
-// Nothing that was read is written over.
-void keep_sources(const ImportArguments& arguments, const std::filesystem::path& stem) {
+OwnFiles claim(const ImportArguments& arguments, const std::string& name) {
   const auto& files = arguments.files;
-  for (const std::string& source :
-       {files.particles, files.contacts, files.cell, arguments.material})
-    for (const char* end : {file_ends[0], file_ends[1], file_ends[2], ".toml"}) {
-      std::error_code error;
-      if (!source.empty() && std::filesystem::equivalent(source, stem.string() + end, error))
-        throw InputError(
-            fmt::format("{}: would be written over, expected another --name or --output", source));
-    }
+  Outputs outputs;
+  outputs.add_packing(name, name);
+  outputs.add(name, name, {".toml"});
+  outputs.add_pictures(name, name);
+  return arguments.destination.claim(
+      outputs, {files.particles, files.contacts, files.cell, arguments.material});
 }
 
 toml::table packing_table(const std::string& prefix, bool contacts) {
@@ -92,22 +90,6 @@ MaterialSource description(const ImportArguments& arguments, const ForeignPackin
         arguments.files.contacts));
   return source;
 }
-
-// Files that go with it.
-class RawFiles {
- public:
-  explicit RawFiles(std::string prefix) : prefix_(std::move(prefix)) {}
-  ~RawFiles() {
-    std::error_code error;
-    for (const char* end : file_ends) std::filesystem::remove(prefix_ + end, error);
-  }
-  RawFiles(const RawFiles&) = delete;
-  RawFiles& operator=(const RawFiles&) = delete;
-  [[nodiscard]] const std::string& prefix() const { return prefix_; }
-
- private:
-  std::string prefix_;
-};
 
 double pressure_of(const std::vector<double>& sigma) {
   return sigma.size() == 9 ? -(sigma[0] + sigma[4] + sigma[8]) / 3 : -0.5 * (sigma[0] + sigma[3]);
@@ -167,8 +149,8 @@ void print_state(const State& state, const PackingStart& start, const ForeignPac
 void run_import(ImportArguments arguments) {
   take_neighbours(arguments.files);
   const std::string name = name_of(arguments);
-  const auto stem = output_stem(arguments.output, name);
-  keep_sources(arguments, stem);
+  const OwnFiles own = claim(arguments, name);
+  const auto stem = arguments.destination.stem(name);
   const ForeignPacking packing = read_foreign(arguments.files);
   std::vector<std::string> notes = packing.notes;
   MaterialSource source = description(arguments, packing, notes);
@@ -177,12 +159,13 @@ void run_import(ImportArguments arguments) {
     fmt::print("found no contacts in a file: those of particles that overlap\n");
   for (const std::string& text : notes) fmt::print("note: {}\n", text);
 
-  const RawFiles raw(std::filesystem::absolute(stem.string() + "_read").string());
-  write_foreign(packing, raw.prefix());
-  source.changes.insert_or_assign("packing", packing_table(raw.prefix(), packing.has_contacts));
+  const ScratchDirectory scratch;
+  const std::string raw = (scratch / "read").string();
+  write_foreign(packing, raw);
+  source.changes.insert_or_assign("packing", packing_table(raw, packing.has_contacts));
   const State state = equilibrium(source, arguments, packing.dimension);
-  check(grainlaw_state_write_packing(state.get(), stem.c_str()), "writing " + stem.string());
-  const PackingStart start = look_at_start(state.get(), source, stem.string() + "_state");
+  write_packing(state.get(), stem);
+  const PackingStart start = look_at_start(state.get(), source);
   source.changes.insert_or_assign("packing", packing_table(name, true));
   std::ostringstream text;
   text << "# Imported from "
@@ -269,7 +252,7 @@ void add_import_command(CLI::App& app) {
   CLI::Option* material = command->add_option(
       "--material", a->material, "material file whose [contact], [boundary], [solver] are meant");
   for (CLI::Option* other : {young, kn, pressure, ratio, friction}) material->excludes(other);
-  command->add_option("--output", a->output, "directory for the results")->capture_default_str();
+  a->destination.add_options(*command);
   command->add_option("--name", a->name, "NAME of the results; default: of FILE");
   command->callback([a] { run_import(*a); });
 }

@@ -1,6 +1,7 @@
 // What the command line and the forces of a packing say of its contacts.
 #pragma once
 
+#include "app/output.hpp"
 #include "app/scene.hpp"
 #include "import/foreign_packing.hpp"
 
@@ -11,7 +12,8 @@ namespace verification {
 
 struct ImportArguments {
   ForeignFiles files;
-  std::string output = ".", name, material;
+  std::string name, material;
+  Destination destination;
   double young = 0, kn = 0, pressure = 0, ratio = -1, friction = -1;
 };
 

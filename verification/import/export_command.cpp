@@ -36,9 +36,9 @@ struct Exported {
   }
 };
 
-Exported exported(const MaterialSource& source, const std::filesystem::path& stem) {
+Exported exported(const MaterialSource& source) {
   const State state(make_material(source, dimension_of(source)));
-  Exported packing{SnapshotFiles(stem.string() + "_state").take(state.get()), {}, 0};
+  Exported packing{take_snapshot(state.get()), {}, 0};
   const Snapshot& snapshot = packing.snapshot;
   if (!snapshot.boundary.empty())
     throw InputError(
@@ -126,7 +126,8 @@ constexpr std::array<Form, 3> forms{{{"yade", ".txt", yade_text},
                                      {"dump", ".dump", lammps_dump}}};
 
 struct ExportArguments {
-  std::string material, output = ".", name, format = "yade";
+  std::string material, name, format = "yade";
+  Destination destination;
 };
 
 void run_export(const ExportArguments& arguments) {
@@ -135,11 +136,13 @@ void run_export(const ExportArguments& arguments) {
   source.base = source.file.parent_path();
   const SceneFile file(arguments.material);  // tells whether it is there
   const std::string name = arguments.name.empty() ? source.file.stem().string() : arguments.name;
-  const auto stem = output_stem(arguments.output, name);
   for (const Form& form : forms) {
     if (arguments.format != form.name) continue;
-    const Exported packing = exported(source, stem);
-    const std::string path = stem.string() + form.end;
+    Outputs outputs;
+    outputs.add(name, name, {form.end});
+    const OwnFiles own = arguments.destination.claim(outputs, files_of(source));
+    const std::string path = arguments.destination.stem(name).string() + form.end;
+    const Exported packing = exported(source);
     write_file(path, form.text(packing));
     fmt::print("{} {} at F = I; wrote {}\n", packing.snapshot.size(),
                packing.snapshot.spheres() ? "spheres" : "discs", terminal_text(path));
@@ -160,8 +163,7 @@ void add_export_command(CLI::App& app) {
                    "sphere; dump")
       ->check(CLI::IsMember({"yade", "lammps", "dump"}))
       ->capture_default_str();
-  command->add_option("--output", arguments->output, "directory for the result")
-      ->capture_default_str();
+  arguments->destination.add_options(*command);
   command->add_option("--name", arguments->name, "NAME of the result; default: of the material");
   command->callback([arguments] { run_export(*arguments); });
 }

@@ -6,6 +6,7 @@
 #include "app/interrupt.hpp"
 #include "app/material.hpp"
 #include "app/output.hpp"
+#include "app/state_files.hpp"
 #include "app/text.hpp"
 #include "app/written.hpp"
 #include "pack/picture.hpp"
@@ -29,7 +30,7 @@ namespace {
 
 struct PackArguments {
   std::string recipe;
-  std::string output = ".";
+  Destination destination;
   std::string name;
   std::optional<long> seed;
   long seeds = 0;
@@ -62,10 +63,15 @@ std::string name_of(const PackArguments& arguments) {
   return name;
 }
 
-Made make(const PackArguments& arguments, std::optional<long> seed) {
+MaterialSource source_of(const PackArguments& arguments) {
   MaterialSource source;
   source.file = arguments.recipe;
   source.base = source.file.parent_path();
+  return source;
+}
+
+Made make(const PackArguments& arguments, std::optional<long> seed) {
+  MaterialSource source = source_of(arguments);
   if (seed) change(source, "packing", "seed", *seed);
   const int dimension = dimension_of(source);
   const double start = cpu_seconds();
@@ -78,9 +84,9 @@ Made make(const PackArguments& arguments, std::optional<long> seed) {
   }
   const double seconds = cpu_seconds() - start;
   State state(*material);
-  const auto stem = output_stem(arguments.output, name_of(arguments));
-  check(grainlaw_state_write_packing(state.get(), stem.c_str()), "writing " + stem.string());
-  PackingStart look = look_at_start(state.get(), source, stem.string() + "_state");
+  const auto stem = arguments.destination.stem(name_of(arguments));
+  write_packing(state.get(), stem);
+  PackingStart look = look_at_start(state.get(), source);
   std::optional<WrittenPacking> discs;
   if (dimension == 2) discs = read_written(stem.string());
   return {std::move(state), std::move(look), std::move(discs), stem, seconds};
@@ -117,6 +123,10 @@ void print_packing(const Made& made) {
 // One line for each seed, to choose one; each is written as NAME_sSEED.
 void compare_seeds(PackArguments arguments, long first) {
   const std::string name = name_of(arguments);
+  Outputs outputs;
+  for (long seed = first; seed < first + arguments.seeds; ++seed)
+    outputs.add_packing(name, fmt::format("{}_s{}", name, seed));
+  const OwnFiles own = arguments.destination.claim(outputs, files_of(source_of(arguments)));
   const Interrupt interrupt;
   long failed = 0;
   fmt::print("{:>6} {:>9} {:>9} {:>9} {:>9} {:>11} {:>9} {:>8}\n", "seed", "particles", "boundary",
@@ -146,18 +156,22 @@ void compare_seeds(PackArguments arguments, long first) {
 
 void run_pack(const PackArguments& arguments) {
   const SceneFile recipe(arguments.recipe);
-  name_of(arguments);
+  const std::string name = name_of(arguments);
   const auto packing = recipe.content["packing"];
   if ((arguments.seed || arguments.seeds > 0) && !packing["seed"])
     throw InputError(arguments.recipe + ": --seed needs a [packing] with a generator and a seed");
   if (arguments.seeds > 0)
     return compare_seeds(arguments, arguments.seed.value_or(packing["seed"].value_or(1L)));
+  Outputs outputs;
+  outputs.add_packing(name, name);
+  outputs.add_pictures(name, name);
+  if (arguments.vtk) outputs.add(name, name, {".vtp"});
+  const OwnFiles own = arguments.destination.claim(outputs, files_of(source_of(arguments)));
   const Made made = make(arguments, arguments.seed);
   Written written(made.stem);
   for (const char* end : {"_particles.csv", "_contacts.csv", "_cell.csv"}) written.add(end);
   if (arguments.vtk) {
-    const std::string path = made.stem.string() + ".vtp";
-    check(grainlaw_state_write_vtk(made.state.get(), path.c_str()), "writing " + path);
+    write_vtk(made.state.get(), made.stem.string() + ".vtp");
     written.add(".vtp");
   }
   tell_start(made.name(), made.start);
@@ -172,8 +186,7 @@ void add_pack_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("pack", "make a packing from a recipe and write it");
   auto arguments = std::make_shared<PackArguments>();
   command->add_option("RECIPE", arguments->recipe, "material description (TOML)")->required();
-  command->add_option("--output", arguments->output, "directory for the results")
-      ->capture_default_str();
+  arguments->destination.add_options(*command);
   command->add_option("--name", arguments->name, "name of the results; default: of the recipe");
   command->add_option("--seed", arguments->seed, "seed of the generator, instead of the recipe's");
   command

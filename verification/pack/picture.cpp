@@ -46,8 +46,7 @@ bool draw_discs(const Snapshot& packing, const Rose& rose, const std::filesystem
 }  // namespace
 
 bool draw_packing(const grainlaw_state* state, const std::filesystem::path& stem) {
-  const SnapshotFiles files(stem.string() + "_state");
-  const Snapshot packing = files.take(state);
+  const Snapshot packing = take_snapshot(state);
   const std::string title = fmt::format(
       "{} {}, volume fraction {:.3f} [-], coordination number {:.2f} [-]", packing.size(),
       packing.spheres() ? "spheres" : "discs", 1 / (1 + measure_scalar(state, GRAINLAW_VOID_RATIO)),

@@ -26,7 +26,7 @@ namespace {
 
 struct PointArguments {
   std::string scene;
-  std::string output = ".";
+  Destination destination;
   std::vector<std::string> cases;
   int jobs = 1;
   int steps = 0;
@@ -37,30 +37,37 @@ bool has_member(const Ensemble& ensemble, const std::string& name) {
          ensemble.members.end();
 }
 
-// All outputs of the scene, including intermediate files; series of steps end in numbers.
-std::vector<Output> outputs_of(const SceneFile& file, const std::string& prefix,
-                               const std::vector<PointScene>& scenes,
-                               const std::vector<Ensemble>& ensembles) {
-  std::vector<Output> outputs;
-  const auto add = [&](const std::string& owner, const std::string& stem,
-                       const std::vector<const char*>& ends) {
-    for (const char* end : ends) outputs.push_back({stem + end, owner});
-  };
+// All that these scenes of the file can write.
+Outputs outputs_of(const SceneFile& file, const std::string& prefix,
+                   const std::vector<PointScene>& scenes, const std::vector<Ensemble>& ensembles) {
+  Outputs outputs;
   for (const PointScene& scene : scenes) {
-    add(scene.name, scene.name, {".csv"});
-    add(scene.name, scene.name + "_state",
-        {"_particles.csv", "_contacts.csv", "_cell.csv", ".vtp"});
-    if (scene.particle_measures) add(scene.name, scene.name, {"_particles.csv"});
-    if (!scene.pictures.empty()) add(scene.name, scene.name + "_packing", {".svg", ".png"});
+    const std::string& name = scene.name;
+    outputs.add(name, name, {".csv"});
+    if (scene.vtk_every > 0) outputs.add_series(name, name + "_", ".vtp");
+    if (scene.particle_measures) outputs.add(name, name, {"_particles.csv"});
+    if (!scene.pictures.empty()) outputs.add_pictures(name, name + "_packing");
     if (!scene.figure) continue;
-    add(scene.name, scene.name, {".svg", ".png"});
+    outputs.add_pictures(name, name);
     for (const std::string& figure : scene.figures)
-      add(scene.name, scene.name + figure_end(figure), {".svg", ".png"});
+      outputs.add_pictures(name, name + figure_end(figure));
   }
-  for (const Ensemble& ensemble : ensembles)
-    add("the ensemble of " + ensemble.name, ensemble.name + "_ensemble", {".csv", ".svg", ".png"});
-  if (file.content.contains("case")) add("the ends of the cases", prefix + "_cases", {".csv"});
+  for (const Ensemble& ensemble : ensembles) {
+    const std::string owner = "the ensemble of " + ensemble.name;
+    outputs.add(owner, ensemble.name + "_ensemble", {".csv"});
+    outputs.add_pictures(owner, ensemble.name + "_ensemble");
+  }
+  if (file.content.contains("case"))
+    outputs.add("the ends of the cases", prefix + "_cases", {".csv"});
   return outputs;
+}
+
+std::vector<std::filesystem::path> inputs_of(const SceneFile& file,
+                                             const std::vector<PointScene>& scenes) {
+  std::vector<std::filesystem::path> inputs{file.path};
+  for (const PointScene& scene : scenes)
+    for (auto& path : files_of(scene.material)) inputs.push_back(std::move(path));
+  return inputs;
 }
 
 // Requested cases of the scene, all by default. A case with seeds may be requested without them.
@@ -123,20 +130,21 @@ void run_command(const PointArguments& arguments) {
   const std::string prefix = file.content["name"].value_or(file.path.stem().string());
   std::vector<PointScene> scenes = read_point_scenes(file);
   const std::vector<Ensemble> ensembles = ensembles_of(file, prefix);
-  check_outputs(arguments.scene, outputs_of(file, prefix, scenes, ensembles));
+  outputs_of(file, prefix, scenes, ensembles).check_apart(arguments.scene);
   scenes = chosen(std::move(scenes), prefix, ensembles, arguments.cases);
+  const Destination& to = arguments.destination;
+  const OwnFiles own =
+      to.claim(outputs_of(file, prefix, scenes, ensembles), inputs_of(file, scenes));
   for (PointScene& scene : scenes) scene.options.max_steps = arguments.steps;
   std::vector<PointEnd> ends(scenes.size());
   CaseFailures failures(scenes.size());
   const Interrupt interrupt;
   run_jobs(scenes.size(), arguments.jobs, [&](std::size_t k) {
-    const std::string text = failures.guard(k, scenes[k].name, [&] {
-      run_point(scenes[k], output_stem(arguments.output, scenes[k].name), ends[k]);
-    });
+    const std::string text = failures.guard(
+        k, scenes[k].name, [&] { run_point(scenes[k], to.stem(scenes[k].name), ends[k]); });
     if (!text.empty() && ends[k].text == PointEnd().text) ends[k].text = text;
   });
-  if (file.content.contains("case"))
-    write_ends(scenes, ends, output_stem(arguments.output, prefix + "_cases.csv"));
+  if (file.content.contains("case")) write_ends(scenes, ends, to.stem(prefix + "_cases.csv"));
   for (Ensemble ensemble : ensembles) {
     const PointScene* of_it = nullptr;
     std::vector<std::string> begun;  // cases with a table of this run
@@ -147,8 +155,7 @@ void run_command(const PointArguments& arguments) {
     }
     if (of_it == nullptr) continue;
     ensemble.members = begun;
-    write_ensemble(ensemble, output_stem(arguments.output, ensemble.name).parent_path(),
-                   of_it->abscissa, of_it->figure);
+    write_ensemble(ensemble, to.directory, of_it->abscissa, of_it->figure);
   }
   failures.check(arguments.scene);
 }
@@ -160,8 +167,7 @@ void add_point_command(CLI::App& app) {
       app.add_subcommand("point", "lead representative volumes along paths of strain and stress");
   auto arguments = std::make_shared<PointArguments>();
   command->add_option("SCENE", arguments->scene, "scene file (TOML)")->required();
-  command->add_option("--output", arguments->output, "directory for the results")
-      ->capture_default_str();
+  arguments->destination.add_options(*command);
   command->add_option("--case", arguments->cases, "only this case of the scene; may be repeated");
   command->add_option("--steps", arguments->steps, "leave every path after so many; 0: none")
       ->check(at_least(0))

@@ -5,6 +5,7 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/snapshot.hpp"
+#include "app/state_files.hpp"
 #include "app/written.hpp"
 #include "point/figures.hpp"
 #include "point/laboratory_test.hpp"
@@ -30,7 +31,7 @@ double abscissa(const PointScene& scene, const RecordOf<D>& record) {
 class Observer {
  public:
   Observer(const PointScene& scene, const std::filesystem::path& stem, Written& written)
-      : scene_(scene), stem_(stem), files_(stem.string() + "_state"), written_(written) {
+      : scene_(scene), stem_(stem), written_(written) {
     if (!scene.particle_measures) return;
     measures_.emplace(stem.string() + "_particles.csv",
                       std::vector<std::string>{"step[-]", "F12[-]", "normalised_overlap[-]",
@@ -46,7 +47,7 @@ class Observer {
     }
     std::optional<Snapshot> snapshot;
     if (measures_) {
-      snapshot = files_.take(state);
+      snapshot = take_snapshot(state);
       measures_->row({static_cast<double>(record.step), record.deformation(0, 1),
                       normalised_overlap(*snapshot), mean_rotation_magnitude(*snapshot)});
     }
@@ -58,7 +59,7 @@ class Observer {
       const double wanted = backwards ? scene_.pictures[scene_.pictures.size() - 1 - panels_.size()]
                                       : scene_.pictures[panels_.size()];
       if (backwards ? strain > wanted + rounding : strain < wanted - rounding) break;
-      if (!snapshot) snapshot = files_.take(state);
+      if (!snapshot) snapshot = take_snapshot(state);
       panels_.push_back({strain_text(scene_.abscissa, strain), *snapshot});
     }
   }
@@ -72,7 +73,6 @@ class Observer {
  private:
   const PointScene& scene_;
   std::filesystem::path stem_;
-  SnapshotFiles files_;
   Written& written_;
   std::optional<CsvWriter> measures_;
   std::vector<SnapshotPanel> panels_;
@@ -110,7 +110,7 @@ void run_path(const PointScene& scene, const std::filesystem::path& stem, PointE
   start = cpu_seconds();
   PointDriverOf<D> driver(*material, scene.options);
   end.cpu += cpu_seconds() - start;
-  PackingStart begin = look_at_start(driver.state(), scene.material, stem.string() + "_state");
+  PackingStart begin = look_at_start(driver.state(), scene.material);
   for (std::string& text : far_targets(begin, scene.segments))
     begin.unusual.push_back(std::move(text));
   tell_start(scene.name, begin);

@@ -119,15 +119,14 @@ std::string PackingStart::text() const {
   return text;
 }
 
-PackingStart look_at_start(const grainlaw_state* state, const MaterialSource& source,
-                           const std::filesystem::path& stem) {
+PackingStart look_at_start(const grainlaw_state* state, const MaterialSource& source) {
   PackingStart start;
   const std::vector<double> sigma = measure(state, GRAINLAW_CAUCHY_STRESS);
   const bool spheres = sigma.size() == 9;
   start.pressure = spheres ? -(sigma[0] + sigma[4] + sigma[8]) / 3 : -0.5 * (sigma[0] + sigma[3]);
   start.dimension = spheres ? 3 : 2;
   start.void_ratio = measure_scalar(state, GRAINLAW_VOID_RATIO);
-  const Snapshot snapshot = SnapshotFiles(stem).take(state);
+  const Snapshot snapshot = take_snapshot(state);
   start.particles = static_cast<int>(snapshot.size());
   start.overlap = normalised_overlap(snapshot);
   double force = 0, overlap = 0;

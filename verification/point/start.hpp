@@ -30,10 +30,8 @@ struct PackingStart {
   [[nodiscard]] std::string text() const;
 };
 
-// Measures of a state at its start. Writes and removes files that begin with `stem`. Throws
-// ComputationError.
-PackingStart look_at_start(const grainlaw_state* state, const MaterialSource& source,
-                           const std::filesystem::path& stem);
+// Measures of a state at its start. Throws ComputationError.
+PackingStart look_at_start(const grainlaw_state* state, const MaterialSource& source);
 
 // Targets of a path that lie far from the start of the packing, one text each.
 std::vector<std::string> far_targets(const PackingStart& start, const std::vector<Segment>& path);

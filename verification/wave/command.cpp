@@ -19,6 +19,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace verification {
@@ -72,11 +73,9 @@ bool draw_case(const WaveCase& one, const std::vector<WaveRun>& runs,
 }
 
 // Runs the particles first; each mesh is compared with them as it finishes.
-void run_case(const WaveCase& one, const std::string& directory) {
-  const auto stem = output_stem(directory, one.name);
+void run_case(const WaveCase& one, const std::filesystem::path& stem) {
   const WaveDomain domain = wave_domain(one);
-  tell_start(one.name, look_at_start(State(make_material(one.material)).get(), one.material,
-                                     stem.string() + "_state"));
+  tell_start(one.name, look_at_start(State(make_material(one.material)).get(), one.material));
   std::vector<WaveRun> runs{run_particles(one)};
   std::vector<std::string> columns{"elements[-]",  "particles[-]",    "steps[-]", "cuts[-]",
                                    "time_step[s]", "core_seconds[s]", "wall[s]"};
@@ -129,6 +128,31 @@ void run_case(const WaveCase& one, const std::string& directory) {
   if (stopped) std::rethrow_exception(stopped);
 }
 
+void run_wave(const std::string& path, const std::string& only, const Destination& destination) {
+  const WaveScene waves = read_wave_scene(SceneFile(path));
+  std::vector<const WaveCase*> chosen;
+  for (const WaveCase& one : waves.cases)
+    if (only.empty() || one.name == waves.name + "_" + only) chosen.push_back(&one);
+  if (chosen.empty()) throw InputError(fmt::format("{}: there is no case {}", path, only));
+  Outputs outputs;
+  std::vector<std::filesystem::path> inputs{path};
+  for (const WaveCase* one : chosen) {
+    outputs.add(one->name, one->name, {"_cost.csv", "_dns.csv"});
+    outputs.add_pictures(one->name, one->name);
+    for (const int divisions : one->divisions)
+      outputs.add(one->name, fmt::format("{}_fe{}", one->name, divisions), {".csv"});
+    for (auto& file : files_of(one->material)) inputs.push_back(std::move(file));
+  }
+  outputs.check_apart(path);
+  const OwnFiles own = destination.claim(outputs, inputs);
+  CaseFailures failures(chosen.size());
+  const Interrupt interrupt;
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+    failures.guard(k, chosen[k]->name,
+                   [&] { run_case(*chosen[k], destination.stem(chosen[k]->name)); });
+  failures.check(path);
+}
+
 }  // namespace
 
 void add_wave_command(CLI::App& app) {
@@ -136,23 +160,12 @@ void add_wave_command(CLI::App& app) {
       "wave",
       "send a pulse through a specimen of particles, and through meshes of the same packing");
   auto scene = std::make_shared<std::string>();
-  auto output = std::make_shared<std::string>(".");
+  auto destination = std::make_shared<Destination>();
   auto only = std::make_shared<std::string>();
   command->add_option("SCENE", *scene, "scene file (TOML)")->required();
-  command->add_option("--output", *output, "directory for the results")->capture_default_str();
+  destination->add_options(*command);
   command->add_option("--case", *only, "this case alone");
-  command->callback([scene, output, only] {
-    const WaveScene waves = read_wave_scene(SceneFile(*scene));
-    std::vector<const WaveCase*> chosen;
-    for (const WaveCase& one : waves.cases)
-      if (only->empty() || one.name == waves.name + "_" + *only) chosen.push_back(&one);
-    if (chosen.empty()) throw InputError(fmt::format("{}: there is no case {}", *scene, *only));
-    CaseFailures failures(chosen.size());
-    const Interrupt interrupt;
-    for (std::size_t k = 0; k < chosen.size(); ++k)
-      failures.guard(k, chosen[k]->name, [&] { run_case(*chosen[k], *output); });
-    failures.check(*scene);
-  });
+  command->callback([scene, destination, only] { run_wave(*scene, *only, *destination); });
 }
 
 }  // namespace verification

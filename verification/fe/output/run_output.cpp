@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <utility>
 
 namespace verification {
@@ -41,6 +42,41 @@ std::vector<std::string> point_columns() {
 }
 
 }  // namespace
+
+Outputs outputs_of(const FiniteElementScene& scene, bool goes_on) {
+  Outputs outputs;
+  const std::string& name = scene.name;
+  const OutputOptions& output = scene.output;
+  const auto add = [&](std::initializer_list<const char*> ends) { outputs.add(name, name, ends); };
+  if (!goes_on) {
+    add({".checkpoint", ".csv", "_newton.csv", "_force.csv", "_cost.csv"});
+    add({scene.solver.kind == SolverKind::dynamics ? "_energy.csv" : "_balance.csv"});
+    if (!scene.probes.empty()) add({"_probes.csv"});
+    for (const std::size_t point : output.points)
+      outputs.add(name, fmt::format("{}_point{}", name, point), {".csv"});
+    for (const std::string& field : output.every_point)
+      outputs.add(name, name + "_every_" + field, {".csv"});
+  }
+  if (!scene.prestress.empty()) outputs.add_packing(name, name + "_prestress");
+  outputs.add_pictures(name, name);
+  outputs.add_pictures(name, name + "_force");
+  const auto add_drawn = [&](const std::string& what) {
+    for (const char* end : {".svg", ".png"}) outputs.add_series(name, name + "_", what + end);
+  };
+  for (const std::string& field : output.pictures.fields) add_drawn("_" + field);
+  if (!output.pictures.packings.empty() || !output.pictures.extremes.empty())
+    add_drawn("_packings");
+  if (output.vtk_every == 0) return outputs;
+  add({"_mesh.pvd", "_points.pvd"});
+  outputs.add_series(name, name + "_mesh_", ".vtu");
+  outputs.add_series(name, name + "_points_", ".vtp");
+  for (const std::size_t point : output.packings) {
+    const std::string packing = fmt::format("{}_packing{}", name, point);
+    outputs.add(name, packing, {".pvd"});
+    outputs.add_series(name, packing + "_", ".vtp");
+  }
+  return outputs;
+}
 
 // Opens a table; tables of a kind are printed under one name.
 CsvWriter& RunOutput::open(const std::string& suffix, const std::vector<std::string>& columns,
@@ -137,9 +173,8 @@ void RunOutput::draw(const LoadStep& step) {
                   title, stem + "_" + name))
       written_.add("_STEP_FIELD.svg");
   std::vector<SnapshotPanel> packings;
-  const SnapshotFiles files(stem + "_state");
   for (const std::size_t point : scene_.output.pictures.packings)
-    packings.push_back({fmt::format("point {}", point), files.take(points.state(point))});
+    packings.push_back({fmt::format("point {}", point), take_snapshot(points.state(point))});
   for (const std::string& name : scene_.output.pictures.extremes) {
     const Field& shown = field(name);
     const std::vector<double> all = values(shown, points);
@@ -149,7 +184,7 @@ void RunOutput::draw(const LoadStep& step) {
       const double value = *end * shown.picture_factor() + 0.0;  // no -0
       packings.push_back({fmt::format("{} {}:\n{:.3g} [{}], point {}", word, shown.label, value,
                                       shown.picture_unit(), point),
-                          files.take(points.state(point))});
+                          take_snapshot(points.state(point))});
     }
   }
   if (!packings.empty() && draw_snapshots(packings, 0, title, stem + "_packings"))

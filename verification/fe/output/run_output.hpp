@@ -1,6 +1,7 @@
 // Files of a run, written step by step.
 #pragma once
 
+#include "app/output.hpp"
 #include "app/written.hpp"
 #include "fe/output/cost_report.hpp"
 #include "fe/output/run_tables.hpp"
@@ -11,6 +12,10 @@
 #include <vector>
 
 namespace verification {
+
+// All that a run of the scene can write; of one that goes on from its checkpoint, what that does not
+// vouch for.
+Outputs outputs_of(const FiniteElementScene& scene, bool goes_on);
 
 class RunOutput {
  public:

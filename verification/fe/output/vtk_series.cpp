@@ -1,5 +1,6 @@
 #include "fe/output/vtk_series.hpp"
 
+#include "app/state_files.hpp"
 #include "fe/output/fields.hpp"
 #include "fe/solver/forces.hpp"
 
@@ -90,8 +91,7 @@ void VtkSeries::add(const LoadStep& step, const Solver& solver) {
   write_series("mesh", "vtu");
   for (const std::size_t point : packings_) {
     const std::string kind = fmt::format("packing{}", point);
-    const std::string path = file(kind, number, "vtp").string();
-    check(grainlaw_state_write_vtk(points.state(point), path.c_str()), "writing " + path);
+    write_vtk(points.state(point), file(kind, number, "vtp"));
     write_series(kind, "vtp");
   }
 }
