@@ -55,8 +55,8 @@ GRAINLAW_TUNED(long, mass_interval, 10);
 GRAINLAW_TUNED(long, long_interval, 30);
 // Residual, and its rise since the last relinearisation, below which long_interval applies [-];
 // sweep.
-GRAINLAW_TUNED(double, calm_residual, 1e-2);
-GRAINLAW_TUNED(double, calm_rise, 3);
+GRAINLAW_TUNED(double, skip_refresh_residual, 1e-2);
+GRAINLAW_TUNED(double, skip_refresh_rise, 3);
 // Steps in a window, after which the lower bound of the damping is reviewed [steps]; reach.
 GRAINLAW_TUNED(long, floor_window, 100);
 // First value of the lower bound of the damping, and its largest value for usual_nodes [-]. The
@@ -121,7 +121,7 @@ GRAINLAW_TUNED(double, good_step, 0.1);
 GRAINLAW_TUNED(double, acceptable_step, 0.9);
 GRAINLAW_TUNED(double, largest_rise, 300);
 // Residual over the best residual, below which the flow returns to full steps [-]; newton.
-GRAINLAW_TUNED(double, enough_gain, 0.5);
+GRAINLAW_TUNED(double, sufficient_gain, 0.5);
 // Longest full step [mean overlaps] and longest flow step [smallest radius]. Longer displacements
 // exchange contacts and lead to another packing; newton.
 GRAINLAW_TUNED(double, longest_full_step, 3);
@@ -132,21 +132,21 @@ GRAINLAW_TUNED(double, least_share, 0.1);
 // Number of full steps without gain, and relative change of the residual that counts as no change
 // [-]; sweep.
 GRAINLAW_TUNED(int, full_step_patience, 4);
-GRAINLAW_TUNED(double, the_same, 1e-2);
+GRAINLAW_TUNED(double, no_change, 1e-2);
 // Length of the relaxation after a step, enough to balance forces around single contacts [steps];
 // sweep.
 GRAINLAW_TUNED(long, settling_steps, 60);
 // Most corrections of one implicit flow step, and the rise of the residual that ends them early
 // [-]; sweep.
 GRAINLAW_TUNED(int, most_corrections, 5);
-GRAINLAW_TUNED(double, hopeless_correction, 1e4);
+GRAINLAW_TUNED(double, diverging_correction, 1e4);
 // Stiffness of the spring that enforces the rule of a two-contact sphere [its mass].
 // @formula free-spin; method.
-GRAINLAW_TUNED(double, free_spin_hold, 0.1);
+GRAINLAW_TUNED(double, chord_spring, 0.1);
 // Upper bound of the force above which a contact supports a sphere, however coarse the tolerance
 // [mean force]. Chosen; docs/theory.md, "How an increment is solved", has the rule of two-contact
 // spheres.
-GRAINLAW_TUNED(double, least_holding_force, 1e-5);
+GRAINLAW_TUNED(double, least_supporting_force, 1e-5);
 // Least cosine between the path of a two-contact sphere and the direction to a third sphere in its
 // way [-]; method.
 GRAINLAW_TUNED(double, least_closing, 0.05);
@@ -160,7 +160,7 @@ GRAINLAW_TUNED(double, least_moment, 0.3);
 GRAINLAW_TUNED(double, graph_gap, 1e-3);
 // Regularisation of the factors for rattlers and for the translation of the cell [masses].
 // Iterative refinement removes its effect; method.
-GRAINLAW_TUNED(double, grounding, 1e-12);
+GRAINLAW_TUNED(double, regularisation, 1e-12);
 // Residuals relative to the largest entry of the right-hand side [-]: target of GMRES, target for
 // several columns together, and the largest usable one; error.
 GRAINLAW_TUNED(double, good_solution, 1e-12);
@@ -179,7 +179,7 @@ GRAINLAW_TUNED(double, settled_solution, 1e-9);
 GRAINLAW_TUNED(std::size_t, iterative_nodes, 250);
 // Regularisation of the incomplete factors for rattlers [masses]. Values of 1e-4 to 1e-2 perform
 // alike, others need twice the products; timed.
-GRAINLAW_TUNED(double, incomplete_grounding, 1e-3);
+GRAINLAW_TUNED(double, incomplete_regularisation, 1e-3);
 // Residual reductions of a linear solve in a Newton step [-]: the largest, the least as a share of
 // the tolerance, and the largest that is usable. Between them it is the square of the last
 // reduction. Chosen; verification/README.md, "Spheres by their number", has run times with these

@@ -1,6 +1,6 @@
 #include "contact/contact_list.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 #include "packing/geometry.hpp"
 
 #include <algorithm>
@@ -12,12 +12,12 @@ template <int D>
 void ContactList<D>::resize(std::size_t contacts, bool weighted, double radius,
                             const ContactLaw& law) {
   count = contacts;
-  turns_far = false;
+  rotates_far = false;
   const std::size_t padded = (contacts + group - 1) / group * group;
-  resize_with_room(forces, padded);
-  resize_with_room(stiffness, padded);
+  resize_with_capacity(forces, padded);
+  resize_with_capacity(stiffness, padded);
   const auto fit = [&](auto& column, auto filling) {
-    resize_with_room(column, padded);
+    resize_with_capacity(column, padded);
     std::fill(column.begin() + static_cast<std::ptrdiff_t>(contacts), column.end(), filling);
   };
   // Padding: a particle beside itself at twice its diameter, without stiffness.
@@ -34,15 +34,16 @@ void ContactList<D>::resize(std::size_t contacts, bool weighted, double radius,
   fit(inverse_reach, 0.5 / radius);
   fit(lever_i, 0.5);
   // Columns of other laws are cleared.
-  for (auto* column : {&hold, &rest, &bending_stiffness, &rolling_length, &torsion_stiffness,
-                       &twisting_length, &inverse_radius_i, &inverse_radius_j}) {
+  for (auto* column :
+       {&bond_capacity, &rest, &bending_stiffness, &rolling_length, &torsion_stiffness,
+        &twisting_length, &inverse_radius_i, &inverse_radius_j}) {
     column->clear();
   }
   for (auto* columns : {&start_spin, &start_moment}) {
     for (auto& component : *columns) component.clear();
   }
   if (law.bonds()) {
-    fit(hold, 0.0);
+    fit(bond_capacity, 0.0);
     fit(rest, 2 * radius);
   }
   if (law.moments()) {
@@ -53,7 +54,7 @@ void ContactList<D>::resize(std::size_t contacts, bool weighted, double radius,
     if constexpr (D == 3) {
       fit(torsion_stiffness, 0.0);
       fit(twisting_length, 0.0);
-      resize_with_room(moments, padded);
+      resize_with_capacity(moments, padded);
     }
     fit(inverse_radius_i, 1 / radius);
     fit(inverse_radius_j, 1 / radius);
@@ -116,7 +117,7 @@ void build_contacts(std::span<const NeighbourPair<D>> pairs, std::span<const dou
 
     const bool bonded = bonds && known && start.contacts[h].bonded;
     if (bonds) {
-      list.hold[c] = bonded ? ContactList<D>::held : 0;
+      list.bond_capacity[c] = bonded ? ContactList<D>::unbreakable : 0;
       list.rest[c] = list.reach[c] + (bonded && !start.gaps.empty() ? start.gaps[h] : 0);
     }
     if (moments) {
@@ -151,8 +152,8 @@ void build_contacts(std::span<const NeighbourPair<D>> pairs, std::span<const dou
     }
   }
   if (moments) {
-    resize_with_room(list.inverse_node_radius, nodes);
-    if constexpr (D == 3) resize_with_room(list.node_moments, nodes);
+    resize_with_capacity(list.inverse_node_radius, nodes);
+    if constexpr (D == 3) resize_with_capacity(list.node_moments, nodes);
     for (std::size_t p = 0; p < n; ++p) {
       list.inverse_node_radius[static_cast<std::size_t>(node[p])] = 1 / radius[p];
     }

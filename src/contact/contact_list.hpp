@@ -41,8 +41,8 @@ struct ContactList {
   Springs start_force;          // tangential force there [N]; Hertz: force / overlap^(1/4)
   Column weight;                // empty when all are 1 [-]
   // Columns of laws with bonds, otherwise empty.
-  Column hold;  // `held` while bonded, else 0 [N, m]
-  Column rest;  // branch without normal force: reach, or more for a bond across a gap [m]
+  Column bond_capacity;  // `held` while bonded, else 0 [N, m]
+  Column rest;           // branch without normal force: reach, or more for a bond across a gap [m]
   // Columns of laws with moments, otherwise empty.
   Column bending_stiffness;                   // kr [N m]; Hertz: kr / sqrt(overlap) [N m^0.5]
   Column rolling_length;                      // largest moment / normal force [m]
@@ -51,7 +51,7 @@ struct ContactList {
   Spins start_spin;                           // theta_j - theta_i there [rad]
   Spins start_moment;  // moment on j there [N m]; Hertz: moment / overlap^(1/4)
   std::vector<double> inverse_node_radius;  // [1/m]
-  bool turns_far = false;  // a touching branch rotated beyond the short series since the start
+  bool rotates_far = false;  // a touching branch rotated beyond the short series since the start
 
   simd::Column<ForceRecord<D>> forces;  // of the last evaluation, on j
   // Moments of spheres on j as x, y, z, and their sums over the contacts of nodes [N m].
@@ -61,10 +61,12 @@ struct ContactList {
   ContactSums<D> sums;                         // over the contacts of every node
 
   // Bond capacity: a force, moment or length that nothing reaches [N, N m, m].
-  static constexpr double held = 1e300;
+  static constexpr double unbreakable = 1e300;
 
   [[nodiscard]] std::size_t size() const { return count; }
-  [[nodiscard]] bool bonded(std::size_t c) const { return !hold.empty() && hold[c] > 0; }
+  [[nodiscard]] bool bonded(std::size_t c) const {
+    return !bond_capacity.empty() && bond_capacity[c] > 0;
+  }
   [[nodiscard]] double rest_of(std::size_t c) const { return rest.empty() ? reach[c] : rest[c]; }
   [[nodiscard]] double weight_of(std::size_t c) const { return weight.empty() ? 1.0 : weight[c]; }
   void resize(std::size_t contacts, bool weighted, double radius, const ContactLaw& law);

@@ -1,6 +1,6 @@
 #include "contact/contact_sums.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 #include "base/simd.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ void ContactSums<D>::arrange(std::span<const std::int32_t> i, std::span<const st
     return static_cast<std::size_t>(node[static_cast<std::size_t>(particle)]);
   };
   const auto zeroes = [](std::vector<std::uint32_t>& counts, std::size_t size) {
-    resize_with_room(counts, size);
+    resize_with_capacity(counts, size);
     std::fill(counts.begin(), counts.end(), 0U);
   };
   zeroes(as_i_, nodes);
@@ -52,8 +52,8 @@ void ContactSums<D>::arrange(std::span<const std::int32_t> i, std::span<const st
     for (std::size_t k = 1; k < places_.size(); ++k) places_[k] += places_[k - 1];
     for (const std::uint32_t q : from) to[places_[count[q]]++] = q;
   };
-  resize_with_room(node_, nodes);
-  resize_with_room(begin_, nodes);  // filled below; until then nodes sorted by j
+  resize_with_capacity(node_, nodes);
+  resize_with_capacity(begin_, nodes);  // filled below; until then nodes sorted by j
   std::iota(node_.begin(), node_.end(), 0U);
   sort_by(as_j_, node_, begin_);
   sort_by(as_i_, begin_, node_);
@@ -72,7 +72,7 @@ void ContactSums<D>::arrange(std::span<const std::int32_t> i, std::span<const st
     free += as_i_[q] + as_j_[q];
     as_j_[q] = begin_[q] + as_i_[q];  // from here on the index of the next one
   }
-  resize_with_room(contact_, 2 * i.size());
+  resize_with_capacity(contact_, 2 * i.size());
   for (std::size_t c = 0; c < i.size(); ++c) {
     contact_[begin_[node_of(i[c])]++] = static_cast<std::uint32_t>(c);
     contact_[as_j_[node_of(j[c])]++] = static_cast<std::uint32_t>(c);

@@ -52,11 +52,11 @@ ContactTotals HalfContacts<2>::relinearise(std::span<const ParticleRecord<2>> pa
                   .ratio = law.ratio,
                   .factor = factor};
   Relinearised found{};
-  if (!list.turns_far) {
+  if (!list.rotates_far) {
     found = law.rotating() ? relinearise_near(loop) : relinearise_locked_near(loop);
-    list.turns_far = found.beyond > 0;
+    list.rotates_far = found.beyond > 0;
   }
-  if (list.turns_far) {
+  if (list.rotates_far) {
     found = law.rotating() ? relinearise_far(loop) : relinearise_locked_far(loop);
   }
   drags_.clear();

@@ -30,8 +30,8 @@ void find_contact_forces<2>(std::span<const ParticleRecord<2>> particles, const 
                             ContactList<2>& list) {
   const Loop loop{particles.data(), law.friction, &list};
   const Law& loops = laws.of(law);
-  if (!list.turns_far) list.turns_far = loops.near(loop).beyond > 0;
-  if (list.turns_far) loops.far(loop);
+  if (!list.rotates_far) list.rotates_far = loops.near(loop).beyond > 0;
+  if (list.rotates_far) loops.far(loop);
 }
 
 template <>
@@ -48,7 +48,7 @@ double advance_contacts<2>(std::span<const ParticleRecord<2>> particles, const C
     evaluate_contacts<2>(particles, law, list, nodes);
     return 0;
   }
-  list.turns_far = false;
+  list.rotates_far = false;
   const auto result = laws.of(law).advancing({particles.data(), law.friction, &list});
   gather(law, list, nodes);
   return result.dissipated;

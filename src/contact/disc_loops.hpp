@@ -5,7 +5,7 @@
 #include "contact/contact_forces.hpp"
 #include "contact/contact_list.hpp"
 #include "contact/disc_columns.hpp"
-#include "contact/disc_turn.hpp"
+#include "contact/disc_rotation.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -80,7 +80,7 @@ GRAINLAW_INLINE Lanes<width> overlap_of(const ContactList<2>& list, std::size_t 
 template <std::size_t width, Features law>
 GRAINLAW_INLINE Lanes<width> least_overlap(const ContactList<2>& list, std::size_t c) {
   if constexpr (law.bonds) {
-    return -load<width>(&list.hold[c]);
+    return -load<width>(&list.bond_capacity[c]);
   } else {
     return Lanes<width>{};
   }
@@ -195,7 +195,7 @@ GRAINLAW_INLINE void find_forces(const Loop& loop, std::size_t first, std::size_
     }
     const V trial = start - kt * slip;
     V bound = loop.friction * fn;
-    if constexpr (law.bonds) bound += load<width>(&list.hold[first + c]);
+    if constexpr (law.bonds) bound += load<width>(&list.bond_capacity[first + c]);
     const V ft = smallest(largest(trial, -bound), bound);
     V moment{};
     if constexpr (law.moments) {
@@ -209,7 +209,7 @@ GRAINLAW_INLINE void find_forces(const Loop& loop, std::size_t first, std::size_
       const V trial_moment =
           start_moment - kr * (spin - load<width>(&list.start_spin[0][first + c]));
       V largest_moment = load<width>(&list.rolling_length[first + c]) * fn;
-      if constexpr (law.bonds) largest_moment += load<width>(&list.hold[first + c]);
+      if constexpr (law.bonds) largest_moment += load<width>(&list.bond_capacity[first + c]);
       moment = smallest(largest(trial_moment, -largest_moment), largest_moment);
       if constexpr (advance) {
         const V lost = lost_by<width>(start_moment, trial_moment, moment, largest_moment, kr);

@@ -3,7 +3,7 @@
 // registers.
 #pragma once
 
-#include "contact/disc_turn.hpp"
+#include "contact/disc_rotation.hpp"
 #include "contact/springs.hpp"
 
 #include <algorithm>

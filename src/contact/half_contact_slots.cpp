@@ -1,6 +1,6 @@
 #include "contact/half_contact_slots.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -16,20 +16,20 @@ std::size_t at(std::int32_t particle) { return static_cast<std::size_t>(particle
 // Sorts by counting.
 void HalfContactSlots::sort(std::span<const std::int32_t> i, std::span<const std::int32_t> j,
                             std::size_t particles, std::span<const std::int32_t> order) {
-  resize_with_room(count_, particles);
+  resize_with_capacity(count_, particles);
   std::fill(count_.begin(), count_.end(), 0U);
   std::uint32_t most = 31;  // nearly always enough, so that the counts keep their size
   for (std::size_t c = 0; c < i.size(); ++c) {
     most = std::max(most, ++count_[at(i[c])]);
     most = std::max(most, ++count_[at(j[c])]);
   }
-  resize_with_room(first_slot_, most + 2);
+  resize_with_capacity(first_slot_, most + 2);
   std::fill(first_slot_.begin(), first_slot_.end(), 0U);
   for (const std::uint32_t count : count_) ++first_slot_[count + 1];
   std::partial_sum(first_slot_.begin(), first_slot_.end(), first_slot_.begin());
-  resize_with_room(rows_, (particles + lanes - 1) / lanes);
+  resize_with_capacity(rows_, (particles + lanes - 1) / lanes);
   std::fill(rows_.begin(), rows_.end(), Rows{});
-  resize_with_room(slot_, particles);
+  resize_with_capacity(slot_, particles);
   for (std::size_t q = 0; q < particles; ++q) {
     const std::size_t p = order.empty() ? q : at(order[q]);
     slot_[p] = first_slot_[count_[p]]++;

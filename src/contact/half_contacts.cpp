@@ -1,7 +1,7 @@
 // Half contacts: what discs and spheres share. Their loops differ.
 #include "contact/half_contacts.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -27,16 +27,16 @@ void HalfContacts<D>::arrange(const ContactList<D>& list, const Packing& packing
   const double sum = std::accumulate(radius.begin(), radius.end(), 0.0);
   curvature_ = 0.5 * static_cast<double>(particles_) / sum;
   if (!at_rest) {
-    resize_with_room(velocity_, particles_);
+    resize_with_capacity(velocity_, particles_);
     for (std::size_t p = 0; p < particles_; ++p) velocity_[p] = velocity(p);
   }
   slots_.sort(std::span(list.i).first(list.size()), std::span(list.j).first(list.size()),
               particles_, packing.order);
-  resize_with_room(nodes_, slots_.groups().size());
+  resize_with_capacity(nodes_, slots_.groups().size());
   std::fill(nodes_.begin(), nodes_.end(), Nodes{});
   bound_masses(least_masses);
   for (auto* records : {&positions_, &displacements_, &last_displacements_}) {
-    resize_with_room(*records, lanes * nodes_.size());
+    resize_with_capacity(*records, lanes * nodes_.size());
     std::fill(records->begin(), records->end(), ParticleRecord<D>{});
   }
   if (!at_rest) {
@@ -53,7 +53,7 @@ template <int D>
 void HalfContacts<D>::bound_masses(std::span<const LeastMass<D>> least_masses) {
   Bounds padding{};
   for (auto* column : {&padding.least, &padding.least_spin}) std::fill_n(*column, lanes, 1.0);
-  resize_with_room(bounds_, nodes_.size());
+  resize_with_capacity(bounds_, nodes_.size());
   std::fill(bounds_.begin(), bounds_.end(), padding);
   for (std::size_t p = 0; p < particles_; ++p) {
     const std::size_t slot = slots_.slot(p);
@@ -72,9 +72,9 @@ void HalfContacts<D>::list_half_contacts(const ContactList<D>& list, double long
   std::fill_n(padding.offset[0], lanes, 2 * longest_reach);
   std::fill_n(padding.inverse_reach, lanes, 1 / longest_reach);
   std::fill_n(padding.normal[0], lanes, 1.0);
-  resize_with_room(starts_, slots_.row_count());
+  resize_with_capacity(starts_, slots_.row_count());
   std::fill(starts_.begin(), starts_.end(), padding);
-  resize_with_room(half_contacts_, slots_.row_count());
+  resize_with_capacity(half_contacts_, slots_.row_count());
   std::fill(half_contacts_.begin(), half_contacts_.end(), HalfContact{});
   std::int32_t first = 0;
   for (const auto& group : slots_.groups()) {
@@ -111,7 +111,7 @@ void HalfContacts<D>::list_half_contacts(const ContactList<D>& list, double long
 template <int D>
 void HalfContacts<D>::add_drag(std::span<const ParticleRecord<D>> particles,
                                const NodeDrag<D>& drag, double factor) {
-  resize_with_room(drags_, nodes_.size());
+  resize_with_capacity(drags_, nodes_.size());
   std::fill(drags_.begin(), drags_.end(), Drag{});
   for (std::size_t p = 0; p < particles_; ++p) {
     const std::size_t slot = slots_.slot(p);

@@ -110,9 +110,9 @@ GRAINLAW_INLINE Lanes<width> moment_of(const Loop& loop, std::size_t c, const Ge
   V roll_bound = load<width>(&list.rolling_length[c]) * fn;
   V twist_bound = load<width>(&list.twisting_length[c]) * fn;
   if constexpr (law.bonds) {
-    const V hold = load<width>(&list.hold[c]);
-    roll_bound = largest(roll_bound, hold);
-    twist_bound = largest(twist_bound, hold);
+    const V capacity = load<width>(&list.bond_capacity[c]);
+    roll_bound = largest(roll_bound, capacity);
+    twist_bound = largest(twist_bound, capacity);
   }
   const V size = square_root(dot(roll, roll) + tiny);
   const V carried = smallest(size, roll_bound);
@@ -142,7 +142,8 @@ GRAINLAW_INLINE double contact_loop(const Loop& loop) {
   for (std::size_t c = 0; c < list.i.size(); c += width) {
     const Geometry<width> at = geometry_of<width, law>(loop, c);
     V depth = largest(at.overlap, zero);
-    if constexpr (law.bonds) depth = load<width>(&list.hold[c]) > zero ? at.overlap : depth;
+    if constexpr (law.bonds)
+      depth = load<width>(&list.bond_capacity[c]) > zero ? at.overlap : depth;
     V fn = load<width>(&list.normal_stiffness[c]) * depth;
     V root{}, fourth{};
     if constexpr (law.hertz) {
@@ -164,7 +165,7 @@ GRAINLAW_INLINE double contact_loop(const Loop& loop) {
       const Triple<width> trial = sum(h, -dot(at.normal, h), at.normal);
       const V size = square_root(dot(trial, trial) + tiny);
       V bound = loop.friction * fn;
-      if constexpr (law.bonds) bound = largest(bound, load<width>(&list.hold[c]));
+      if constexpr (law.bonds) bound = largest(bound, load<width>(&list.bond_capacity[c]));
       const V carried = smallest(size, bound);
       const Triple<width> ft = product(carried / size, trial);
       force = sum(force, ft);
@@ -208,7 +209,7 @@ GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
     const Geometry<width> at = geometry_of<width, law>(loop, c);
     V overlap = at.overlap;
     if constexpr (law.bonds) {
-      overlap = load<width>(&list.hold[c]) > zero ? magnitude(overlap) + tiny : overlap;
+      overlap = load<width>(&list.bond_capacity[c]) > zero ? magnitude(overlap) + tiny : overlap;
     }
     const auto here = overlap > zero;
     V kn = here ? load<width>(&list.normal_stiffness[c]) : zero;

@@ -55,10 +55,10 @@ class PseudoTransientNewton {
     for (auto* moves : {&memory.flow, &memory.total}) moves->reserve(memory.step.size());
     increment.refresh_masses();
     if (may_roll_) memory.mechanisms.forget(increment);
-    if (increment.hold_free_spins()) increment.update_forces();
+    if (increment.add_chord_springs()) increment.update_forces();
     keep_best();
   }
-  ~PseudoTransientNewton() { increment_.release_free_spins(); }
+  ~PseudoTransientNewton() { increment_.remove_chord_springs(); }
 
   bool run(int max_factorisations) {
     const int last = increment_.cost.factorisations + max_factorisations;
@@ -68,7 +68,7 @@ class PseudoTransientNewton {
       if (may_roll_) {
         turn_mechanisms();
         if (increment_.residual_norm() < tolerance_) return true;
-        memory_.mechanisms.hold(increment_, memory_.stiffness);
+        memory_.mechanisms.regularise(increment_, memory_.stiffness);
       }
       memory_.residual.assign(increment_.residual().begin(), increment_.residual().end());
       const bool solved = solve();
@@ -182,7 +182,7 @@ class PseudoTransientNewton {
       shift_ = shift_ / 16 < tuned::least_shift ? 0 : shift_ / 16;
     } else if (++without_gain_ == tuned::full_step_patience ||
                !(norm_ < tuned::largest_rise * best_) ||
-               std::abs(norm_ - before) < tuned::the_same * before) {
+               std::abs(norm_ - before) < tuned::no_change * before) {
       go_to(memory_.best, best_deformation_);
       increment_.refresh_masses();
       norm_ = best_;
@@ -228,7 +228,7 @@ class PseudoTransientNewton {
       if (shift_ < tuned::least_shift) shift_ = 0;
       increment_.refresh_masses();
       norm_ = defect();
-      if (norm_ < tuned::enough_gain * best_) {
+      if (norm_ < tuned::sufficient_gain * best_) {
         full_steps_ = true;
         keep_best();
       }
@@ -252,7 +252,7 @@ class PseudoTransientNewton {
   // Applies Newton's method to the equation of the implicit step, after its first iteration.
   bool corrected(double error) {
     memory_.total = memory_.flow;
-    for (int k = 0; k < tuned::most_corrections && error < tuned::hopeless_correction * norm_;
+    for (int k = 0; k < tuned::most_corrections && error < tuned::diverging_correction * norm_;
          ++k) {
       const double* r = increment_.residual().data();
       const double* m = increment_.masses().of_unknowns().data();

@@ -28,7 +28,7 @@ struct SolverOptions {
   // rarely helps [-]. 0: never.
   double loose_tolerance = 0;
   Start start = Start::committed;
-  Method method = Method::chain;
+  Method method = Method::direct;
   // Least force that residuals are relative to [N]. 0: relative_floor of the mean force at F = I.
   double force_floor = 0;
   double increment_limit = 1;  // Pi above which an increment is split [-]

@@ -35,10 +35,10 @@ Relaxation<D>::Relaxation(Increment<D>& increment, History history, RelaxationMe
   const auto& law = *problem_.law;
   const bool by_places = history == History::committed && problem_.space->identity;
   by_half_contacts_ = by_places && law.plain() && law.tangential();
-  at_once_ = by_places && law.plain() && !by_half_contacts_;
+  fused_ = by_places && law.plain() && !by_half_contacts_;
   // Without friction there is no flutter, and the damping follows the softest mode.
-  rough_ = by_places && law.tangential();
-  extrapolates_ = may_extrapolate && rough_;
+  friction_noise_ = by_places && law.tangential();
+  extrapolates_ = may_extrapolate && friction_noise_;
   if (extrapolates_) {
     memory.slow.reserve(problem_.particles());
     memory.slow.forget();
@@ -61,7 +61,7 @@ void Relaxation<D>::refresh() {
       arranged_ = true;
       at_rest_ = false;
     }
-    calm_start_ = calm_max_ = residual_;
+    refresh_start_ = refresh_max_ = residual_;
     return increment_.relinearise(memory_.half_contacts);
   }
   increment_.sum_masses();
@@ -83,15 +83,16 @@ void Relaxation<D>::refresh() {
 // True if the relinearisation may wait. Contacts hardly move, forces of those that switch are still
 // right, and outdated masses would raise the residual.
 template <int D>
-bool Relaxation<D>::calm() const {
-  return by_half_contacts_ && residual_ < tuned::calm_residual &&
-         calm_max_ < tuned::calm_rise * calm_start_ && steps_ % tuned::long_interval != 0;
+bool Relaxation<D>::may_skip_refresh() const {
+  return by_half_contacts_ && residual_ < tuned::skip_refresh_residual &&
+         refresh_max_ < tuned::skip_refresh_rise * refresh_start_ &&
+         steps_ % tuned::long_interval != 0;
 }
 
 template <int D>
 void Relaxation<D>::update() {
   if (by_half_contacts_) return;  // step() finds the forces
-  if (at_once_) return increment_.find_contact_forces();
+  if (fused_) return increment_.find_contact_forces();
   increment_.find_forces(history_);
 }
 
@@ -119,7 +120,7 @@ void Relaxation<D>::review_floor() {
 // True if friction flutters without end: some clusters have no stable equilibrium within reach.
 template <int D>
 bool Relaxation<D>::flutters() const {
-  if (!rough_ || window_max_ <= tuned::flutter_residual) return false;
+  if (!friction_noise_ || window_max_ <= tuned::flutter_residual) return false;
   return static_cast<double>(steps_ - last_gain_) >
          tuned::flutter_patience * std::pow(size(), tuned::flutter_growth);
 }
@@ -130,8 +131,8 @@ template <int D>
 bool Relaxation<D>::extrapolate() {
   if (steps_ % tuned::extrapolation_interval != 0) return false;
   const bool creeps =
-      residual_ < tuned::extrapolation_residual && look_max_ < tuned::restless * look_min_;
-  look_max_ = look_min_ = residual_;
+      residual_ < tuned::extrapolation_residual && check_max_ < tuned::restless * check_min_;
+  check_max_ = check_min_ = residual_;
   if (!creeps || steps_ < next_extrapolation_) {
     memory_.slow.forget();
     return false;
@@ -186,7 +187,7 @@ auto Relaxation<D>::step_nodes(double keep, double gain) -> Measured {
   double* z = &motion_.records()[0].x;
   const Nodes nodes{memory_.velocity.data(), &increment_.masses().records()[0].x,
                     memory_.gain.data(), space.identity ? z : nullptr};
-  if (at_once_) {
+  if (fused_) {
     const auto drag = motion_.drag().of_nodes();
     return gather_and_step(nodes, increment_.contacts(), drag, keep, gain);
   }
@@ -223,7 +224,7 @@ bool Relaxation<D>::run(double tolerance, long steps, double least_force) {
         (steps_ % tuned::floor_window == 0 &&
          (increment_.scale().mean_force() < least_force || flutters() || increment_.runs_away()));
     const bool over = residual_ < tolerance || stop;
-    if (over || (steps_ % tuned::mass_interval == 0 && !calm())) {
+    if (over || (steps_ % tuned::mass_interval == 0 && !may_skip_refresh())) {
       if (by_half_contacts_) memory_.half_contacts.displace(motion_.records());
       motion_.store_records();
       refresh();
@@ -235,9 +236,9 @@ bool Relaxation<D>::run(double tolerance, long steps, double least_force) {
       if (increment_.residual_norm() < tolerance) return true;
       if (stop) return false;
     }
-    calm_max_ = std::max(calm_max_, residual_);
-    look_max_ = std::max(look_max_, residual_);
-    look_min_ = std::min(look_min_, residual_);
+    refresh_max_ = std::max(refresh_max_, residual_);
+    check_max_ = std::max(check_max_, residual_);
+    check_min_ = std::min(check_min_, residual_);
     window_max_ = std::max(window_max_, residual_);
     window_min_ = std::min(window_min_, residual_);
     if (steps_ % tuned::floor_window == 0) review_floor();

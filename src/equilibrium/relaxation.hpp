@@ -40,7 +40,7 @@ class Relaxation {
   using Measured = StepMeasures;
 
   void refresh();
-  [[nodiscard]] bool calm() const;
+  [[nodiscard]] bool may_skip_refresh() const;
   Measured one_step(double keep, double gain);
   Measured step_nodes(double keep, double gain);
   void update();
@@ -57,10 +57,10 @@ class Relaxation {
   History history_;
   RelaxationMemory<D>& memory_;
   bool by_half_contacts_ = false;  // HalfContacts computes forces and steps
-  bool at_once_ = false;           // sums of forces and steps are one loop
+  bool fused_ = false;             // sums of forces and steps are one loop
   bool arranged_ = false;          // HalfContacts has the contacts listed at present
   bool at_rest_ = true;            // there are no velocities to keep
-  bool rough_ = false;             // with friction, and forces a function of positions
+  bool friction_noise_ = false;    // with friction, and forces a function of positions
   bool extrapolates_ = false;      // in the subspace of the last displacements
   double residual_ = 0;            // before the last step [-]; infinite: no contact, or not finite
   double power_ = 0;               // sum of the last step's velocity times the residual before it
@@ -69,8 +69,9 @@ class Relaxation {
   long steps_ = 0;
   long next_extrapolation_ = tuned::first_extrapolation;  // earliest step
   double pause_ = 0;                                      // after the last extrapolation [steps]
-  double calm_start_ = 0, calm_max_ = 0;  // residual at the last relinearisation, largest since
-  double look_max_ = 0, look_min_ = std::numeric_limits<double>::infinity();  // since last check
+  double refresh_start_ = 0,
+         refresh_max_ = 0;  // residual at the last relinearisation, largest since
+  double check_max_ = 0, check_min_ = std::numeric_limits<double>::infinity();  // since last check
   double window_start_ = std::numeric_limits<double>::infinity();
   double window_max_ = 0, window_min_ = std::numeric_limits<double>::infinity();
   double least_max_ = std::numeric_limits<double>::infinity();  // least window_max_

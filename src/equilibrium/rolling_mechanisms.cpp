@@ -1,6 +1,6 @@
 #include "equilibrium/rolling_mechanisms.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,10 +36,10 @@ void RollingMechanisms<2>::find(const Increment<2>& increment,
   const auto& list = increment.contacts();
   const auto& law = *increment.problem().law;
   const auto nodes = increment.problem().nodes();
-  for (auto* column : {&sense_, &turn_}) resize_with_room(*column, nodes);
-  resize_with_room(parent_, nodes);
-  resize_with_room(locked_, nodes);
-  resize_with_room(wanted_, nodes);
+  for (auto* column : {&sense_, &turn_}) resize_with_capacity(*column, nodes);
+  resize_with_capacity(parent_, nodes);
+  resize_with_capacity(locked_, nodes);
+  resize_with_capacity(wanted_, nodes);
   std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   std::fill(sense_.begin(), sense_.end(), 1.0);
   std::fill(turn_.begin(), turn_.end(), 0.0);
@@ -47,9 +47,9 @@ void RollingMechanisms<2>::find(const Increment<2>& increment,
     std::fill(column->begin(), column->end(), static_cast<unsigned char>(0));
   }
   // Capacities are upper bounds, because these numbers vary more than that of the contacts.
-  reserve_with_room(sliding_, touching.size());
-  reserve_with_room(sides_, 2 * touching.size());
-  reserve_with_room(kinks_, 2 * touching.size());
+  reserve_with_capacity(sliding_, touching.size());
+  reserve_with_capacity(sides_, 2 * touching.size());
+  reserve_with_capacity(kinks_, 2 * touching.size());
   sliding_.clear();
   for (const auto& contact : touching) {
     const std::size_t c = contact.index;
@@ -138,9 +138,10 @@ double RollingMechanisms<2>::balance(std::span<const Side> sides, double force) 
   return 0;  // rounding: no slip is left to undo
 }
 
-void RollingMechanisms<2>::hold(const Increment<2>& increment, Stiffness<2>& stiffness) const {
+void RollingMechanisms<2>::regularise(const Increment<2>& increment,
+                                      Stiffness<2>& stiffness) const {
   for (std::size_t q = 0; q < increment.problem().nodes(); ++q) {
-    if (parent_[q] == q && locked_[q] == 0) stiffness.hold_rotation(increment, q);
+    if (parent_[q] == q && locked_[q] == 0) stiffness.regularise_rotation(increment, q);
   }
 }
 
@@ -156,7 +157,7 @@ void RollingMechanisms<2>::see(const Increment<2>& increment, std::span<const do
 }
 
 void RollingMechanisms<2>::forget(const Increment<2>& increment) {
-  resize_with_room(seen_, increment.problem().nodes());
+  resize_with_capacity(seen_, increment.problem().nodes());
   std::fill(seen_.begin(), seen_.end(), static_cast<unsigned char>(0));
 }
 

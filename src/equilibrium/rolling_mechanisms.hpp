@@ -26,7 +26,7 @@ class RollingMechanisms<2> {
   // Finds the clusters of the contacts that touch at the present coordinates.
   void find(const Increment<2>& increment, std::span<const TouchingContact<2>> touching);
   // Adds stiffness against rotation to one disc of every cluster.
-  void hold(const Increment<2>& increment, Stiffness<2>& stiffness) const;
+  void regularise(const Increment<2>& increment, Stiffness<2>& stiffness) const;
   // Records the clusters whose regularisation took more than `least` [N] on the surface in a step.
   // No other motion balances that. The record lasts until they rotate or until the next step.
   void see(const Increment<2>& increment, std::span<const double> step, double least);

@@ -1,4 +1,4 @@
-// Rolling mechanisms of spheres. None larger than two-contact spheres (increment/free_spins.hpp)
+// Rolling mechanisms of spheres. None larger than two-contact spheres (increment/two_contact_spheres.hpp)
 // were observed, so all functions are empty.
 #pragma once
 
@@ -11,7 +11,7 @@ class RollingMechanisms<3> {
  public:
   static bool possible(const Problem<3>& /*problem*/) { return false; }
   void find(const Increment<3>& /*increment*/, std::span<const TouchingContact<3>> /*touching*/) {}
-  void hold(const Increment<3>& /*increment*/, Stiffness<3>& /*stiffness*/) const {}
+  void regularise(const Increment<3>& /*increment*/, Stiffness<3>& /*stiffness*/) const {}
   void see(const Increment<3>& /*increment*/, std::span<const double> /*step*/, double /*least*/) {}
   void forget(const Increment<3>& /*increment*/) {}
   bool turn(Increment<3>& /*increment*/, double /*least*/) { return false; }

@@ -53,7 +53,7 @@ double hand_over_of(std::size_t nodes) {
 // Mean force below which the packing counts as free of stress [N]. Bonds need no force and exclude
 // that: 0.
 template <int D>
-double faded_force(const Request<D>& request, const Increment<D>& increment) {
+double zero_force_share(const Request<D>& request, const Increment<D>& increment) {
   if (!may_be_free(request) || request.problem->law->bonds()) return 0;
   return std::max(std::min(request.tolerance, tuned::faded) * unloaded_force(*request.problem),
                   increment.scale().rounding());
@@ -66,7 +66,7 @@ bool is_free(const Request<D>& request, Increment<D>& increment) {
   increment.refresh_masses();
   increment.update_forces();
   if (increment.scale().touching() == 0) return true;
-  if (increment.scale().mean_force() >= faded_force(request, increment)) return false;
+  if (increment.scale().mean_force() >= zero_force_share(request, increment)) return false;
   increment.release_contacts();
   return true;
 }
@@ -110,7 +110,7 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
   const int most_factorisations =
       limit_to(effort.most_factorisations, tuned::unsettled_factorisations);
   increment.refresh_masses();
-  if (request.trying == Trying::whole && increment.scale().drowned())
+  if (request.trying == Trying::whole && increment.scale().below_rounding())
     return is_free(request, increment);
   double target = reachable(request, increment);
   double hand_over = hand_over_of(increment.problem().nodes());
@@ -128,7 +128,7 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
         relax(increment, tolerance, limit, History::committed, w.relaxation, 0, may_extrapolate);
     if (increment.lost() || increment.runs_away()) return is_free(request, increment);
     const bool there = relaxed && tolerance == target;
-    if (there && (coarse || increment.find_free_spins() < target)) return true;
+    if (there && (coarse || increment.find_two_contact_spheres() < target)) return true;
     const auto is_loose = [&] { return increment.residual_norm() < request.loose_tolerance; };
     if (request.guess_loose && !relaxed && is_loose()) return outcome.loose = true;
     const bool unsettled = !relaxed && round < tuned::unsettled_rounds;
@@ -198,12 +198,12 @@ bool solve_parts(const Request<D>& request, int parts, Workspace<D>& w, Outcome&
     if (!solve_part(request, w, outcome)) return false;
     double start = static_cast<double>(k - 1) / parts;
     const auto find_sensitivities = [&] {
-      if (!outcome.sensitivities || (may_be_free(request) && !increment.bears())) return;
+      if (!outcome.sensitivities || (may_be_free(request) && !increment.loaded())) return;
       outcome.sensitivities = w.sensitivity.solve(increment, share, start, w.newton.stiffness);
     };
     const auto carry = [&] {
       if (!outcome.sensitivities) return;
-      if (may_be_free(request) && !increment.bears()) {
+      if (may_be_free(request) && !increment.loaded()) {
         w.sensitivity.carry_free(increment, share);
       } else {
         w.sensitivity.carry(increment);
@@ -248,20 +248,20 @@ bool solve_advancing(const Request<D>& request, Method method, Workspace<D>& w, 
     }
     increment.refresh_masses();
     double loosest = reachable(request, increment);
-    if (request.options->method == Method::chain) {
+    if (request.options->method == Method::direct) {
       loosest = std::max(loosest, request.loose_tolerance);
     }
     const double most_steps = (may_be_free(request) ? 2 : 1) * tuned::advancing_steps;
     return relax(increment, loosest, relaxation_limit(most_steps, increment.problem().nodes()),
-                 History::advancing, w.relaxation, faded_force(request, increment));
+                 History::advancing, w.relaxation, zero_force_share(request, increment));
   };
   const auto settled = [&] { return equilibrium() || is_free(request, increment); };
-  const bool done = settled() && settle_bonds(
-                                     increment, [] {}, settled);
+  const auto nothing = [] {};
+  const bool done = settled() && settle_bonds(increment, nothing, settled);
   // An F at which the contacts were lost on this path counts as loose too.
   outcome.loose =
       request.loose_tolerance > 0 && increment.residual_norm() > reachable(request, increment);
-  outcome.sensitivities = done && request.sensitivities && !outcome.loose && increment.bears() &&
+  outcome.sensitivities = done && request.sensitivities && !outcome.loose && increment.loaded() &&
                           w.sensitivity.solve(increment, 1, 0, w.newton.stiffness);
   return done;
 }

@@ -53,8 +53,8 @@ struct Stage {
     fading,     // advancing history; succeeds only if all forces fade
     advancing,  // advancing history; any end succeeds
   } kind;
-  int number = 1;           // of sub-increments
-  bool then_whole = false;  // afterwards try the whole increment from this end
+  int number = 1;          // of sub-increments
+  bool try_whole = false;  // afterwards try the whole increment from this end
 };
 
 // Stages in the order in which they are tried.
@@ -62,7 +62,7 @@ class Stages {
  public:
   template <int D>
   explicit Stages(const Request<D>& request) {
-    if (request.options->method != Method::chain) {
+    if (request.options->method != Method::direct) {
       add({Stage::as_asked});
       return;
     }
@@ -145,15 +145,15 @@ class Walk {
       const bool done = enter(stage);
       if (stage.kind == Stage::fading) advancing_fails = !done;
       if (ran_away_) continue;
-      const bool accepted = done && (stage.kind != Stage::fading || !increment.bears());
+      const bool accepted = done && (stage.kind != Stage::fading || !increment.loaded());
       cost_.add(increment.cost);
       if (accepted && !increment.collapsed()) {
         outcome_.status = GRAINLAW_OK;
-        if (stage.then_whole) straighten();
+        if (stage.try_whole) try_whole();
         return true;
       }
       if (stage.kind == Stage::parts && increment.lost()) return false;
-      if (request_.trying == Trying::whole && increment.scale().drowned()) return false;
+      if (request_.trying == Trying::whole && increment.scale().below_rounding()) return false;
     }
     return false;
   }
@@ -194,7 +194,7 @@ class Walk {
     }
   }
 
-  void straighten() {
+  void try_whole() {
     workspace_.detour = workspace_.increment;
     const bool whole = attempt([&] { return solve_whole(request_, workspace_, outcome_); });
     cost_.add(workspace_.increment.cost);

@@ -1,7 +1,7 @@
 #include "equilibrium/subspace_extrapolation.hpp"
 
+#include "base/capacity.hpp"
 #include "base/constants.hpp"
-#include "base/room.hpp"
 #include "base/simd.hpp"
 #include "math/dimension.hpp"
 
@@ -109,8 +109,8 @@ Eigen::Index count_stable(const Square& lengths, const Square& work, double leas
 template <int D>
 void SubspaceExtrapolation<D>::reserve(std::size_t nodes) {
   for (Seen& seen : ring_) {
-    resize_with_room(seen.place, nodes);
-    resize_with_room(seen.forces, nodes);
+    resize_with_capacity(seen.place, nodes);
+    resize_with_capacity(seen.forces, nodes);
   }
 }
 

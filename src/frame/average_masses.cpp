@@ -60,8 +60,8 @@ void AverageMasses::take_out(const BoundarySpace<2>& space, std::span<const Mass
   }
 }
 
-void AverageMasses::hold(const BoundarySpace<2>& space, std::size_t nodes,
-                         std::span<double> velocity, std::span<const double> mass) {
+void AverageMasses::project_out_velocity(const BoundarySpace<2>& space, std::size_t nodes,
+                                         std::span<double> velocity, std::span<const double> mass) {
   for (std::size_t i = 0; i < 2; ++i) {
     const auto& average = space.average[i];
     if (average.rows == 0) continue;

@@ -19,8 +19,8 @@ class AverageMasses {
                 std::span<ForceRecord<2>> residual) const;
 
   // Projects out of velocities (component-major, with these masses) what changes the averages.
-  static void hold(const BoundarySpace<2>& space, std::size_t nodes, std::span<double> velocity,
-                   std::span<const double> mass);
+  static void project_out_velocity(const BoundarySpace<2>& space, std::size_t nodes,
+                                   std::span<double> velocity, std::span<const double> mass);
 
  private:
   std::array<std::array<double, 3>, 2> inverse_{};  // of sum row row / m: xx, xy, yy

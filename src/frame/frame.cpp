@@ -113,7 +113,7 @@ void check_polygon(const Packing& packing) {
 
 }  // namespace
 
-std::array<std::size_t, 4> corner_places(const Frame& frame) {
+std::array<std::size_t, 4> corner_indices(const Frame& frame) {
   std::array<std::size_t, 4> place{};
   std::size_t k = 0;
   for (std::size_t q = 0; q < frame.boundary.size() && k < 4; ++q)
@@ -126,7 +126,7 @@ std::array<std::size_t, 4> corner_places(const Frame& frame) {
 void complete_frame(Packing& packing) {
   if (packing.dimension != 2) wrong("only 2D packings have one");
   Frame& frame = *packing.frame;
-  const auto [c0, c1, c2, c3] = corner_places(frame);
+  const auto [c0, c1, c2, c3] = corner_indices(frame);
   const std::size_t count = frame.boundary.size();
   if ((frame.copies[1] && c1 - c0 != c3 - c2) || (frame.copies[0] && c2 - c1 != count - c3))
     wrong("opposite sides differ in their particles");

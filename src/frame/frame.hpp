@@ -29,7 +29,7 @@ void complete_frame(Packing& packing);
 const std::vector<double>& undeformed(const Packing& packing);
 
 // Places of the corners in the boundary; the first is 0. Throws Error (BAD_PACKING).
-std::array<std::size_t, 4> corner_places(const Frame& frame);
+std::array<std::size_t, 4> corner_indices(const Frame& frame);
 
 // Copies of a pair in one lattice direction. The particles fill 0..first and 0..second, the second
 // `apart` further than the first.

@@ -37,7 +37,7 @@ void check_holes(const Packing& packing) {
 
 // Opposite sides are copies when their edges name partners; sides without edges follow the others.
 void find_copies(const FrameRows& rows, Frame& frame) {
-  const auto corner = corner_places(frame);
+  const auto corner = corner_indices(frame);
   const auto given = [&](std::size_t side) {
     const std::size_t end = side < 3 ? corner[side + 1] : frame.boundary.size();
     int partners = 0;

@@ -1,7 +1,7 @@
 #include "frame/frame_space.hpp"
 
+#include "base/capacity.hpp"
 #include "base/error.hpp"
-#include "base/room.hpp"
 #include "frame/frame.hpp"
 #include "frame/side_rules.hpp"
 #include "packing/geometry.hpp"
@@ -59,7 +59,7 @@ BoundarySpace<2> make_boundary_space(const Packing& packing, const BoundaryOptio
 
 void weigh_copies(const BoundarySpace<2>& space, const Packing& packing,
                   std::span<const NeighbourPair<2>> pairs, std::vector<double>& weights) {
-  resize_with_room(weights, pairs.size());
+  resize_with_capacity(weights, pairs.size());
   std::fill(weights.begin(), weights.end(), 1.0);
   if (space.options.weight == ContactWeight::one) return;
   // Sides of a mixed boundary that do not share their fluctuations are not copies.

@@ -10,7 +10,7 @@ namespace grainlaw::core {
 void straighten(const Packing& packing, std::size_t side, BoundarySpace<2>& space) {
   const Frame& frame = *packing.frame;
   const auto n = packing.size();
-  const auto corner = corner_places(frame);
+  const auto corner = corner_indices(frame);
   const std::size_t count = frame.boundary.size();
   const std::size_t end = side < 3 ? corner[side + 1] : count;
   const auto at = [&](std::size_t place) {

@@ -24,7 +24,7 @@ constexpr std::array<const char*, 4> side_names{"bottom", "right", "top", "left"
 
 // Bits of the sides of every boundary particle: bit k for side k, two at a corner.
 std::vector<unsigned char> sides_of_places(const Frame& frame) {
-  const auto corner = corner_places(frame);
+  const auto corner = corner_indices(frame);
   const std::size_t count = frame.boundary.size();
   std::vector<unsigned char> sides(count, 0);
   for (std::size_t side = 0; side < 4; ++side) {

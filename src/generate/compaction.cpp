@@ -24,7 +24,7 @@ namespace {
 
 // Largest kn / (p t) at which compression comes to rest for every seed.
 constexpr double stiffest_compression = 1e3;
-constexpr double faded_force = 1e-3;  // relative to the mean force at the target
+constexpr double zero_force_share = 1e-3;  // relative to the mean force at the target
 
 // Mean with one division, which keeps the bits of earlier packings.
 double mean_of(const std::vector<double>& radius) {
@@ -111,7 +111,7 @@ class Consolidation {
     }
     const double mean_force =
         pressure * loose_.thickness * solid / (2 * static_cast<double>(loose_.size()) * radius_);
-    StressControl<D> control(loose_, law_, std::move(at), faded_force * mean_force);
+    StressControl<D> control(loose_, law_, std::move(at), zero_force_share * mean_force);
     if (unload && !control.reach(target))
       throw Error(
           GRAINLAW_NOT_CONVERGED,

@@ -26,7 +26,7 @@ constexpr double bearing_share = 1e-2;
 // Void ratio below which every step is short from the start.
 template <int D>
 constexpr double dense_void_ratio = D == 2 ? 0.5 : 0.95;
-constexpr double faded_force = 1e-3;
+constexpr double zero_force_share = 1e-3;
 constexpr double passing_tolerance = 1e-2;
 constexpr long passing_relaxation = 1000;
 // Share of the target stresses from which equilibria are exact; residual of these over the mean
@@ -62,13 +62,13 @@ class Compression {
                               : options.pressure;
     bearing_pressure_ = bearing_share * stress;
     const double mean_force = stress * packing_.thickness * solid_ / (2 * n * radius);
-    problem_ = {&packing_, &law_, &space_, faded_force * mean_force};
+    problem_ = {&packing_, &law_, &space_, zero_force_share * mean_force};
   }
 
   Configuration<D> run() {
     start_.deformation = identity<D>();
     start_.coordinates = packing_.position;
-    if (law_.rotating()) append_unturned<D>(packing_.size(), start_.coordinates);
+    if (law_.rotating()) append_zero_rotations<D>(packing_.size(), start_.coordinates);
     increment_.begin(problem_, start_, identity<D>());
     bool borne = void_ratio() < dense_void_ratio<D>;
     for (int step = 0; step < most_steps; ++step) {

@@ -64,7 +64,7 @@ bool StressControl<D>::accept(const Tensor<D>& deformation, double least_pressur
   request.sensitivities = true;
   const Outcome outcome = solve(request, workspace_);
   Increment<D>& increment = workspace_.increment;
-  if (outcome.status != GRAINLAW_OK || !increment.bears()) return false;
+  if (outcome.status != GRAINLAW_OK || !increment.loaded()) return false;
   const Tensor<D> stress = piola_stress(increment);
   const auto tangent = outcome.sensitivities ? condensed_tangent(increment, workspace_.sensitivity)
                                              : elastic_tangent(increment);

@@ -92,7 +92,7 @@ double moment_along(const ContactView<3>& c) {
 
 // Overlap that carries force; an unbonded contact carries no tension [m].
 template <int D>
-double carried_overlap(const ContactView<D>& c) {
+double load_bearing_overlap(const ContactView<D>& c) {
   return c.bonded ? c.overlap + c.bond_gap : std::max(c.overlap, 0.0);
 }
 
@@ -102,11 +102,11 @@ double elastic_energy(const Problem<D>& problem, const std::vector<ContactView<D
   const auto& radius = problem.packing->radius;
   for (const auto& c : contacts) {
     const double along = moment_along(c);
-    energy += c.weight * problem.law->energy(radius[static_cast<std::size_t>(c.i)],
-                                             radius[static_cast<std::size_t>(c.j)],
-                                             carried_overlap(c), sum_of_squares(c.tangential_force),
-                                             sum_of_squares(c.moment) - along * along,
-                                             along * along, c.bonded);
+    energy +=
+        c.weight * problem.law->energy(
+                       radius[static_cast<std::size_t>(c.i)], radius[static_cast<std::size_t>(c.j)],
+                       load_bearing_overlap(c), sum_of_squares(c.tangential_force),
+                       sum_of_squares(c.moment) - along * along, along * along, c.bonded);
   }
   return energy;
 }
@@ -117,7 +117,7 @@ std::array<double, Dimension<D>::spins> mean_rotation(const Problem<D>& problem,
                                                       const Configuration<D>& at) {
   const auto n = problem.packing->size();
   std::array<double, Dimension<D>::spins> mean{};
-  if (at.coordinates.size() < (D + Dimension<D>::turn_numbers) * n) return mean;
+  if (at.coordinates.size() < (D + Dimension<D>::rotation_numbers) * n) return mean;
   // Copies on a frame share their rotation and count once.
   std::vector<std::array<double, Dimension<D>::spins>> rotation(problem.space->nodes);
   for (std::size_t p = 0; p < n; ++p) {
@@ -164,7 +164,7 @@ std::vector<ContactView<D>> contact_views(const Problem<D>& problem, const Confi
       view.moment[s] = at.moments.empty() ? 0 : at.moments[view.moment.size() * k + s];
     }
     view.normal_force =
-        problem.law->normal_force(packing.radius[i], packing.radius[j], carried_overlap(view));
+        problem.law->normal_force(packing.radius[i], packing.radius[j], load_bearing_overlap(view));
     view.tangential_force = c.tangential_force;
     view.weight = weights[k];
     views.push_back(view);

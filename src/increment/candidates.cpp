@@ -1,6 +1,6 @@
 #include "increment/candidates.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 #include "frame/frame_space.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ void Candidates<D>::list(const Problem<D>& problem, const Motion<D>& motion, dou
   search_.find(problem.particles(), positions.data(), packing.radius.data(),
                packing.frame ? nullptr : motion.cell().data(), gap, pairs_);
   if (problem.law->bonds()) add_bonded(history);
-  keep_room(pairs_);
+  keep_capacity(pairs_);
   problem.space->drop(pairs_);
   weights_.clear();
   if constexpr (D == 2) {

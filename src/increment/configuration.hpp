@@ -17,7 +17,7 @@ namespace grainlaw::core {
 template <int D>
 struct Configuration {
   Tensor<D> deformation{};  // F
-  // Component-major: positions [m], then rotations since F = I in turn_numbers per particle if
+  // Component-major: positions [m], then rotations since F = I in rotation_numbers per particle if
   // particles rotate.
   std::vector<double> coordinates;
   std::vector<ContactHistory<D>> contacts;  // touching contacts, ordered by (i, j, shift)
@@ -67,9 +67,9 @@ std::array<double, Dimension<D>::spins> rotation_of(const double* numbers, std::
 
 // Appends zero rotations to the positions.
 template <int D>
-void append_unturned(std::size_t particles, std::vector<double>& coordinates) {
+void append_zero_rotations(std::size_t particles, std::vector<double>& coordinates) {
   if constexpr (D == 3) coordinates.resize(coordinates.size() + particles, 1.0);
-  coordinates.resize((D + Dimension<D>::turn_numbers) * particles, 0.0);
+  coordinates.resize((D + Dimension<D>::rotation_numbers) * particles, 0.0);
 }
 
 }  // namespace grainlaw::core

@@ -1,6 +1,6 @@
 #include "increment/drag.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 #include "base/simd.hpp"
 #include "increment/records.hpp"
 
@@ -38,16 +38,16 @@ void Drag<D>::begin(const DragStart<D>& how, const BoundarySpace<D>& space, bool
                     std::span<const double> move) {
   how_ = how;
   from_ = from;
-  copy_with_room(start, part_start_);
+  copy_with_capacity(start, part_start_);
   const std::size_t n = space.node.size();
   const std::size_t nodes = space.nodes;
-  resize_with_room(particle_, nodes);
+  resize_with_capacity(particle_, nodes);
   for (std::size_t p = 0; p < n; ++p) {
     particle_[static_cast<std::size_t>(space.node[p])] = static_cast<std::int32_t>(p);
   }
-  resize_with_room(expected_, nodes);
-  resize_with_room(move_, nodes);
-  resize_with_room(stiffness_, nodes);
+  resize_with_capacity(expected_, nodes);
+  resize_with_capacity(move_, nodes);
+  resize_with_capacity(stiffness_, nodes);
   const std::size_t components = affine.size() / n;
   for (std::size_t q = 0; q < nodes; ++q) {
     const auto p = static_cast<std::size_t>(particle_[q]);
@@ -75,7 +75,7 @@ void Drag<D>::follow_deformation(const BoundarySpace<D>& space, const Tensor<D>&
 }
 
 template <int D>
-void Drag<D>::restart_turns(std::span<const Place> particles) {
+void Drag<D>::restart_rotations(std::span<const Place> particles) {
   if constexpr (D == 3) {
     const std::size_t n = particles.size();
     for (std::size_t q = 0; q < expected_.size(); ++q) {
@@ -126,13 +126,13 @@ double Drag<D>::largest(std::span<const Place> particles) const {
 }
 
 template <int D>
-void Drag<D>::go_on_from(std::span<const ForceRecord<D>> forces) {
-  resize_with_room(before_, forces.size());
+void Drag<D>::set_drag_before(std::span<const ForceRecord<D>> forces) {
+  resize_with_capacity(before_, forces.size());
   std::copy(forces.begin(), forces.end(), before_.begin());
 }
 
 template <int D>
-void Drag<D>::go_on_from(std::span<const Place> particles) {
+void Drag<D>::set_drag_before(std::span<const Place> particles) {
   for (std::size_t q = 0; q < expected_.size(); ++q) {
     const auto distance =
         load<D>(particles[static_cast<std::size_t>(particle_[q])]) - load<D>(expected_[q]);

@@ -46,7 +46,7 @@ class Drag {
   // Moves the expected positions of nodes with a change of the found components of F.
   void follow_deformation(const BoundarySpace<D>& space, const Tensor<D>& change);
   // Sets the present rotations as the reference of rotations.
-  void restart_turns(std::span<const Place> particles);
+  void restart_rotations(std::span<const Place> particles);
 
   // Subtracts the drag from the forces on the nodes [N].
   void subtract_from(std::span<ForceRecord<D>> forces, std::span<const Place> particles) const;
@@ -59,9 +59,9 @@ class Drag {
   }
 
   // Takes the contact forces on the nodes at the start of a part as the drag of the part before.
-  void go_on_from(std::span<const ForceRecord<D>> forces);
+  void set_drag_before(std::span<const ForceRecord<D>> forces);
   // Takes the drag at the end of this part as that of the part before.
-  void go_on_from(std::span<const Place> particles);
+  void set_drag_before(std::span<const Place> particles);
 
   // Largest drag on a node [N].
   [[nodiscard]] double largest(std::span<const Place> particles) const;

@@ -46,7 +46,9 @@ class ForceScale {
     return touching_ > 0 ? rounding_ / relative() : 0;
   }
   // True if contact forces are below the rounding error.
-  [[nodiscard]] bool drowned() const { return relative_rounding() > tuned::largest_rounding; }
+  [[nodiscard]] bool below_rounding() const {
+    return relative_rounding() > tuned::largest_rounding;
+  }
   // Random scatter of forces, by tolerance and rounding [N].
   [[nodiscard]] double chance() const {
     return std::max(std::min(tolerance_, tuned::largest_chance) * relative(), rounding_);

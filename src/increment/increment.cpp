@@ -26,7 +26,7 @@ void Increment<D>::begin(const Problem<D>& problem, const Configuration<D>& from
   problem_ = &problem;
   epoch_ = next_epoch();
   cost = {};
-  holds_spins_ = false;
+  has_chord_springs_ = false;
   losses_.begin();
   motion_.begin(problem, from);
   history_.begin(from);
@@ -102,29 +102,29 @@ void Increment<D>::update_forces(History history) {
     std::copy_n(&forces_[problem_->nodes() + i].x, dim, of_rows + dim * i);
   }
   if constexpr (D == 3) {
-    if (!holds_spins_) return;
-    free_spins_.find(*this);
-    free_spins_.add_to(problem_->nodes(), residual_);
+    if (!has_chord_springs_) return;
+    two_contact_spheres_.find(*this);
+    two_contact_spheres_.add_to(problem_->nodes(), residual_);
   }
 }
 
 template <int D>
-bool Increment<D>::hold_free_spins() {
-  if constexpr (D == 3) holds_spins_ = FreeSpins::possible(*this);
-  return holds_spins_;
+bool Increment<D>::add_chord_springs() {
+  if constexpr (D == 3) has_chord_springs_ = TwoContactSpheres::possible(*this);
+  return has_chord_springs_;
 }
 
 template <int D>
-double Increment<D>::find_free_spins() {
+double Increment<D>::find_two_contact_spheres() {
   if constexpr (D == 2) return 0;
   if constexpr (D == 3) {
-    free_spins_.forget();
-    if (!FreeSpins::possible(*this)) return 0;
+    two_contact_spheres_.forget();
+    if (!TwoContactSpheres::possible(*this)) return 0;
     refresh_masses();
-    free_spins_.find(*this);
+    two_contact_spheres_.find(*this);
     double largest = 0;
-    for (const auto& held : free_spins_.held()) {
-      largest = std::max(largest, held.force(motion_.node_radius()[held.node]));
+    for (const auto& sphere : two_contact_spheres_.spheres()) {
+      largest = std::max(largest, sphere.force(motion_.node_radius()[sphere.node]));
     }
     return largest / scale_.relative();
   }
@@ -134,7 +134,7 @@ template <int D>
 void Increment<D>::find_forces(History history) {
   if (history == History::advancing) {
     losses_.dissipate(advance_contacts<D>(motion_.records(), *problem_->law, contacts_, forces_));
-    motion_.restart_turns();
+    motion_.restart_rotations();
   } else {
     sum_forces(forces_);
   }
@@ -173,13 +173,13 @@ void Increment<D>::reduce(std::span<ForceRecord<D>> forces) const {
       if ((fixed & fixed_bit(k)) != 0) component(forces[q], k) = 0;
     }
   }
-  masses_.take_out_averages(space, forces);
-  if (space.finds_deformation) take_found_stress(forces);
+  masses_.project_out_averages(space, forces);
+  if (space.finds_deformation) add_missing_stress(forces);
 }
 
 // Force on the rows of F: V (P* - P) over the scale, with V P = - sum f (x) L. @formula stress
 template <int D>
-void Increment<D>::take_found_stress(std::span<ForceRecord<D>> forces) const {
+void Increment<D>::add_missing_stress(std::span<ForceRecord<D>> forces) const {
   const auto& space = *problem_->space;
   Tensor<D> force{};
   for (std::size_t c = 0; c < contacts_.size(); ++c) {

@@ -5,11 +5,11 @@
 #include "contact/half_contacts.hpp"
 #include "increment/candidates.hpp"
 #include "increment/force_scale.hpp"
-#include "increment/free_spins.hpp"
 #include "increment/losses.hpp"
 #include "increment/masses.hpp"
 #include "increment/motion.hpp"
 #include "increment/touching_history.hpp"
+#include "increment/two_contact_spheres.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -63,12 +63,12 @@ class Increment {
 
   // Adds the springs of two-contact spheres to the residual from the next update_forces() on.
   // Returns whether the law needs them.
-  bool hold_free_spins();
-  void release_free_spins() { holds_spins_ = false; }
+  bool add_chord_springs();
+  void remove_chord_springs() { has_chord_springs_ = false; }
   // Finds the two-contact spheres at the present coordinates. Returns the largest force of their
   // springs over the force scale [-].
-  double find_free_spins();
-  [[nodiscard]] const auto& free_spins() const { return free_spins_; }
+  double find_two_contact_spheres();
+  [[nodiscard]] const auto& two_contact_spheres() const { return two_contact_spheres_; }
 
   // Updates masses and force scale at the present coordinates.
   void refresh_masses();
@@ -89,7 +89,7 @@ class Increment {
   // The answer then does not depend on what equilibrium leaves open.
   void continue_history();
   // Finds the directions in which contacts or the boundary support a node, as fixed_bit() of each.
-  void find_held(std::vector<unsigned char>& held) const;
+  void find_supported(std::vector<unsigned char>& held) const;
 
   // Computes the drag at the start of an increment, before its first part begins.
   void find_first_drag();
@@ -121,9 +121,9 @@ class Increment {
   }
   // True if the contact is load bearing. Rattlers touch their cage at random with forces of about
   // the residual, so ten times the scatter is required.
-  [[nodiscard]] bool carries(std::size_t c) const;
+  [[nodiscard]] bool bears_load(std::size_t c) const;
   // True if any contact is load bearing.
-  [[nodiscard]] bool bears() const;
+  [[nodiscard]] bool loaded() const;
   // Makes all contacts but bonds ineffective until the next F, whatever their force.
   void release_contacts() { released_ = true; }
 
@@ -163,7 +163,7 @@ class Increment {
   void build_list();
   void advance_contacts_and_history();
   void reduce(std::span<ForceRecord<D>> forces) const;
-  void take_found_stress(std::span<ForceRecord<D>> forces) const;
+  void add_missing_stress(std::span<ForceRecord<D>> forces) const;
   [[nodiscard]] double branch_square(std::size_t c) const { return square<D>(branch(c)); }
   [[nodiscard]] double bond_load(std::size_t c) const;
   [[nodiscard]] double worst_bond() const;
@@ -183,8 +183,8 @@ class Increment {
   std::vector<unsigned char> held_;  // supported directions of nodes, as found last
   bool released_ = false;
   struct Nothing {};
-  [[no_unique_address]] std::conditional_t<D == 3, FreeSpins, Nothing> free_spins_;
-  bool holds_spins_ = false;
+  [[no_unique_address]] std::conditional_t<D == 3, TwoContactSpheres, Nothing> two_contact_spheres_;
+  bool has_chord_springs_ = false;
 };
 
 template <int D>

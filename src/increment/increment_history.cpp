@@ -10,7 +10,7 @@
 namespace grainlaw::core {
 
 template <int D>
-bool Increment<D>::carries(std::size_t c) const {
+bool Increment<D>::bears_load(std::size_t c) const {
   if (contacts_.bonded(c)) return true;
   if (released_) return false;
   return normal_force(contacts_, c, overlap(c), *problem_->law) >
@@ -18,9 +18,9 @@ bool Increment<D>::carries(std::size_t c) const {
 }
 
 template <int D>
-bool Increment<D>::bears() const {
+bool Increment<D>::loaded() const {
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    if (carries(c)) return true;
+    if (bears_load(c)) return true;
   }
   return false;
 }
@@ -44,11 +44,11 @@ void Increment<D>::advance_contacts_and_history() {
   motion_.load_records();
   const auto& law = *problem_->law;
   losses_.dissipate(advance_contacts<D>(motion_.records(), law, contacts_, forces_));
-  motion_.restart_turns();
+  motion_.restart_rotations();
   if (losses_.after_break()) losses_.fall_to(potential_energy());
   history_.clear(pairs(), law);
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    if (carries(c)) history_.add(contacts_, c, pairs()[c], overlap(c), scale_.chance(), law);
+    if (bears_load(c)) history_.add(contacts_, c, pairs()[c], overlap(c), scale_.chance(), law);
   }
 }
 
@@ -62,20 +62,20 @@ void Increment<D>::advance_history() {
 template <int D>
 void Increment<D>::continue_history() {
   advance_contacts_and_history();
-  find_held(held_);
+  find_supported(held_);
   motion_.start_here(held_);
   build_list();
 }
 
 template <int D>
-void Increment<D>::find_held(std::vector<unsigned char>& held) const {
+void Increment<D>::find_supported(std::vector<unsigned char>& held) const {
   const auto& space = *problem_->space;
   held.assign(problem_->nodes(), 0);
   if (motion_.drag().acts()) return std::fill(held.begin(), held.end(), fixed_translation<D>);
   for (std::size_t q = 0; q < space.fixed.size(); ++q)
     held[q] = space.fixed[q] & fixed_translation<D>;
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    if (!carries(c)) continue;
+    if (!bears_load(c)) continue;
     held[static_cast<std::size_t>(space.node[static_cast<std::size_t>(contacts_.i[c])])] =
         held[static_cast<std::size_t>(space.node[static_cast<std::size_t>(contacts_.j[c])])] =
             fixed_translation<D>;

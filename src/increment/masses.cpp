@@ -53,8 +53,8 @@ void Masses<D>::find_averages(const BoundarySpace<D>& space) {
 }
 
 template <int D>
-void Masses<D>::take_out_averages(const BoundarySpace<D>& space,
-                                  std::span<ForceRecord<D>> residual) const {
+void Masses<D>::project_out_averages(const BoundarySpace<D>& space,
+                                     std::span<ForceRecord<D>> residual) const {
   if constexpr (D == 2) {
     if (space.averages()) averages_.take_out(space, records_, residual);
   }

@@ -29,7 +29,8 @@ class Masses {
   // Mean over the nodes of kn between equal particles [N/m].
   [[nodiscard]] double mean_stiffness() const;
   // Projects out the part of the residual that the average constraint supports.
-  void take_out_averages(const BoundarySpace<D>& space, std::span<ForceRecord<D>> residual) const;
+  void project_out_averages(const BoundarySpace<D>& space,
+                            std::span<ForceRecord<D>> residual) const;
 
  private:
   void find_averages(const BoundarySpace<D>& space);

@@ -1,6 +1,6 @@
 #include "increment/motion.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 #include "increment/records.hpp"
 #include "packing/geometry.hpp"
 
@@ -63,7 +63,7 @@ void Motion<D>::deform(const Tensor<D>& target) {
   carry_affinely(deformation_, to, coordinates_.data());
   deformation_ = to;
   if (!space.bound_to_axes()) cell_ = cell_at(deformation_);
-  if (!space.identity) place_fixed();
+  if (!space.identity) correct_rounding();
 }
 
 // Moves positions affinely from one F to another. In a space bound to axes, fluctuations keep their
@@ -83,7 +83,7 @@ void Motion<D>::carry_affinely(const Tensor<D>& from, const Tensor<D>& to,
 
 // Position of a particle without fluctuation.
 template <int D>
-double Motion<D>::affine_place(std::size_t p, std::size_t direction) const {
+double Motion<D>::affine_position(std::size_t p, std::size_t direction) const {
   const auto& space = *problem_->space;
   const bool bound = space.bound_to_axes();
   const double* x = bound ? space.reference.data() : problem_->packing->position.data();
@@ -99,7 +99,7 @@ Vec<D> Motion<D>::drift() const {
     const int anchor = problem_->space->anchor[k];
     if (anchor < 0) continue;
     const auto p = static_cast<std::size_t>(anchor);
-    result[k] = coordinates_[k * problem_->particles() + p] - affine_place(p, k);
+    result[k] = coordinates_[k * problem_->particles() + p] - affine_position(p, k);
   }
   return result;
 }
@@ -107,7 +107,7 @@ Vec<D> Motion<D>::drift() const {
 // Corrects rounding that would add up over increments: prescribed particles go where F maps them,
 // and rigid translation is removed.
 template <int D>
-void Motion<D>::place_fixed() {
+void Motion<D>::correct_rounding() {
   const auto& space = *problem_->space;
   const auto n = problem_->particles();
   const auto moved = drift();
@@ -115,7 +115,7 @@ void Motion<D>::place_fixed() {
     double* x = coordinates_.data() + k * n;
     for (std::size_t p = 0; p < n; ++p) {
       const bool fixed = (space.fixed[static_cast<std::size_t>(space.node[p])] & fixed_bit(k)) != 0;
-      x[p] = fixed ? affine_place(p, k) : x[p] - moved[k];
+      x[p] = fixed ? affine_position(p, k) : x[p] - moved[k];
     }
   }
 }
@@ -215,9 +215,9 @@ void Motion<D>::start_here(std::span<const unsigned char> held) {
 }
 
 template <int D>
-void Motion<D>::restart_turns() {
+void Motion<D>::restart_rotations() {
   if (!problem_->law->rotating()) return;
-  if (drag_.acts()) drag_.restart_turns(records_);
+  if (drag_.acts()) drag_.restart_rotations(records_);
   turned_.restart(records_, coordinates_.data() + dim * problem_->particles());
 }
 
@@ -225,9 +225,9 @@ template <int D>
 void Motion<D>::begin_drag(const DragStart<D>& how, std::span<const LeastMass<D>> contact_stiffness,
                            std::span<const double> last_move, bool as_expected) {
   const auto n = problem_->particles();
-  copy_with_room(start_, affine_);
+  copy_with_capacity(start_, affine_);
   carry_affinely(start_deformation_, deformation_, affine_.data());
-  resize_with_room(last_move_, last_move.size());
+  resize_with_capacity(last_move_, last_move.size());
   std::copy(last_move.begin(), last_move.end(), last_move_.begin());
   if (!last_move.empty() && !problem_->space->bound_to_axes()) {
     map_positions<D>(product<D>(deformation_, inverse<D>(start_deformation_)), n,
@@ -244,13 +244,13 @@ void Motion<D>::begin_drag(const DragStart<D>& how, std::span<const LeastMass<D>
 
 template <int D>
 double Motion<D>::end_drag(std::vector<double>& move) {
-  copy_with_room(drag_.start(), affine_);
+  copy_with_capacity(drag_.start(), affine_);
   carry_affinely(drag_.from(), deformation_, affine_.data());
   load_records();
-  resize_with_room(move, coordinates_.size());
+  resize_with_capacity(move, coordinates_.size());
   for (std::size_t k = 0; k < move.size(); ++k) move[k] = coordinates_[k] - affine_[k];
   const double work = drag_.work(records_, affine_);
-  drag_.go_on_from(records_);
+  drag_.set_drag_before(records_);
   return work;
 }
 

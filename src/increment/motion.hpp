@@ -5,7 +5,7 @@
 #include "increment/configuration.hpp"
 #include "increment/drag.hpp"
 #include "increment/problem.hpp"
-#include "increment/turns.hpp"
+#include "increment/rotations.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -45,10 +45,10 @@ class Motion {
   // the affine image of their last start, plus the mean fluctuation of the supported ones.
   void start_here(std::span<const unsigned char> held);
   // Sets the present rotations of spheres as the reference.
-  void restart_turns();
+  void restart_rotations();
 
   // Takes contact forces on the nodes at the start of the increment as the drag there.
-  void find_first_drag(std::span<const ForceRecord<D>> forces) { drag_.go_on_from(forces); }
+  void find_first_drag(std::span<const ForceRecord<D>> forces) { drag_.set_drag_before(forces); }
   // Begins drag from the start of the history to the present F. `last_move` is the displacement of
   // the fluctuations in the part before (empty: none). `contact_stiffness` is that of one contact,
   // per node. With `as_expected`, particles go to their expected positions.
@@ -84,8 +84,8 @@ class Motion {
 
   [[nodiscard]] Tensor<D> cell_at(const Tensor<D>& f) const;
   void carry_affinely(const Tensor<D>& from, const Tensor<D>& to, double* positions) const;
-  [[nodiscard]] double affine_place(std::size_t p, std::size_t direction) const;
-  void place_fixed();
+  [[nodiscard]] double affine_position(std::size_t p, std::size_t direction) const;
+  void correct_rounding();
   // Rigid translation of a packing without fixed particles [m].
   [[nodiscard]] Vec<D> drift() const;
 
@@ -97,7 +97,7 @@ class Motion {
   std::vector<double> coordinates_;
   std::vector<double> start_;  // coordinates at the start of the history
   std::vector<ParticleRecord<D>> records_;
-  Turned<D> turned_;
+  RotationReference<D> turned_;
   std::vector<double> carried_start_;
   Drag<D> drag_;
   std::vector<double> affine_, last_move_;

@@ -1,6 +1,6 @@
 #include "increment/touching_history.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 #include "contact/contact_point.hpp"
 
 #include <cmath>
@@ -9,9 +9,9 @@ namespace grainlaw::core {
 
 template <int D>
 void TouchingHistory<D>::begin(const Configuration<D>& from) {
-  copy_with_room(from.contacts, contacts_);
-  copy_with_room(from.moments, moments_);
-  copy_with_room(from.bond_gaps, gaps_);
+  copy_with_capacity(from.contacts, contacts_);
+  copy_with_capacity(from.moments, moments_);
+  copy_with_capacity(from.bond_gaps, gaps_);
 }
 
 template <int D>
@@ -53,9 +53,9 @@ void TouchingHistory<D>::add(const ContactList<D>& contacts, std::size_t c,
 
 template <int D>
 void TouchingHistory<D>::export_to(Configuration<D>& to) const {
-  copy_with_room(contacts_, to.contacts, little);
-  copy_with_room(moments_, to.moments, little);
-  copy_with_room(gaps_, to.bond_gaps, little);
+  copy_with_capacity(contacts_, to.contacts, state_capacity);
+  copy_with_capacity(moments_, to.moments, state_capacity);
+  copy_with_capacity(gaps_, to.bond_gaps, state_capacity);
 }
 
 template class TouchingHistory<2>;

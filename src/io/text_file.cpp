@@ -94,7 +94,7 @@ class Beside {
   Beside(const Beside&) = delete;
   Beside& operator=(const Beside&) = delete;
 
-  void take_place() {
+  void rename_to_target() {
     if (name_.empty()) return;
     if (std::rename(name_.c_str(), target_.c_str()) != 0) fail_file(path_, "written", errno);
     name_.clear();
@@ -141,7 +141,7 @@ std::string read_text(const std::string& path) {
 
 void write_text(const std::string& path, std::string_view text, Writing writing) {
   const NoSizeSignal no_signal;
-  Beside(path, text, {}, writing).take_place();
+  Beside(path, text, {}, writing).rename_to_target();
 }
 
 void write_together(std::span<const TextFile> files, Writing writing) {
@@ -149,7 +149,7 @@ void write_together(std::span<const TextFile> files, Writing writing) {
   std::vector<std::unique_ptr<Beside>> whole;
   for (const TextFile& file : files)
     whole.push_back(std::make_unique<Beside>(file.path, file.text, file.first, writing));
-  for (const auto& file : whole) file->take_place();
+  for (const auto& file : whole) file->rename_to_target();
 }
 
 void sync_file(const std::string& path) {

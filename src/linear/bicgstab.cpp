@@ -1,4 +1,4 @@
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 #include "linear/krylov.hpp"
 #include "linear/krylov_lanes.hpp"
 
@@ -87,12 +87,12 @@ template <class Entry>
 void Krylov<Entry>::reserve(std::size_t nodes) {
   const std::size_t entries = nodes * lanes_of<Entry>::entries;
   for (Vector* v : {&residual_, &solution_, &shadow_, &direction_, &image_, &second_}) {
-    reserve_with_room(*v, entries);
+    reserve_with_capacity(*v, entries);
   }
   for (std::size_t k = 0; k < shadows; ++k) {
-    reserve_with_room(moves_[k], entries);
-    reserve_with_room(images_[k], entries);
-    reserve_with_room(shadows_[k], entries * lanes_of<Entry>::shadows);
+    reserve_with_capacity(moves_[k], entries);
+    reserve_with_capacity(images_[k], entries);
+    reserve_with_capacity(shadows_[k], entries * lanes_of<Entry>::shadows);
   }
 }
 

@@ -2,7 +2,7 @@
 #include "linear/block_lu.hpp"
 #include "linear/dense_panels.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 
 #include <algorithm>
 
@@ -229,7 +229,7 @@ GRAINLAW_CLONES void substitute_several_6(const View& f, double* y) {
 template <std::size_t width>
 void BlockLU<width>::solve(std::span<Column> x) {
   const View view = elimination_.view();
-  resize_with_room(work_, x.size());
+  resize_with_capacity(work_, x.size());
   for (std::size_t j = 0; j < nodes_; ++j) work_[j] = x[static_cast<std::size_t>(view.node[j])];
   double* y = work_.data()->lane;
   if constexpr (width == 8) {
@@ -247,7 +247,7 @@ template <std::size_t width>
 void BlockLU<width>::solve_together(std::span<Together<width>> x) {
   const View view = elimination_.view();
   const std::size_t b = components_;
-  resize_with_room(work_together_, x.size());
+  resize_with_capacity(work_together_, x.size());
   for (std::size_t j = 0; j < nodes_; ++j) {
     std::copy_n(&x[static_cast<std::size_t>(view.node[j]) * b], b, &work_together_[j * b]);
   }

@@ -1,6 +1,6 @@
 #include "linear/block_matrix.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 
 #include <algorithm>
 
@@ -81,9 +81,9 @@ void BlockMatrix<width>::reset(std::size_t node_count, BlockSize<width> size,
                                std::span<const Edge> graph) {
   nodes = node_count;
   components = size;
-  resize_with_room(edges, graph.size());
+  resize_with_capacity(edges, graph.size());
   std::copy(graph.begin(), graph.end(), edges.begin());
-  resize_with_room(blocks, (nodes + 2 * edges.size()) * static_cast<std::size_t>(components));
+  resize_with_capacity(blocks, (nodes + 2 * edges.size()) * static_cast<std::size_t>(components));
   set_zero();
 }
 

@@ -1,7 +1,7 @@
 // Factorisation.
 #include "linear/dilu.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 #include "linear/dense_block.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ std::size_t at(std::int32_t place) { return static_cast<std::size_t>(place); }
 
 struct Values {
   const BlockMatrix<width>& matrix;
-  const BlockColumn<width>* ground;
+  const BlockColumn<width>* regularisation;
   const std::int32_t* node;
   BlockColumn<width>* scale;
   const std::size_t *block_of_lower, *block_of_upper;
@@ -83,7 +83,8 @@ void find_scale(const Values& v) {
     const std::size_t node = at(v.node[q]);
     v.scale[q] = {};
     for (std::size_t k = 0; k < b; ++k) {
-      const double value = std::abs(v.matrix.block(node)[k].lane[k]) + v.ground[node].lane[k];
+      const double value =
+          std::abs(v.matrix.block(node)[k].lane[k]) + v.regularisation[node].lane[k];
       v.scale[q].lane[k] = 1 / std::sqrt(value);
     }
   }
@@ -97,7 +98,7 @@ GRAINLAW_CLONES void factorise_rows(const Values& v) {
     const Block own = scaled(matrix.block(node), row, row);
     Block pivot = own;
     for (std::size_t k = 0; k < b; ++k) {
-      pivot.column[k].lane[k] += v.ground[node].lane[k] * row.lane[k] * row.lane[k];
+      pivot.column[k].lane[k] += v.regularisation[node].lane[k] * row.lane[k] * row.lane[k];
     }
     for (std::size_t k = v.lower.begin[q]; k < v.lower.begin[q + 1]; ++k) {
       v.lower.block[k] =
@@ -128,10 +129,10 @@ void Dilu::list_rows() {
   order_.find(nodes_, edges_);
   const auto place = order_.place();
   for (Triangle* triangle : {&lower_, &upper_}) {
-    resize_with_room(triangle->begin, nodes_ + 1);
+    resize_with_capacity(triangle->begin, nodes_ + 1);
     std::fill(triangle->begin.begin(), triangle->begin.end(), 0);
-    resize_with_room(triangle->node, edges_.size());
-    resize_with_room(triangle->block, edges_.size());
+    resize_with_capacity(triangle->node, edges_.size());
+    resize_with_capacity(triangle->block, edges_.size());
   }
   for (const auto& [p, q] : edges_) {
     ++upper_.begin[at(std::min(place[at(p)], place[at(q)])) + 1];
@@ -139,14 +140,14 @@ void Dilu::list_rows() {
   }
   const auto start = [this](Triangle& triangle, std::vector<std::size_t>& next) {
     std::partial_sum(triangle.begin.begin(), triangle.begin.end(), triangle.begin.begin());
-    resize_with_room(next, nodes_);
+    resize_with_capacity(next, nodes_);
     std::copy_n(triangle.begin.begin(), nodes_, next.begin());
   };
   start(upper_, next_);
   start(lower_, next_lower_);
   for (auto* blocks : {&block_of_lower_, &block_of_upper_})
-    resize_with_room(*blocks, edges_.size());
-  resize_with_room(upper_of_lower_, edges_.size());
+    resize_with_capacity(*blocks, edges_.size());
+  resize_with_capacity(upper_of_lower_, edges_.size());
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     const std::int32_t p = place[at(edges_[e].first)];
     const std::int32_t q = place[at(edges_[e].second)];
@@ -160,22 +161,22 @@ void Dilu::list_rows() {
   }
 }
 
-void Dilu::factorise(const BlockMatrix<width>& matrix, std::span<const Column> ground) {
+void Dilu::factorise(const BlockMatrix<width>& matrix, std::span<const Column> regularisation) {
   const bool known = nodes_ == matrix.nodes && edges_ == matrix.edges;
   if (!known) {
     nodes_ = matrix.nodes;
-    copy_with_room(matrix.edges, edges_);
+    copy_with_capacity(matrix.edges, edges_);
     list_rows();
-    resize_with_room(scale_, nodes_);
-    resize_with_room(inverse_, nodes_);
-    resize_with_room(diagonal_, nodes_);
-    resize_with_room(half_, nodes_);
-    resize_with_room(rest_, nodes_);
-    reserve_with_room(half_together_, b * nodes_);
-    reserve_with_room(rest_together_, b * nodes_);
+    resize_with_capacity(scale_, nodes_);
+    resize_with_capacity(inverse_, nodes_);
+    resize_with_capacity(diagonal_, nodes_);
+    resize_with_capacity(half_, nodes_);
+    resize_with_capacity(rest_, nodes_);
+    reserve_with_capacity(half_together_, b * nodes_);
+    reserve_with_capacity(rest_together_, b * nodes_);
   }
   const Values values{matrix,
-                      ground.data(),
+                      regularisation.data(),
                       order_.node().data(),
                       scale_.data(),
                       block_of_lower_.data(),

@@ -22,9 +22,9 @@ class Dilu {
   static constexpr std::size_t size = 6;
   using Column = BlockColumn<width>;
 
-  // Factorises in a LevelOrder, so that sweeps read memory in sequence. `ground`, positive, is
+  // Factorises in a LevelOrder, so that sweeps read memory in sequence. `regularisation`, positive, is
   // added to the diagonal of M, not of A, since A may have unsupported nodes.
-  void factorise(const BlockMatrix<width>& matrix, std::span<const Column> ground);
+  void factorise(const BlockMatrix<width>& matrix, std::span<const Column> regularisation);
 
   template <class Entry>
   void forward(std::span<const Entry> b, std::span<Entry> c) const;

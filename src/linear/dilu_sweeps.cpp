@@ -1,5 +1,5 @@
 // Sweeps through the factors.
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 #include "linear/dilu.hpp"
 
 namespace grainlaw::core {
@@ -168,7 +168,7 @@ void Dilu::backward(std::span<const Column> y, std::span<Column> x) {
 }
 template <>
 void Dilu::backward(std::span<const Several> y, std::span<Several> x) {
-  resize_with_room(half_together_, y.size());
+  resize_with_capacity(half_together_, y.size());
   backward_several(factors(), y.data()->lane, half_together_.data()->lane, x.data()->lane);
 }
 
@@ -178,8 +178,8 @@ void Dilu::apply(std::span<const Column> y, std::span<Column> c) {
 }
 template <>
 void Dilu::apply(std::span<const Several> y, std::span<Several> c) {
-  resize_with_room(half_together_, y.size());
-  resize_with_room(rest_together_, y.size());
+  resize_with_capacity(half_together_, y.size());
+  resize_with_capacity(rest_together_, y.size());
   apply_several(factors(), y.data()->lane, half_together_.data()->lane, rest_together_.data()->lane,
                 c.data()->lane);
 }

@@ -2,7 +2,7 @@
 #include "linear/dense_panels.hpp"
 #include "linear/elimination.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 
 #include <algorithm>
 #include <array>
@@ -49,13 +49,13 @@ void Elimination::find_fronts() {
     }
     fronts_.push_back(front);
   }
-  keep_room(fronts_);
+  keep_capacity(fronts_);
   std::reverse(fronts_.begin(), fronts_.end());
 }
 
 // Sorts the others of every front and finds their indices in the parent.
 void Elimination::link_fronts() {
-  resize_with_room(front_of_, nodes_);
+  resize_with_capacity(front_of_, nodes_);
   rows_.clear();
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     Front& front = fronts_[f];
@@ -67,8 +67,8 @@ void Elimination::link_fronts() {
     std::sort(rows_.begin() + static_cast<std::ptrdiff_t>(front.rows), rows_.end());
     front.is_leaf = true;
   }
-  keep_room(rows_);
-  resize_with_room(within_, rows_.size());
+  keep_capacity(rows_);
+  resize_with_capacity(within_, rows_.size());
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     Front& front = fronts_[f];
     front.parent = front.others == 0 ? -1 : front_of_[at(rows_[front.rows])];
@@ -94,7 +94,7 @@ void Elimination::link_fronts() {
 // of a child and that of its parent are each on top.
 void Elimination::place_fronts() {
   const auto b = static_cast<std::size_t>(components_);
-  resize_with_room(mark_, std::max(nodes_, fronts_.size()));
+  resize_with_capacity(mark_, std::max(nodes_, fronts_.size()));
   std::array<std::size_t, 2> top{}, highest{};
   for (std::size_t f = fronts_.size(); f-- > 0;) {
     const std::int32_t parent = fronts_[f].parent;
@@ -123,9 +123,9 @@ void Elimination::place_fronts() {
     fronts_[f].left += slot + (mark_[f] == 1 ? highest[0] : 0);
   }
   // Registers reach beyond the last block.
-  resize_with_room(runs_, most);
-  resize_with_room(pivots_, nodes_);
-  resize_with_room(values_, slot + highest[0] + highest[1] + dense::group);
+  resize_with_capacity(runs_, most);
+  resize_with_capacity(pivots_, nodes_);
+  resize_with_capacity(values_, slot + highest[0] + highest[1] + dense::group);
 }
 
 // Finds the positions of the matrix blocks, front by front.
@@ -138,7 +138,7 @@ void Elimination::find_sources() {
       visit(e, std::min(p, q), std::max(p, q), p < q);
     }
   };
-  resize_with_room(next_, std::max(nodes_, fronts_.size()));
+  resize_with_capacity(next_, std::max(nodes_, fronts_.size()));
   std::fill(next_.begin(), next_.end(), 0);
   for_each([&](std::size_t, std::int32_t low, std::int32_t, bool) {
     next_[at(front_of_[at(low)])] += 2;
@@ -150,7 +150,7 @@ void Elimination::find_sources() {
     fronts_[f].last_source = source;
     next_[f] = fronts_[f].first_source;
   }
-  resize_with_room(sources_, source + ahead);
+  resize_with_capacity(sources_, source + ahead);
   for_each([&](std::size_t e, std::int32_t low, std::int32_t high, bool ascending) {
     const std::size_t f = at(front_of_[at(low)]);
     const Front& front = fronts_[f];

@@ -1,7 +1,7 @@
 // Symbolic analysis: elimination order, tree, and the rows that every column of the factor reaches.
 #include "linear/elimination.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 
 #include <amd.h>
 
@@ -17,15 +17,15 @@ std::size_t at(std::int32_t place) { return static_cast<std::size_t>(place); }
 }  // namespace
 
 void Elimination::list_neighbours() {
-  resize_with_room(neighbours_begin_, nodes_ + 1);
+  resize_with_capacity(neighbours_begin_, nodes_ + 1);
   std::fill(neighbours_begin_.begin(), neighbours_begin_.end(), 0);
   for (const auto& [p, q] : edges_) {
     ++neighbours_begin_[at(p) + 1];
     ++neighbours_begin_[at(q) + 1];
   }
   std::partial_sum(neighbours_begin_.begin(), neighbours_begin_.end(), neighbours_begin_.begin());
-  resize_with_room(neighbours_, 2 * edges_.size());
-  resize_with_room(next_, nodes_);
+  resize_with_capacity(neighbours_, 2 * edges_.size());
+  resize_with_capacity(next_, nodes_);
   std::copy_n(neighbours_begin_.begin(), nodes_, next_.begin());
   for (const auto& [p, q] : edges_) {
     neighbours_[next_[at(p)]++] = q;
@@ -36,7 +36,7 @@ void Elimination::list_neighbours() {
 void Elimination::order() {
   const std::size_t entries = neighbours_.size();
   const std::size_t slack = entries + entries / 2 + nodes_ + 1;
-  resize_with_room(amd_, 9 * nodes_ + slack);
+  resize_with_capacity(amd_, 9 * nodes_ + slack);
   std::fill(amd_.begin(), amd_.end(), 0);
   std::int32_t* begin = amd_.data();
   std::int32_t* length = begin + nodes_;
@@ -60,14 +60,14 @@ void Elimination::order() {
         static_cast<std::int32_t>(slack), static_cast<std::int32_t>(entries), size, next, last,
         head, elements, degree, flags, control, info);
   position_.assign(next, next + nodes_);
-  resize_with_room(node_, nodes_);
+  resize_with_capacity(node_, nodes_);
   for (std::size_t q = 0; q < nodes_; ++q) node_[at(position_[q])] = static_cast<std::int32_t>(q);
 }
 
 // Finds the elimination tree [liu1986]: the parent of every index, -1 at a root.
 void Elimination::find_tree() {
-  resize_with_room(parent_, nodes_);
-  resize_with_room(ancestor_, nodes_);
+  resize_with_capacity(parent_, nodes_);
+  resize_with_capacity(ancestor_, nodes_);
   for (std::size_t j = 0; j < nodes_; ++j) {
     const auto place = static_cast<std::int32_t>(j);
     parent_[j] = ancestor_[j] = -1;
@@ -86,9 +86,9 @@ void Elimination::find_tree() {
 // Sorts children right before their parents and keeps the order of siblings, which leaves the
 // elimination equivalent.
 void Elimination::sort_by_tree() {
-  resize_with_room(child_, nodes_);
-  resize_with_room(sibling_, nodes_);
-  resize_with_room(order_, nodes_);
+  resize_with_capacity(child_, nodes_);
+  resize_with_capacity(sibling_, nodes_);
+  resize_with_capacity(order_, nodes_);
   std::fill(child_.begin(), child_.end(), -1);
   std::int32_t roots = -1;
   for (std::size_t j = nodes_; j-- > 0;) {
@@ -123,9 +123,9 @@ void Elimination::sort_by_tree() {
 void Elimination::find_structure() {
   find_tree();
   sort_by_tree();
-  resize_with_room(structure_begin_, nodes_);
-  resize_with_room(below_, nodes_);
-  resize_with_room(mark_, nodes_);
+  resize_with_capacity(structure_begin_, nodes_);
+  resize_with_capacity(below_, nodes_);
+  resize_with_capacity(mark_, nodes_);
   std::fill(mark_.begin(), mark_.end(), -1);
   std::fill(child_.begin(), child_.end(), -1);
   structure_.clear();
@@ -160,7 +160,7 @@ void Elimination::find_structure() {
     sibling_[j] = child_[at(parent_[j])];
     child_[at(parent_[j])] = place;
   }
-  keep_room(structure_);
+  keep_capacity(structure_);
 }
 
 std::size_t Elimination::factor_blocks() const {
@@ -179,7 +179,7 @@ void Elimination::analyse(std::size_t nodes, int components, std::span<const Edg
   analysed_ = false;
   nodes_ = nodes;
   components_ = components;
-  resize_with_room(edges_, edges.size());
+  resize_with_capacity(edges_, edges.size());
   std::copy(edges.begin(), edges.end(), edges_.begin());
   list_neighbours();
   if (keep_order) find_structure();

@@ -1,6 +1,6 @@
 #include "linear/iterative.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 #include "linear/krylov_lanes.hpp"
 #include "linear/largest.hpp"
 
@@ -50,11 +50,11 @@ Iterative::Memory<Together<width>>& Iterative::memory() {
   return several_;
 }
 
-void Iterative::prepare(const BlockMatrix<width>& matrix, std::span<const Column> ground) {
-  dilu_.factorise(matrix, ground);
+void Iterative::prepare(const BlockMatrix<width>& matrix, std::span<const Column> regularisation) {
+  dilu_.factorise(matrix, regularisation);
   const auto reserve = [&](auto& memory, std::size_t entries) {
     memory.krylov.reserve(matrix.nodes);
-    for (auto* v : {&memory.rest, &memory.step, &memory.tried}) reserve_with_room(*v, entries);
+    for (auto* v : {&memory.rest, &memory.step, &memory.tried}) reserve_with_capacity(*v, entries);
   };
   reserve(one_, matrix.nodes);
   reserve(several_, Dilu::size * matrix.nodes);

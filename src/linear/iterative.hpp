@@ -23,7 +23,7 @@ class Iterative {
   using Column = BlockColumn<width>;
 
   // Prepares the solves that follow; see Dilu::factorise().
-  void prepare(const BlockMatrix<width>& matrix, std::span<const Column> ground);
+  void prepare(const BlockMatrix<width>& matrix, std::span<const Column> regularisation);
 
   // Solves A x = b for one vector or several. Returns the largest residual over the lanes, in the
   // measure of the tolerance.

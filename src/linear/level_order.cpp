@@ -1,6 +1,6 @@
 #include "linear/level_order.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -21,7 +21,7 @@ void LevelOrder::list_neighbours(std::span<const Edge> edges) {
   }
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
   std::copy_n(begin_.begin(), next_.size(), next_.begin());
-  resize_with_room(neighbour_, 2 * edges.size());
+  resize_with_capacity(neighbour_, 2 * edges.size());
   for (const auto& [p, q] : edges) {
     neighbour_[next_[at(p)]++] = q;
     neighbour_[next_[at(q)]++] = p;
@@ -29,13 +29,13 @@ void LevelOrder::list_neighbours(std::span<const Edge> edges) {
 }
 
 void LevelOrder::find(std::size_t nodes, std::span<const Edge> edges) {
-  resize_with_room(begin_, nodes + 1);
-  resize_with_room(next_, nodes);
+  resize_with_capacity(begin_, nodes + 1);
+  resize_with_capacity(next_, nodes);
   list_neighbours(edges);
-  resize_with_room(place_, nodes);
+  resize_with_capacity(place_, nodes);
   std::fill(place_.begin(), place_.end(), -1);
   node_.clear();
-  reserve_with_room(node_, nodes);
+  reserve_with_capacity(node_, nodes);
   const auto put = [this](std::size_t q) {
     if (place_[q] >= 0) return;
     place_[q] = static_cast<std::int32_t>(node_.size());

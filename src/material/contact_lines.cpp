@@ -2,7 +2,7 @@
 
 namespace grainlaw::core {
 
-void ContactLines::turn_round(InitialContact& contact) {
+void ContactLines::reverse(InitialContact& contact) {
   std::swap(contact.i, contact.j);
   for (int& component : contact.shift) component = -component;
   for (double& component : contact.tangential_force) component = -component;

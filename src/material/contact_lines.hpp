@@ -48,7 +48,7 @@ class ContactLines {
     const bool of_itself = contact.i == contact.j;
     if (of_itself && contact.shift == none)
       table.fail(fmt::format("a particle (id {}) in contact with itself", table.text(0)));
-    if (contact.i > contact.j || (of_itself && contact.shift < none)) turn_round(contact);
+    if (contact.i > contact.j || (of_itself && contact.shift < none)) reverse(contact);
     const auto [other, fresh] =
         contacts_.emplace(key_of(contact), std::pair(table.line(), contact));
     if (!fresh) table.fail(fmt::format("the contact of line {} again", other->second.first));
@@ -59,7 +59,7 @@ class ContactLines {
 
  private:
   // Reverses branch and forces.
-  static void turn_round(InitialContact& contact);
+  static void reverse(InitialContact& contact);
 
   std::map<ContactKey, std::pair<unsigned, InitialContact>> contacts_;
 };

@@ -25,7 +25,7 @@ double given_overlap(const Packing& packing, const Pair& pair) {
 
 // Whether a file names a contact from j. Branch, normal, tangent and force are then reversed; the
 // component along the tangent of discs stays.
-inline bool is_seen_from_j(const InitialContact& contact) {
+inline bool is_named_from_j(const InitialContact& contact) {
   constexpr std::array<int, 3> none{};
   return contact.i > contact.j || (contact.i == contact.j && contact.shift < none);
 }

@@ -54,7 +54,7 @@ void load_to_stress(const BoundarySpace<D>& space, const Request<D>& request,
     part.trying = advancing ? Trying::advancing : Trying::committed;
     const auto outcome = solve(part, workspace);
     relaxation_steps += workspace.increment.cost.relaxation_steps;
-    if (outcome.status == GRAINLAW_OK && workspace.increment.bears()) {
+    if (outcome.status == GRAINLAW_OK && workspace.increment.loaded()) {
       const auto stress = piola_stress(workspace.increment);
       workspace.increment.advance_history();
       Configuration<D> reached;

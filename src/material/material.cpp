@@ -30,10 +30,10 @@ Configuration<D> given_configuration(const Material<D>& material) {
   Configuration<D> given;
   given.deformation = identity<D>();
   given.coordinates = packing.position;
-  if (material.law.rotating()) append_unturned<D>(n, given.coordinates);
+  if (material.law.rotating()) append_zero_rotations<D>(n, given.coordinates);
   for (const auto& contact : packing.contacts) {
     ContactHistory<D> history;
-    const bool turn = is_seen_from_j(contact);
+    const bool turn = is_named_from_j(contact);
     history.i = turn ? contact.j : contact.i;
     history.j = turn ? contact.i : contact.j;
     for (std::size_t k = 0; k < D; ++k) {
@@ -98,7 +98,7 @@ double force_as_given(const Problem<D>& problem, const Configuration<D>& given,
 
 // Describes a packing without an equilibrium and what to check first.
 template <int D>
-std::string unsettled(const Increment<D>& increment) {
+std::string advice(const Increment<D>& increment) {
   constexpr double soft = 30, stiff = 1e7;  // kn / p outside are hardly meant
   const Packing& packing = *increment.problem().packing;
   const double r = mean_radius(packing.radius);
@@ -233,7 +233,7 @@ std::shared_ptr<const Material<D>> make_material(MaterialDescription description
   direct.finds_deformation = false;
   direct.found = {};
   SolverOptions options = material->solver;
-  options.method = Method::chain;
+  options.method = Method::direct;
   options.viscosity.time = 0;
   const double tolerance = std::min(options.tolerance, tightest_needed);
   Problem<D> problem{&material->packing, &material->law, &direct,
@@ -248,7 +248,7 @@ std::shared_ptr<const Material<D>> make_material(MaterialDescription description
         std::max(problem.force_floor, relative_floor * force_as_given(problem, given, workspace));
   }
   const auto outcome = solve(request, workspace);
-  const bool free = outcome.status == GRAINLAW_OK && !workspace.increment.bears();
+  const bool free = outcome.status == GRAINLAW_OK && !workspace.increment.loaded();
   if (outcome.status == GRAINLAW_CONTACTS_LOST || (free && !may_be_free)) {
     throw Error(GRAINLAW_CONTACTS_LOST,
                 "the packing has no contacts at F = I; expected one that carries stress, or "
@@ -265,11 +265,11 @@ std::shared_ptr<const Material<D>> make_material(MaterialDescription description
                                                "no contact",
                                                released)));
   }
-  if (outcome.status != GRAINLAW_OK && workspace.increment.scale().drowned()) {
+  if (outcome.status != GRAINLAW_OK && workspace.increment.scale().below_rounding()) {
     throw Error(outcome.status,
                 fmt::format("contacts carry no more at F = I than rounding makes of "
                             "them; {}",
-                            unsettled(workspace.increment) + made_with_more_friction(description)));
+                            advice(workspace.increment) + made_with_more_friction(description)));
   }
   if (outcome.status != GRAINLAW_OK) {
     throw Error(outcome.status,
@@ -277,7 +277,7 @@ std::shared_ptr<const Material<D>> make_material(MaterialDescription description
                             "{:.3g} after {} relaxation steps, expected {:.3g}; {}",
                             workspace.increment.residual_norm(),
                             workspace.increment.cost.relaxation_steps, request.tolerance,
-                            unsettled(workspace.increment) + made_with_more_friction(description)));
+                            advice(workspace.increment) + made_with_more_friction(description)));
   }
   const auto stress = free ? Tensor<D>{} : piola_stress(workspace.increment);
   workspace.increment.advance_history();

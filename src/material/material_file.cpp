@@ -48,9 +48,10 @@ SolverOptions read_solver(TomlTable table, const BoundaryOptions& boundary) {
                  solver.start);
   if (servo) solver.method = Method::published;
   table.optional("method",
-                 one_of<Method>({{"chain", Method::chain},
+                 one_of<Method>({{"direct", Method::direct},
                                  {"advancing", Method::advancing},
-                                 {"published", Method::published}}),
+                                 {"published", Method::published},
+                                 {"chain", Method::direct}}),
                  solver.method);
   if (servo && solver.method != Method::published)
     table.fail("method", "another method", "\"published\" because boundary.method is \"servo\"");
@@ -77,7 +78,7 @@ SolverOptions read_solver(TomlTable table, const BoundaryOptions& boundary) {
   table.optional("viscous_inertia", number_between(0, 1), viscosity.inertia);
   table.optional("viscous_increment", number_at_least(0), viscosity.increment);
   table.optional("viscous_steps", integer_between(1, tuned::most_subincrements), viscosity.steps);
-  if (viscosity.time > 0 && solver.method != Method::chain)
+  if (viscosity.time > 0 && solver.method != Method::direct)
     table.fail("viscous_time", fmt::format("{:g} with another method", viscosity.time),
                "method = \"chain\"");
   if (viscosity.time > 0 && solver.loose_tolerance > 0)

@@ -115,7 +115,7 @@ void read_frame_row(const Table& table, int particle, FrameRows& rows) {
 // Fails for positions beyond the cell numbers of the neighbour search, or so far from the origin
 // that digits are lost.
 template <class Table>
-void check_place(const Table& table, const Packing& packing, double y_first, double y_last) {
+void check_position(const Table& table, const Packing& packing, double y_first, double y_last) {
   constexpr double furthest_apart = 16000, furthest = 1e8;  // [cells]
   const auto& h = packing.cell;
   const double area = determinant<2>(h.data());
@@ -155,7 +155,7 @@ Ids read_particles(const Source& source, CellFile& cell, Packing& packing) {
       table.complain(id, "an id that no other particle has");
     packing.position.push_back(table.real(x));
     ys.push_back(table.real(y));
-    check_place(table, packing, ys.front(), ys.back());
+    check_position(table, packing, ys.front(), ys.back());
     packing.radius.push_back(table.positive(r));
     if (framed) read_frame_row(table, particle, rows);
     if (!deformed) continue;

@@ -57,8 +57,8 @@ void read_cell(const PackingText& source, Packing& packing) {
 
 // Fails for positions beyond the cell numbers of the neighbour search.
 template <class Table>
-void check_place(const Table& table, const Tensor<3>& to_cells, const Vec<3>& first,
-                 const Vec<3>& place) {
+void check_position(const Table& table, const Tensor<3>& to_cells, const Vec<3>& first,
+                    const Vec<3>& place) {
   constexpr double furthest_apart = 250, furthest = 1e8;  // [cells]
   const auto cells = [&](const Vec<3>& vector) {
     const Vec<3> counts = product<3>(to_cells, vector);
@@ -86,7 +86,7 @@ ParticleIds read_particles(const PackingText& source, Packing& packing) {
       table.complain(id, "an id that no other particle has");
     const Vec<3> place{table.real(x), table.real(y), table.real(z)};
     if (particle == 0) first = place;
-    check_place(table, to_cells, first, place);
+    check_position(table, to_cells, first, place);
     for (std::size_t k = 0; k < 3; ++k) places[k].push_back(place[k]);
     packing.radius.push_back(table.positive(r));
   }

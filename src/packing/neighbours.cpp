@@ -1,7 +1,7 @@
 #include "packing/neighbours.hpp"
 
+#include "base/capacity.hpp"
 #include "base/error.hpp"
-#include "base/room.hpp"
 #include "packing/neighbour_keys.hpp"
 
 #include <algorithm>
@@ -170,11 +170,11 @@ void NeighbourSearch<D>::fill_bins(const Grid& grid, std::size_t n, const double
   };
   const std::size_t bins = grid.bins();
   // bin_end_[b + 1] is the start of bin b while entries are filled in, and its end afterwards.
-  resize_with_room(bin_end_, bins + 2);
+  resize_with_capacity(bin_end_, bins + 2);
   std::fill(bin_end_.begin(), bin_end_.end(), 0);
   for_images([&](std::size_t, const Bin&, std::size_t b) { ++bin_end_[b + 2]; });
   for (std::size_t b = 0; b < bins; ++b) bin_end_[b + 2] += bin_end_[b + 1];
-  resize_with_room(entry_, bin_end_[bins + 1]);
+  resize_with_capacity(entry_, bin_end_[bins + 1]);
   for_images([&](std::size_t p, const Bin& q, std::size_t b) {
     const Home& home = home_[p];
     std::array<std::int64_t, dim> shift;
@@ -217,7 +217,7 @@ void NeighbourSearch<D>::find(std::size_t n, const double* position, const doubl
   const Grid grid = make_grid(n, position, binned, largest, cell, gap);
   find_homes(grid, n, position);
   fill_bins(grid, n, radius);
-  resize_with_room(hit_, entry_.size() + 1);
+  resize_with_capacity(hit_, entry_.size() + 1);
 
   for (std::size_t i = 0; i < n; ++i) {
     if (!(radius[i] <= grid.binned)) continue;

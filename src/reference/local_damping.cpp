@@ -119,7 +119,8 @@ bool relax_published(Increment<D>& increment, double tolerance, const PublishedO
         if (is_frozen(k)) v[k] = 0;
       }
     } else if (space.averages()) {
-      if constexpr (D == 2) AverageMasses::hold(space, nodes, memory.velocity, mass);
+      if constexpr (D == 2)
+        AverageMasses::project_out_velocity(space, nodes, memory.velocity, mass);
     }
     increment.motion().move(memory.velocity, dt);
     ++increment.cost.relaxation_steps;

@@ -35,7 +35,7 @@ class Servo {
     memory.servo.frozen.assign(nodes_, 0);
     for (std::size_t q = 0; q < nodes_; ++q) {
       if (!space_.boundary[q]) continue;
-      memory.servo.frozen[q] = space_.boundary[q] == turns_freely
+      memory.servo.frozen[q] = space_.boundary[q] == free_rotation
                                    ? fixed_translation<2>
                                    : fixed_translation<2> | fixed_rotation<2>;
     }
@@ -137,7 +137,7 @@ class Servo {
         sum += std::pow(force / force_scale(radius), 2);
       }
       const bool turned =
-          space_.boundary[q] != turns_freely && (space_.fixed[q] & fixed_rotation<2>) == 0;
+          space_.boundary[q] != free_rotation && (space_.fixed[q] & fixed_rotation<2>) == 0;
       if (!problem_.law->rotating() || !turned) continue;
       const double moment = r[2 * nodes_ + q];
       memory_.correction[2 * nodes_ + q] =
@@ -262,7 +262,7 @@ class Servo {
     return std::sqrt(sum);
   }
 
-  static constexpr char turns_freely = 2;
+  static constexpr char free_rotation = 2;
 
   Increment<2>& increment_;
   const Problem<2>& problem_;

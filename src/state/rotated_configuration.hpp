@@ -3,9 +3,9 @@
 
 #include "increment/configuration.hpp"
 #include "packing/geometry.hpp"
-#include "state/plane_turn.hpp"
+#include "state/plane_rotations.hpp"
 #include "state/rotation.hpp"
-#include "state/space_turn.hpp"
+#include "state/space_rotations.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -16,8 +16,8 @@ template <int D>
 void rotate_configuration(const SplitIncrement<D>& increment, const Tensor<D>& F,
                           std::size_t particles, Configuration<D>& configuration) {
   map_positions<D>(increment.rotation, particles, configuration.coordinates.data());
-  add_turn(increment, particles, configuration.coordinates);
-  turn_springs(increment, configuration);
+  add_rotation(increment, particles, configuration.coordinates);
+  rotate_springs(increment, configuration);
   configuration.deformation = F;
   if (configuration.move.empty()) return;
   const Tensor<D>& r = increment.rotation;

@@ -1,6 +1,6 @@
 #include "state/state.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 #include "equilibrium/strategy.hpp"
 #include "homogenise/stress.hpp"
 #include "state/rotated_configuration.hpp"
@@ -65,7 +65,7 @@ void guess_from_trial(const Configuration<D>& from, const Configuration<D>& tria
   auto& z = w.guess;
   z = trial.coordinates;
   map_positions<D>(transpose<D>(last.rotation), particles, z.data());
-  take_turn(last, from, particles, z);
+  to_relative_rotation(last, from, particles, z);
   request.guess = &z;
   request.guess_deformation = last.target;
 }
@@ -91,7 +91,7 @@ grainlaw_status perturb(Request<D> request, Workspace<D>& w, Tensor4<D>& tangent
     request.deformation[component] += step;
     const auto outcome = solve(request, w);
     add_cost(w.increment, report);
-    p = w.increment.bears() ? piola_stress(w.increment) : Tensor<D>{};
+    p = w.increment.loaded() ? piola_stress(w.increment) : Tensor<D>{};
     return outcome.status;
   };
   Tensor<D> p0{};
@@ -121,8 +121,8 @@ Tensor4<D> tangent_of(const Workspace<D>& w, const Outcome& outcome, TangentKind
                       grainlaw_report& report) {
   if (kind != TangentKind::exact && kind != TangentKind::elastic) return {};
   if (kind == TangentKind::exact && outcome.sensitivities && !outcome.loose) {
-    report.tangent_exact = outcome.history_advanced || w.sensitivity.by_chance() ? 0 : 1;
-    if (w.sensitivity.by_chance()) {
+    report.tangent_exact = outcome.history_advanced || w.sensitivity.arbitrary() ? 0 : 1;
+    if (w.sensitivity.arbitrary()) {
       describe(report,
                "a sphere of two contacts rests against one that nothing holds: where that is "
                "has no derivative, and the tangent takes it as fixed");
@@ -156,7 +156,8 @@ State<D>::State(std::shared_ptr<const Material<D>> material)
   const auto& initial = material_->initial;
   // Reserves capacity in both configurations, which are swapped at every commit, for more contacts.
   for (auto* configuration : {&committed_, &trial_}) {
-    configuration->contacts.reserve(initial.contacts.size() + initial.contacts.size() / little);
+    configuration->contacts.reserve(initial.contacts.size() +
+                                    initial.contacts.size() / state_capacity);
     configuration->coordinates.reserve(initial.coordinates.size());
   }
 }
@@ -240,7 +241,7 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
     return outcome.status;
   }
 
-  const bool free = !w.increment.bears();
+  const bool free = !w.increment.loaded();
   if (free && material.solver.contacts_lost == ContactsLost::error) {
     report.step_ratio = 0.5;
     describe(report, grainlaw_status_text(GRAINLAW_CONTACTS_LOST));
@@ -261,7 +262,7 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
   w.increment.advance_history();
   w.increment.export_to(committed_, trial_);
   if (drag.acts()) {
-    copy_with_room(w.move, trial_.move, little);
+    copy_with_capacity(w.move, trial_.move, state_capacity);
     trial_.move_stretch = drag.how().stretch;
   }
   report.broken_bonds = static_cast<int>(std::lround(w.increment.losses().broken_bonds()));

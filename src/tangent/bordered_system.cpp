@@ -1,6 +1,6 @@
 #include "tangent/bordered_system.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -101,11 +101,11 @@ bool BorderedSystem::respond(Increment<2>& increment, Stiffness<2>& stiffness, d
   const auto& space = *increment.problem().space;
   find_columns(space);
   const std::size_t count = size_ + (residual.empty() ? 0 : 1);
-  resize_with_room(right_, increment.problem().node_unknowns());
+  resize_with_capacity(right_, increment.problem().node_unknowns());
   const auto touching = stiffness.touching();
   for (std::size_t group = 0; group * lanes < count; ++group) {
     auto& response = response_[group];
-    resize_with_room(response, right_.size());
+    resize_with_capacity(response, right_.size());
     set_right_side(increment, stiffness, group, residual);
     if (!stiffness.solve_together(increment, right_, response)) return false;
     DeformationChange<2> change{};
@@ -115,7 +115,7 @@ bool BorderedSystem::respond(Increment<2>& increment, Stiffness<2>& stiffness, d
       change[columns_[c].direction].lane[c - first] = 1 / increment.motion().deformation_scale();
     }
     if (space.finds_deformation) {
-      resize_with_room(changes_, touching.size());
+      resize_with_capacity(changes_, touching.size());
       find_contact_changes<2>(increment, touching, change, {}, response, changes_);
     }
     const auto values = values_of(increment, touching, changes_, response);

@@ -1,6 +1,6 @@
 // Derivatives of the contact history of discs.
 #include "tangent/disc_history.hpp"
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 #include "contact/contact_point.hpp"
 #include "packing/geometry.hpp"
 
@@ -48,7 +48,7 @@ void HistoryDerivatives<2>::carry(const Increment<2>& increment,
   carried_force_.clear();
   carried_moment_.clear();
   for (std::size_t c = 0; c < list.size(); ++c) {
-    if (!increment.carries(c)) continue;
+    if (!increment.bears_load(c)) continue;
     const auto k = static_cast<std::size_t>(place[c]);
     ByDeformation<2> force = changes[k].tangential_force[0];
     for (double& value : force.lane) value /= list.weight_of(c);
@@ -58,8 +58,8 @@ void HistoryDerivatives<2>::carry(const Increment<2>& increment,
     for (double& value : moment.lane) value /= list.weight_of(c);
     carried_moment_.push_back(moment);
   }
-  keep_room(carried_force_);
-  keep_room(carried_moment_);
+  keep_capacity(carried_force_);
+  keep_capacity(carried_moment_);
 }
 
 void HistoryDerivatives<2>::start(const Increment<2>& increment,
@@ -74,12 +74,12 @@ void HistoryDerivatives<2>::start(const Increment<2>& increment,
   const std::size_t b = rotating ? 3 : 2;
   const StartBranches branches(increment);
   const bool bound_to_axes = increment.problem().space->bound_to_axes();
-  resize_with_room(turn_, list.size());
-  resize_with_room(force_, list.size());
-  if (hertzian) resize_with_room(overlap_, list.size());
+  resize_with_capacity(turn_, list.size());
+  resize_with_capacity(force_, list.size());
+  if (hertzian) resize_with_capacity(overlap_, list.size());
   if (moments) {
-    resize_with_room(moment_, list.size());
-    resize_with_room(spin_, list.size());
+    resize_with_capacity(moment_, list.size());
+    resize_with_capacity(spin_, list.size());
   }
   std::size_t h = 0;
   for (std::size_t c = 0; c < list.size(); ++c) {

@@ -1,6 +1,6 @@
 #include "tangent/drag_change.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 
 #include <algorithm>
 
@@ -112,8 +112,8 @@ void DragDerivatives<D>::carry(const Increment<D>& increment,
   const Tensor<D> g = part_deformation(increment);
   const std::size_t size = motion.size();
   if (!carried_) {
-    resize_with_room(start_, size);
-    resize_with_room(move_, size);
+    resize_with_capacity(start_, size);
+    resize_with_capacity(move_, size);
     std::fill(start_.begin(), start_.end(), ByDeformation<D>{});
   }
   carried_ = true;

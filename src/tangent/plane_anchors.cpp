@@ -1,5 +1,5 @@
 // Anchors of the average constraints of a frame: stiffness that regularises the matrix.
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 #include "tangent/stiffness.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ void Stiffness<2>::link_anchors(const Increment<2>& increment) {
     pairs_.push_back({std::minmax(node[a], node[b]), -static_cast<std::int32_t>(link) - 1});
     ++links;
   });
-  resize_with_room(edge_of_link_, links);
+  resize_with_capacity(edge_of_link_, links);
 }
 
 template <>

@@ -1,6 +1,6 @@
 #include "tangent/sensitivity.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 
 #include <algorithm>
 
@@ -54,14 +54,14 @@ bool Sensitivity<D>::solve(Increment<D>& increment, double share, double start_s
                    change_at<D>(start_share, increment, carried_change_));
     history = history_.of_list(law.moments());
   }
-  increment.find_free_spins();
-  if constexpr (D == 3) by_chance_ = by_chance_ || increment.free_spins().by_chance();
+  increment.find_two_contact_spheres();
+  if constexpr (D == 3) arbitrary_ = arbitrary_ || increment.two_contact_spheres().arbitrary();
   stiffness.assemble(increment, 0);
   const auto touching = stiffness.touching();
   change_ = change_at<D>(share, increment, {});
 
   const auto b = static_cast<std::size_t>(increment.problem().components());
-  resize_with_room(motion_, increment.problem().node_unknowns());
+  resize_with_capacity(motion_, increment.problem().node_unknowns());
   right_.assign(increment.problem().node_unknowns(), ByDeformation<D>{});
   add_residual_changes<D>(increment, stiffness, change_, history, right_);
   if (increment.motion().drag().acts()) drag_.add_to(increment, change_, right_);
@@ -74,16 +74,16 @@ bool Sensitivity<D>::solve(Increment<D>& increment, double share, double start_s
   }
   if (!stiffness.solve_together(increment, right_, motion_)) return false;
 
-  resize_with_room(changes_, touching.size());
+  resize_with_capacity(changes_, touching.size());
   if constexpr (D == 2) {
     if (BorderedSystem::needed(space) && !complete(increment, history, stiffness)) return false;
   }
   find_contact_changes<D>(increment, touching, change_, history, motion_, changes_);
   if (law.moments()) {
-    resize_with_room(moment_changes_, Dimension<D>::spins * touching.size());
+    resize_with_capacity(moment_changes_, Dimension<D>::spins * touching.size());
     find_moment_changes<D>(increment, stiffness, change_, history, motion_, moment_changes_);
   }
-  resize_with_room(place_, increment.contacts().size());
+  resize_with_capacity(place_, increment.contacts().size());
   std::fill(place_.begin(), place_.end(), -1);
   for (std::size_t k = 0; k < touching.size(); ++k) {
     place_[touching[k].index] = static_cast<std::int32_t>(k);
@@ -131,7 +131,7 @@ void Sensitivity<D>::carry_motion(const Increment<D>& increment) {
     push_forward<D>(increment.motion().deformation(), increment.motion().start_deformation(), b,
                     carried_motion_);
   }
-  increment.find_held(held_);
+  increment.find_supported(held_);
   for (std::size_t k = 0; k < D; ++k) {
     simd::Lanes<width> sum{};
     double count = 0;

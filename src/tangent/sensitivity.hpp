@@ -18,7 +18,7 @@ class Sensitivity {
  public:
   void reset() {
     carried_ = false;
-    by_chance_ = false;
+    arbitrary_ = false;
     drag_.reset();
   }
 
@@ -36,7 +36,7 @@ class Sensitivity {
   void carry_free(const Increment<D>& increment, double share);
 
   // True if a position depended on an arbitrary one since reset(), so that no derivative exists.
-  [[nodiscard]] bool by_chance() const { return by_chance_; }
+  [[nodiscard]] bool arbitrary() const { return arbitrary_; }
 
   // Change of F at the end.
   [[nodiscard]] const DeformationChange<D>& deformation_change() const { return change_; }
@@ -58,9 +58,9 @@ class Sensitivity {
   std::vector<ContactChange<D>> changes_;         // per touching contact
   std::vector<ByDeformation<D>> moment_changes_;  // for laws with moments
   std::vector<std::int32_t> place_;  // index of a listed contact among the touching; -1: open
-  std::vector<unsigned char> held_;  // see Increment::find_held
+  std::vector<unsigned char> held_;  // see Increment::find_supported
   bool carried_ = false;
-  bool by_chance_ = false;
+  bool arbitrary_ = false;
 };
 
 }  // namespace grainlaw::core

@@ -162,7 +162,7 @@ Triple cross(const Vec<3>& a, const Triple& b) {
 Lanes dot(const Vec<3>& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // Change of the excess of a two-contact sphere over its rule.
-Lanes excess_change(const Loop& loop, const FreeSpins::Held& held) {
+Lanes excess_change(const Loop& loop, const TwoContactSpheres::Held& held) {
   const auto& motion = loop.increment.motion();
   if (held.stopped()) {
     const Vec<3> branch = loop.increment.branch(held.third);
@@ -237,7 +237,7 @@ void add_residual_changes<3>(const Increment<3>& increment, const Stiffness<3>& 
       add_to(contact.node_j, 3 + k, moment[k]);
     }
   }
-  for (const auto& held : increment.free_spins().held()) {
+  for (const auto& held : increment.two_contact_spheres().spheres()) {
     const Lanes excess = excess_change(loop, held);
     for (std::size_t k = 0; k < 3; ++k) {
       double* const at = residual[held.node * b + 3 + k].lane;

@@ -1,7 +1,7 @@
 // Derivatives of the contact history of spheres.
 #include "tangent/sphere_history.hpp"
 
-#include "base/room.hpp"
+#include "base/capacity.hpp"
 #include "contact/contact_point.hpp"
 #include "packing/geometry.hpp"
 
@@ -18,7 +18,7 @@ void HistoryDerivatives<3>::carry(const Increment<3>& increment,
   carried_force_.clear();
   carried_moment_.clear();
   for (std::size_t c = 0; c < list.size(); ++c) {
-    if (!increment.carries(c)) continue;
+    if (!increment.bears_load(c)) continue;
     const auto k = static_cast<std::size_t>(place[c]);
     const auto keep = [&](const TripleByDeformation& change, std::vector<TripleByDeformation>& to) {
       to.push_back(change);
@@ -31,8 +31,8 @@ void HistoryDerivatives<3>::carry(const Increment<3>& increment,
     keep({moment_changes[3 * k], moment_changes[3 * k + 1], moment_changes[3 * k + 2]},
          carried_moment_);
   }
-  keep_room(carried_force_);
-  keep_room(carried_moment_);
+  keep_capacity(carried_force_);
+  keep_capacity(carried_moment_);
 }
 
 void HistoryDerivatives<3>::start(const Increment<3>& increment,
@@ -46,9 +46,9 @@ void HistoryDerivatives<3>::start(const Increment<3>& increment,
   const Tensor<3> cell = tensor_of<3>(increment.problem().packing->cell);
   const Tensor<3> pull_back = inverse<3>(increment.motion().start_deformation());
   motion_ = motion;
-  resize_with_room(normal_, list.size());
-  resize_with_room(force_, list.size());
-  if (law.moments()) resize_with_room(moment_, list.size());
+  resize_with_capacity(normal_, list.size());
+  resize_with_capacity(force_, list.size());
+  if (law.moments()) resize_with_capacity(moment_, list.size());
   std::size_t h = 0;
   for (std::size_t c = 0; c < list.size(); ++c) {
     const auto i = static_cast<std::size_t>(list.i[c]);

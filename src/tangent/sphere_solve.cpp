@@ -12,8 +12,8 @@ template <>
 void Stiffness<3>::prepare_iteration(Increment<3>& increment) {
   ++increment.cost.factorisations;
   factorised_ = increment.epoch();
-  ground(increment, tuned::incomplete_grounding);
-  iterative_.prepare(matrix_, ground_);
+  regularise(increment, tuned::incomplete_regularisation);
+  iterative_.prepare(matrix_, regularisation_);
 }
 
 // Solves a Newton step. Where the method stalls the caller's shift helps and costs less than

@@ -1,6 +1,6 @@
 // Stiffness of contacts of spheres, as blocks of the nodes they join.
+#include "base/capacity.hpp"
 #include "base/constants.hpp"
-#include "base/room.hpp"
 #include "tangent/stiffness.hpp"
 
 #include <algorithm>
@@ -89,7 +89,7 @@ void Stiffness<3>::add_moments() {
 
 // Adds the springs to the rows of spins, in the columns of the sphere and its neighbours too.
 template <>
-void Stiffness<3>::hold_free_spins(const Increment<3>& increment) {
+void Stiffness<3>::add_chord_springs(const Increment<3>& increment) {
   const std::size_t edges = matrix_.edges.size();
   const auto add_to = [](BlockColumn<8>* columns, double factor, const Vec<3>& moment,
                          const Vec<3>& by) {
@@ -97,7 +97,7 @@ void Stiffness<3>::hold_free_spins(const Increment<3>& increment) {
       for (std::size_t k = 0; k < 3; ++k) columns[l].lane[3 + k] += factor * moment[k] * by[l];
     }
   };
-  for (const auto& held : increment.free_spins().held()) {
+  for (const auto& held : increment.two_contact_spheres().spheres()) {
     auto* const own = matrix_.block(held.node);
     const auto add_to_neighbour = [&](std::size_t contact, std::size_t neighbour, double factor,
                                       const Vec<3>& by) {

@@ -12,7 +12,7 @@ void Stiffness<3>::add_moments();
 // Adds the springs about the chords of two-contact spheres. Their small stiffness decides a
 // rotation that equilibrium leaves open but P depends on. @formula free-spin
 template <>
-void Stiffness<3>::hold_free_spins(const Increment<3>& increment);
+void Stiffness<3>::add_chord_springs(const Increment<3>& increment);
 
 template <>
 void Stiffness<3>::prepare_iteration(Increment<3>& increment);

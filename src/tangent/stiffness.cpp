@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include "base/capacity.hpp"
 #include "base/constants.hpp"
-#include "base/room.hpp"
 
 namespace grainlaw::core {
 
@@ -38,7 +38,7 @@ void Stiffness<D>::find_touching(const Increment<D>& increment) {
     contact.point = point;
     contact.stiffness = contact_stiffness(list, c, point, law);
   }
-  keep_room(touching_);
+  keep_capacity(touching_);
   moments_.clear();
   if (!law.moments()) return;
   for (const auto& contact : touching_) {
@@ -46,7 +46,7 @@ void Stiffness<D>::find_touching(const Increment<D>& increment) {
                                       increment.motion().coordinates(),
                                       increment.problem().particles(), law));
   }
-  keep_room(moments_);
+  keep_capacity(moments_);
 }
 
 // True if the graph was made in this increment from these contacts and contains all touching ones.
@@ -67,12 +67,12 @@ template <int D>
 void Stiffness<D>::find_graph(const Increment<D>& increment) {
   const auto& list = increment.contacts();
   const auto& node = increment.problem().space->node;
-  resize_with_room(listed_i_, list.size());
-  resize_with_room(listed_j_, list.size());
+  resize_with_capacity(listed_i_, list.size());
+  resize_with_capacity(listed_j_, list.size());
   std::copy_n(list.i.begin(), list.size(), listed_i_.begin());
   std::copy_n(list.j.begin(), list.size(), listed_j_.begin());
   pairs_.clear();
-  resize_with_room(edge_of_contact_, list.size());
+  resize_with_capacity(edge_of_contact_, list.size());
   std::fill(edge_of_contact_.begin(), edge_of_contact_.end(), not_in_graph);
   for (std::size_t c = 0; c < list.size(); ++c) {
     if (increment.overlap(c) < -0.5 * tuned::graph_gap * list.reach[c] && !list.bonded(c)) continue;
@@ -84,7 +84,7 @@ void Stiffness<D>::find_graph(const Increment<D>& increment) {
   if constexpr (D == 2) {
     if (increment.problem().space->averages()) link_anchors(increment);
   }
-  keep_room(pairs_);
+  keep_capacity(pairs_);
   if (!std::is_sorted(pairs_.begin(), pairs_.end())) std::sort(pairs_.begin(), pairs_.end());
   graph_.clear();
   for (const auto& [edge, c] : pairs_) {
@@ -96,7 +96,7 @@ void Stiffness<D>::find_graph(const Increment<D>& increment) {
       edge_of_link_[static_cast<std::size_t>(-c - 1)] = place;
     }
   }
-  keep_room(graph_);
+  keep_capacity(graph_);
 }
 
 template <int D>
@@ -117,20 +117,20 @@ void Stiffness<D>::assemble(const Increment<D>& increment, double shift) {
   if (drag) add_drag(increment);
   if constexpr (D == 3) {
     if (!increment.problem().law->rotating()) {
-      hold_rotations(increment);
+      regularise_rotations(increment);
     } else if (!drag) {
-      hold_free_spins(increment);
+      add_chord_springs(increment);
     }
   }
   if (increment.problem().space->identity) return;
   if constexpr (D == 2) {
     if (increment.problem().space->averages()) add_anchors(increment);
   }
-  hold_fixed_nodes(increment);
+  fix_nodes(increment);
 }
 
 template <int D>
-void Stiffness<D>::hold_fixed_nodes(const Increment<D>& increment) {
+void Stiffness<D>::fix_nodes(const Increment<D>& increment) {
   const auto& fixed = increment.problem().space->fixed;
   const auto b = static_cast<std::size_t>(matrix_.components);
   const auto clear = [&](std::size_t index, unsigned char bits, bool rows) {
@@ -190,8 +190,8 @@ void Stiffness<D>::add_drag(const Increment<D>& increment) {
 
 // Regularises the rotations of particles that do not rotate.
 template <int D>
-void Stiffness<D>::hold_rotations(const Increment<D>& increment) {
-  for (std::size_t q = 0; q < matrix_.nodes; ++q) hold_rotation(increment, q);
+void Stiffness<D>::regularise_rotations(const Increment<D>& increment) {
+  for (std::size_t q = 0; q < matrix_.nodes; ++q) regularise_rotation(increment, q);
 }
 
 template void Stiffness<2>::assemble(const Increment<2>&, double);

@@ -50,7 +50,7 @@ class Stiffness {
   void assemble(const Increment<D>& increment, double shift);
 
   // Regularises the rotation of a node by adding its mass to the diagonal.
-  void hold_rotation(const Increment<D>& increment, std::size_t node) {
+  void regularise_rotation(const Increment<D>& increment, std::size_t node) {
     for (std::size_t k = D; k < Dimension<D>::unknowns; ++k) {
       matrix_.block(node)[k].lane[k] += increment.masses().of_unknowns()[k * matrix_.nodes + node];
     }
@@ -100,10 +100,10 @@ class Stiffness {
   [[nodiscard]] bool graph_serves(const Increment<D>& increment) const;
   void find_graph(const Increment<D>& increment);
   void add_contacts();
-  void hold_rotations(const Increment<D>& increment);
+  void regularise_rotations(const Increment<D>& increment);
   void add_moments();
-  void hold_free_spins(const Increment<D>& increment);
-  void hold_fixed_nodes(const Increment<D>& increment);
+  void add_chord_springs(const Increment<D>& increment);
+  void fix_nodes(const Increment<D>& increment);
   void link_anchors(const Increment<D>& increment);
   void add_anchors(const Increment<D>& increment);
   void add_masses(const Increment<D>& increment, double factor);
@@ -111,7 +111,7 @@ class Stiffness {
   bool solve_together_by_factors(const Increment<D>& increment, std::span<const Together<width>> b,
                                  std::span<Together<width>> x);
   bool solve_by_gmres(const Increment<D>& increment);
-  void ground(const Increment<D>& increment, double share);
+  void regularise(const Increment<D>& increment, double share);
   void set_right(std::span<const double> b);
   void give_solution(std::span<double> x) const;
   [[nodiscard]] bool iterates() const { return D == 3 && matrix_.nodes >= iterative_from_; }
@@ -141,7 +141,7 @@ class Stiffness {
   std::vector<std::int32_t> edge_of_link_;         // between anchors, in the order of add_anchors()
   std::vector<std::int32_t> listed_i_, listed_j_;  // contacts that the graph was made from
   std::vector<std::pair<Edge, std::int32_t>> pairs_;
-  std::vector<Column> ground_, right_, solution_, check_;
+  std::vector<Column> regularisation_, right_, solution_, check_;
   std::vector<Together<width>> check_together_, kept_;
 };
 

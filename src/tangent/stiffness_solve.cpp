@@ -1,6 +1,6 @@
 // Linear solves with the stiffness: factors with refinement, and GMRES where these fail.
+#include "base/capacity.hpp"
 #include "base/constants.hpp"
-#include "base/room.hpp"
 #include "linear/largest.hpp"
 #include "tangent/stiffness.hpp"
 
@@ -42,12 +42,12 @@ void add_to(std::span<Register> to, const std::vector<Register>& values) {
 
 // Sets the regularisation of the diagonal, for the factors alone.
 template <int D>
-void Stiffness<D>::ground(const Increment<D>& increment, double share) {
+void Stiffness<D>::regularise(const Increment<D>& increment, double share) {
   const auto b = static_cast<std::size_t>(matrix_.components);
-  resize_with_room(ground_, matrix_.nodes);
+  resize_with_capacity(regularisation_, matrix_.nodes);
   for (std::size_t q = 0; q < matrix_.nodes; ++q) {
     for (std::size_t k = 0; k < b; ++k) {
-      ground_[q].lane[k] = share * increment.masses().of_unknowns()[k * matrix_.nodes + q];
+      regularisation_[q].lane[k] = share * increment.masses().of_unknowns()[k * matrix_.nodes + q];
     }
   }
 }
@@ -58,16 +58,16 @@ void Stiffness<D>::factorise(Increment<D>& increment) {
   lu_.analyse(matrix_, factorised_ == increment.epoch());
   factorised_ = increment.epoch();
   gmres_.reserve(matrix_.nodes);
-  ground(increment, tuned::grounding);
-  factors_ = lu_.factorise(matrix_, ground_) ? Factors::of_matrix : Factors::none;
+  regularise(increment, tuned::regularisation);
+  factors_ = lu_.factorise(matrix_, regularisation_) ? Factors::of_matrix : Factors::none;
 }
 
 template <int D>
 void Stiffness<D>::set_right(std::span<const double> b) {
   const auto nodes = matrix_.nodes;
   const auto components = static_cast<std::size_t>(matrix_.components);
-  resize_with_room(right_, nodes);
-  resize_with_room(solution_, nodes);
+  resize_with_capacity(right_, nodes);
+  resize_with_capacity(solution_, nodes);
   for (std::size_t q = 0; q < nodes; ++q) {
     right_[q] = {};
     for (std::size_t k = 0; k < components; ++k) right_[q].lane[k] = b[k * nodes + q];
@@ -89,7 +89,7 @@ bool Stiffness<D>::solve(const Increment<D>& increment, std::span<const double> 
   if (factors_ != Factors::of_matrix) return false;
   const auto nodes = matrix_.nodes;
   set_right(b);
-  resize_with_room(check_, nodes);
+  resize_with_capacity(check_, nodes);
   const double scale = std::max(largest_of(right_, nodes), std::numeric_limits<double>::min());
   // Right-hand sides below rounding have no meaningful solution: a residual within rounding is
   // accepted.
@@ -123,7 +123,7 @@ bool Stiffness<2>::solve_step(Increment<2>& increment, std::span<const double> b
 template <int D>
 bool Stiffness<D>::solve_by_gmres(const Increment<D>& increment) {
   gmres_.solve(matrix_, lu_, tuned::good_solution, right_, solution_);
-  resize_with_room(check_, matrix_.nodes);
+  resize_with_capacity(check_, matrix_.nodes);
   matrix_.residual(right_, solution_, check_);
   return largest_of(check_, matrix_.nodes) <=
          std::max(tuned::usable_solution * largest_of(right_, matrix_.nodes),
@@ -175,8 +175,8 @@ bool Stiffness<D>::solve_together(Increment<D>& increment, std::span<const Toget
   if constexpr (D == 3) {
     if (iterates() && iterate_together(increment, b, x)) return true;
   }
-  resize_with_room(check_together_, b.size());
-  resize_with_room(kept_, b.size());
+  resize_with_capacity(check_together_, b.size());
+  resize_with_capacity(kept_, b.size());
   if (factors_ == Factors::of_earlier_matrix && solve_together_by_factors(increment, b, x)) {
     return true;
   }
@@ -185,8 +185,8 @@ bool Stiffness<D>::solve_together(Increment<D>& increment, std::span<const Toget
   if (solve_together_by_factors(increment, b, x)) return true;
   const auto nodes = matrix_.nodes;
   const auto components = static_cast<std::size_t>(matrix_.components);
-  resize_with_room(right_, nodes);
-  resize_with_room(solution_, nodes);
+  resize_with_capacity(right_, nodes);
+  resize_with_capacity(solution_, nodes);
   for (std::size_t l = 0; l < width; ++l) {
     for (std::size_t q = 0; q < nodes; ++q) {
       right_[q] = {};
@@ -221,7 +221,7 @@ std::vector<double> Stiffness<D>::product(std::span<const double> x) const {
 }
 
 #define GRAINLAW_FOR(D)                                                                      \
-  template void Stiffness<D>::ground(const Increment<D>&, double);                           \
+  template void Stiffness<D>::regularise(const Increment<D>&, double);                       \
   template void Stiffness<D>::set_right(std::span<const double>);                            \
   template void Stiffness<D>::give_solution(std::span<double>) const;                        \
   template void Stiffness<D>::factorise(Increment<D>&);                                      \

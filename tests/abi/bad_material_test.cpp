@@ -194,7 +194,7 @@ TEST(bad_material, any_mistake_in_a_generator_is_told) {
 TEST(bad_material, the_servo_excludes_other_methods) {
   const std::string servo =
       with_line(good, 13, "type = \"frame-p\"\nmethod = \"servo\"");  // [solver] is on line 15 now
-  for (const char* method : {"chain", "advancing"})
+  for (const char* method : {"direct", "chain", "advancing"})
     expect_told(servo, {0, ("method = \"" + std::string(method) + "\"").c_str(), 17,
                         "solver.method", "expected \"published\""});
 }

@@ -24,7 +24,7 @@ Model read_model(const std::string& conditions, const std::string& element = "q4
   model.mesh = read_mesh(mesh);
   read_conditions(scene, 1, model);
   check_loads_act(model, number_dofs(model));
-  check_held(model, "scene.toml");
+  check_supports(model, "scene.toml");
   return model;
 }
 

@@ -51,7 +51,7 @@ class start : public testing::Test {
     text.replace(text.find(from), from.size(), to);
     const PointScene scene = read("steps = 1\ndF22 = -1e-6\n", text);
     const State state(make_material(scene.material));
-    return look_at_start(state.get(), scene.material).text();
+    return measure_start(state.get(), scene.material).text();
   }
 
   const grainlaw::test::TemporaryDirectory directory_;

@@ -79,7 +79,7 @@ TEST(evaluation_without_memory, is_told_and_the_next_one_has_the_same_answer) {
   long refused = 0;
   for (const auto& [name, material] : every_material()) {
     SCOPED_TRACE(name);
-    const bool chain = material->solver.method == Method::chain;
+    const bool chain = material->solver.method == Method::direct;
     refused += refuse_every_allocation(material, chain ? unsigned{GRAINLAW_WANT_TANGENT_EXACT} : 0U,
                                        Refuse::one);
   }

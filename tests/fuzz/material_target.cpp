@@ -25,7 +25,7 @@ bool is_small(const std::string& text) {
       return std::abs(stress.value_or(0)) <= bearable;
     });
     return regular && light && generator->columns * generator->rows <= 20 &&
-           description.solver.method == grainlaw::core::Method::chain;
+           description.solver.method == grainlaw::core::Method::direct;
   } catch (const grainlaw::core::Error& error) {
     EXPECT(error.status < 0 && error.what()[0] != '\0');
     return false;

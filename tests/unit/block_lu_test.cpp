@@ -159,7 +159,7 @@ TYPED_TEST(block_lu, adds_to_the_diagonal) {
 }
 
 TYPED_TEST(block_lu, inverts_pivot_blocks_of_little_but_one_direction) {
-  // A particle with one sliding contact has such a block: across it there is the grounding alone.
+  // A particle with one sliding contact has such a block: across it there is the regularisation alone.
   for (const double ground : {1e-2, 1e-6, 1e-9}) {
     typename TestFixture::Matrix matrix;
     matrix.reset(1, TestFixture::most, {});
@@ -182,7 +182,7 @@ TYPED_TEST(block_lu, inverts_pivot_blocks_of_little_but_one_direction) {
 }
 
 // Particles that move in one direction without any change of force have such blocks: in that
-// direction there is the grounding alone. The inverse of one would lose digits for all others too.
+// direction there is the regularisation alone. The inverse of one would lose digits for all others too.
 TYPED_TEST(block_lu, solves_to_rounding_beside_blocks_that_are_nearly_singular) {
   std::mt19937 random(23);
   for (const auto components : TestFixture::components) {

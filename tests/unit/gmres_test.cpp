@@ -55,7 +55,7 @@ BlockMatrix<width> with_loose_node(BlockSize<width> components, double to_others
     std::fill_n(matrix.block(matrix.upper(e)), b, BlockColumn<width>{});
     std::fill_n(matrix.block(matrix.lower(e)), b, BlockColumn<width>{});
   }
-  std::vector<BlockColumn<width>> ground(matrix.nodes);
+  std::vector<BlockColumn<width>> regularise(matrix.nodes);
   for (std::size_t q = 0; q < ground.size(); ++q) {
     for (std::size_t k = 0; k < b; ++k) ground[q].lane[k] = q == 7 ? 0.5 : to_others;
   }

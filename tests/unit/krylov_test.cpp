@@ -46,7 +46,7 @@ BlockMatrix<width> matrix_of_units(std::size_t nodes, std::mt19937& random) {
 }
 
 std::vector<One> ground_of(const BlockMatrix<width>& matrix, double value) {
-  std::vector<One> ground(matrix.nodes);
+  std::vector<One> regularise(matrix.nodes);
   for (auto& of_node : ground) std::fill_n(of_node.lane, Dilu::size, value);
   return ground;
 }

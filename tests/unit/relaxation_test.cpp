@@ -262,7 +262,7 @@ TEST(relaxation, what_flutters_on_is_given_up_before_its_limit) {
 }
 
 TEST(relaxation, sliding_contacts_are_those_at_the_friction_limit) {
-  for (const auto method : {Method::chain, Method::advancing}) {
+  for (const auto method : {Method::direct, Method::advancing}) {
     MaterialDescription description = describe(reference_packing(), rough_law());
     description.solver.method = method;
     description.solver.tolerance = 1e-8;

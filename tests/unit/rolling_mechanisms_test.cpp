@@ -28,7 +28,7 @@ struct Sheared {
   // Those that are out of balance, by a step with all held.
   bool turn(double least) {
     find();
-    mechanisms.hold(increment, stiffness);
+    mechanisms.regularise(increment, stiffness);
     stiffness.factorise(increment);
     const auto r = increment.residual();
     std::vector<double> step(r.size());

@@ -3,7 +3,7 @@
 #include "contact/contact_forces.hpp"
 #include "contact/contact_point.hpp"
 #include "increment/records.hpp"
-#include "increment/turns.hpp"
+#include "increment/rotations.hpp"
 #include "tangent/stiffness.hpp"
 
 #include "few_spheres.hpp"

@@ -37,8 +37,8 @@ void run_brick_scene(const SceneFile& file, const Destination& destination, int 
   const Material material = make_material(scene.material, 3);
   const Interrupt interrupt;
   const double start = cpu();
-  const PackingStart begin = look_at_start(State(material).get(), scene.material);
-  tell_start(scene.name, begin);
+  const PackingStart begin = measure_start(State(material).get(), scene.material);
+  print_start(scene.name, begin);
   BrickNewton solver(scene.model, material, scene.newton, scene.threads);
   Written written(stem);
   History history(stem, 3, has_drag(scene.material));

@@ -61,7 +61,7 @@ SpecimenEnd run_specimen(const SpecimenScene& scene, const std::filesystem::path
   const auto observe = [&](const grainlaw_state* state, const Record& record) {
     if (!start) {
       start = record;
-      tell_start(scene.name, look_at_start(state, scene.material));
+      print_start(scene.name, measure_start(state, scene.material));
     }
     done = record.step;
     history.add(record);

@@ -16,7 +16,7 @@ using Kind = SpecimenTarget::Kind;
 
 // Default rules: left and right flexible under a uniform stress; bottom and top smooth, moved along
 // y by F.
-toml::table usual_sides() {
+toml::table default_sides() {
   const toml::table flexible{{"x", "T"}, {"y", "T"}};
   const toml::table platen{{"x", "T"}, {"y", "D"}};
   return toml::table{{"left", flexible}, {"right", flexible}, {"bottom", platen}, {"top", platen}};
@@ -76,7 +76,7 @@ SpecimenScene read_scene(SceneTable table, const std::string& name) {
     if (value != static_cast<int>(value))
       table.fail("repeat", fmt::format("{}", value), counts.text);
   scene.repeat = {static_cast<int>(repeat[0]), static_cast<int>(repeat[1])};
-  scene.sides = usual_sides();
+  scene.sides = default_sides();
   if (table.has("sides")) {
     SceneTable sides = table.table("sides");
     for (const char* side : {"left", "right", "bottom", "top"})

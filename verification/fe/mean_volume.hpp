@@ -19,7 +19,7 @@ class MeanVolume {
   MeanVolume(const Tensor& gradient, const Tensor& gradient_at_centre, const NodeRows& slopes,
              const NodeRows& slopes_at_centre);
 
-  [[nodiscard]] Tensor seen_by_packing(const Tensor& deformation) const {
+  [[nodiscard]] Tensor packing_deformation(const Tensor& deformation) const {
     return root_ * deformation;
   }
   [[nodiscard]] Tensor on_mesh(const Tensor& stress_of_packing) const {

@@ -68,7 +68,7 @@ void PointField::deform(const Eigen::VectorXd& displacement) {
     mesh_deformation_[p] = Tensor::Identity() + here;
     if (point.centre.rows() > 0)
       mean_volume_[p] = {here, gradient(point, point.centre, displacement), slopes, point.centre};
-    deformation_[p] = mean_volume_[p].seen_by_packing(mesh_deformation_[p]);
+    deformation_[p] = mean_volume_[p].packing_deformation(mesh_deformation_[p]);
   }
 }
 

@@ -15,7 +15,7 @@ namespace verification {
 std::vector<Segment> read_prestress(SceneTable& scene, const MaterialSource& material) {
   if (!scene.has("prestress")) return {};
   SceneTable table = scene.table("prestress");
-  const std::vector<Segment> path = read_segments(table, carries_tension(material));
+  const std::vector<Segment> path = read_segments(table, bears_tension(material));
   table.close();
   return path;
 }
@@ -25,7 +25,7 @@ MaterialSource prestressed(const MaterialSource& source, const std::vector<Segme
   const Material material = make_material(source);
   PointDriver driver(material, {});
   const std::string prefix = stem.string() + "_prestress";
-  PackingStart start = look_at_start(driver.state(), source);
+  PackingStart start = measure_start(driver.state(), source);
   for (std::string& text : far_targets(start, path)) start.unusual.push_back(std::move(text));
   const Segment* led = nullptr;
   try {

@@ -86,8 +86,8 @@ class Run {
     const Material material = make_material(
         scene_.prestress.empty() ? scene_.material
                                  : prestressed(scene_.material, scene_.prestress, stem_));
-    start_ = look_at_start(State(material).get(), scene_.material);
-    tell_start(scene_.name, start_);
+    start_ = measure_start(State(material).get(), scene_.material);
+    print_start(scene_.name, start_);
     if (scene_.cycle) cycle_.emplace(*scene_.cycle, scene_.model, 1.0 / scene_.steps);
     const bool found = std::filesystem::exists(checkpoint_);
     if (options.restart && found) {

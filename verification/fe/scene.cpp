@@ -48,7 +48,7 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
     scene.cycle = read_cycle(table.table("cycle"), model);
   read_conditions(table, duration, model);
   check_loads_act(model, number_dofs(model));
-  if (scene.solver.kind != SolverKind::dynamics) check_held(model, file.path.string());
+  if (scene.solver.kind != SolverKind::dynamics) check_supports(model, file.path.string());
   table.close();
   return scene;
 }

@@ -165,7 +165,7 @@ void run_import(ImportArguments arguments) {
   source.changes.insert_or_assign("packing", packing_table(raw, packing.has_contacts));
   const State state = equilibrium(source, arguments, packing.dimension);
   write_packing(state.get(), stem);
-  const PackingStart start = look_at_start(state.get(), source);
+  const PackingStart start = measure_start(state.get(), source);
   source.changes.insert_or_assign("packing", packing_table(name, true));
   std::ostringstream text;
   text << "# Imported from "

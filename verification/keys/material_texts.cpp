@@ -110,9 +110,9 @@ constexpr KeyText texts[] = {
      "\"committed\": P is a function of the committed state and F; \"trial\": the equilibrium of "
      "the last trial is where the search starts, see [limits](limits.md)"},
     {"solver.method", "",
-     "\"chain\": see [how an increment is solved](theory.md#how-an-increment-is-solved); "
+     "\"direct\": see [how an increment is solved](theory.md#how-an-increment-is-solved); "
      "\"advancing\": relaxation that moves the history on; \"published\": local damping, the "
-     "history moves on in every step"},
+     "history moves on in every step; \"chain\" is the old word for \"direct\""},
     {"solver.force_floor", "N",
      "residuals are relative to no smaller force, and far smaller ones count as none; 0: 1e-3 of "
      "the mean force at F = I. For packings that start almost without stress; not with \"T\" or a "

@@ -86,7 +86,7 @@ Made make(const PackArguments& arguments, std::optional<long> seed) {
   State state(*material);
   const auto stem = arguments.destination.stem(name_of(arguments));
   write_packing(state.get(), stem);
-  PackingStart look = look_at_start(state.get(), source);
+  PackingStart look = measure_start(state.get(), source);
   std::optional<WrittenPacking> discs;
   if (dimension == 2) discs = read_written(stem.string());
   return {std::move(state), std::move(look), std::move(discs), stem, seconds};
@@ -174,7 +174,7 @@ void run_pack(const PackArguments& arguments) {
     write_vtk(made.state.get(), made.stem.string() + ".vtp");
     written.add(".vtp");
   }
-  tell_start(made.name(), made.start);
+  print_start(made.name(), made.start);
   print_packing(made);
   written.add_pictures(draw_packing(made.state.get(), made.stem));
   fmt::print("{}\n", written.text());

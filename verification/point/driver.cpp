@@ -50,7 +50,7 @@ struct PointDriverOf<D>::Iterate : Attempt {
   TensorOf<D> deformation = TensorOf<D>::Identity();
   EvaluationOf<D> evaluation;
   // Iterate with the largest stress error of the last step's tangent, and that error [Pa].
-  TensorOf<D> far_deformation = TensorOf<D>::Identity();
+  TensorOf<D> farthest_deformation = TensorOf<D>::Identity();
   double far = -1;
 };
 
@@ -136,7 +136,7 @@ typename PointDriverOf<D>::Iterate PointDriverOf<D>::iterate(const Goal& goal, d
       if (goal.stress(k)) error = std::max(error, std::abs(residual(k)) / goal.scale);
     if (unforeseen.norm() > result.far) {
       result.far = unforeseen.norm();
-      result.far_deformation = result.deformation;
+      result.farthest_deformation = result.deformation;
     }
     if (error <= tolerance) {
       result.converged = true;
@@ -192,7 +192,7 @@ template <int D>
 typename PointDriverOf<D>::Iterate PointDriverOf<D>::cross_jumps(const Goal& goal, Iterate last) {
   for (int crossing = 0; crossing < most_crossings && last.stalled; ++crossing) {
     Iterate beyond = last;
-    beyond.deformation = last.far_deformation;
+    beyond.deformation = last.farthest_deformation;
     beyond.evaluation = evaluate_of<D>(state_, beyond.deformation, options_.tangent);
     effort_.add(beyond.evaluation.report);
     if (beyond.evaluation.status != GRAINLAW_OK) return last;

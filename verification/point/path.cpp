@@ -39,7 +39,7 @@ std::optional<int> stress_named(std::string_view text, int dimension) {
 
 // Whether equal stresses form a cycle through this one, so that none is prescribed; sigma12 is
 // sigma21.
-bool goes_round(SceneTable& segment, const std::string& name) {
+bool forms_cycle(SceneTable& segment, const std::string& name) {
   const auto same = [&](const std::string& other) {
     return std::is_permutation(other.begin(), other.end(), name.begin(), name.end());
   };
@@ -59,7 +59,7 @@ Target read_words(SceneTable& segment, const std::string& name, int dimension) {
     if (!other || text == name)
       segment.fail(name, '"' + text + '"',
                    "a number in Pa, or the name of another stress: \"sigma22\"");
-    if (goes_round(segment, name))
+    if (forms_cycle(segment, name))
       segment.fail(name, fmt::format("\"{}\", which equals {} itself", text, name),
                    "one of the stresses that equal each other to be free, or a number");
     return {Control::difference, false, 0, *other};
@@ -173,7 +173,7 @@ std::array<bool, 3> read_following(SceneTable& segment, const Segment& read, int
 
 }  // namespace
 
-std::vector<Segment> read_segments(SceneTable& scene, bool carries_tension, int dimension) {
+std::vector<Segment> read_segments(SceneTable& scene, bool bears_tension, int dimension) {
   std::vector<Segment> segments;
   std::array<Stretch, 3> stretch;
   const std::vector<std::string> names = component_names(dimension);
@@ -201,7 +201,7 @@ std::vector<Segment> read_segments(SceneTable& scene, bool carries_tension, int 
         stretch[i].lose();
       else
         stretch[i].follow(table, names[k], segment.target[k]);
-      if (!carries_tension) check_tension(table, names[k], segment.target[k]);
+      if (!bears_tension) check_tension(table, names[k], segment.target[k]);
     }
     table.close();
     segments.push_back(segment);

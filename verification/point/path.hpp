@@ -59,7 +59,7 @@ struct Segment {
 // A component that is not named keeps its F. Throws InputError, also for probable mistakes: a
 // stretch of a half or less, since it is probably a strain; a normal stress in tension unless
 // contacts carry it.
-std::vector<Segment> read_segments(SceneTable& scene, bool carries_tension, int dimension = 2);
+std::vector<Segment> read_segments(SceneTable& scene, bool bears_tension, int dimension = 2);
 
 // Drained biaxial compression: F22 changes by `axial` (negative: compression), no shear, sigma11 =
 // `lateral`.

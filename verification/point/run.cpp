@@ -110,10 +110,10 @@ void run_path(const PointScene& scene, const std::filesystem::path& stem, PointE
   start = cpu_seconds();
   PointDriverOf<D> driver(*material, scene.options);
   end.cpu += cpu_seconds() - start;
-  PackingStart begin = look_at_start(driver.state(), scene.material);
+  PackingStart begin = measure_start(driver.state(), scene.material);
   for (std::string& text : far_targets(begin, scene.segments))
     begin.unusual.push_back(std::move(text));
-  tell_start(scene.name, begin);
+  print_start(scene.name, begin);
   end.particles = begin.particles;
   history.add(driver.record());
   observer.see(driver.state(), driver.record());

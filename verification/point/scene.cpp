@@ -25,7 +25,7 @@ std::vector<double> read_pictures(SceneTable& table) {
 }
 
 // Default figures of the tests in a path.
-std::vector<std::string> usual_figures(const std::vector<Segment>& segments) {
+std::vector<std::string> default_figures(const std::vector<Segment>& segments) {
   std::vector<std::string> figures;
   const auto add = [&](const char* name) {
     if (std::find(figures.begin(), figures.end(), name) == figures.end())
@@ -42,7 +42,7 @@ std::vector<std::string> usual_figures(const std::vector<Segment>& segments) {
 
 std::vector<std::string> read_figures(SceneTable& table, const std::vector<Segment>& segments) {
   const toml::node* node = table.node("figures");
-  if (node == nullptr) return usual_figures(segments);
+  if (node == nullptr) return default_figures(segments);
   std::vector<std::string> figures;
   const toml::array* array = node->as_array();
   const std::string expected = fmt::format("a list of {}", fmt::join(path_figures, ", "));
@@ -79,7 +79,7 @@ PointScene read_scene(SceneTable table, const std::string& name) {
   scene.options.max_cuts = table.integer_or("max_cuts", scene.options.max_cuts, 0, most_cuts);
   scene.options.loose_tolerance = table.number_or("loose_tolerance", 0, not_negative);
   scene.dimension = dimension_of(scene.material);
-  scene.segments = read_segments(table, carries_tension(scene.material), scene.dimension);
+  scene.segments = read_segments(table, bears_tension(scene.material), scene.dimension);
   scene.shear = is_shear(scene.segments);
   const char* usual = !scene.shear ? axial_abscissa : scene.dimension == 3 ? "F13" : shear_abscissa;
   scene.abscissa = table.choice_or("abscissa", usual, abscissae(scene.dimension));

@@ -103,7 +103,7 @@ std::string cure_of(grainlaw_status status) {
 
 }  // namespace
 
-bool carries_tension(const MaterialSource& source) {
+bool bears_tension(const MaterialSource& source) {
   const toml::table material = unfold(source).changes;
   return material["contact"]["law"].value_or(std::string_view()) == "bonded";
 }
@@ -119,7 +119,7 @@ std::string PackingStart::text() const {
   return text;
 }
 
-PackingStart look_at_start(const grainlaw_state* state, const MaterialSource& source) {
+PackingStart measure_start(const grainlaw_state* state, const MaterialSource& source) {
   PackingStart start;
   const std::vector<double> sigma = measure(state, GRAINLAW_CAUCHY_STRESS);
   const bool spheres = sigma.size() == 9;
@@ -217,7 +217,7 @@ void warn(const std::string& name, const PackingStart& start) {
   for (const std::string& text : start.unusual) tell(fmt::format("{}: unusual: {}\n", name, text));
 }
 
-void tell_start(const std::string& name, const PackingStart& start) {
+void print_start(const std::string& name, const PackingStart& start) {
   fmt::print("{}: starts at {}\n", name, start.brief());
   std::fflush(stdout);
   warn(name, start);

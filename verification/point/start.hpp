@@ -11,7 +11,7 @@
 namespace verification {
 
 // Whether contacts of the material bear tension.
-bool carries_tension(const MaterialSource& source);
+bool bears_tension(const MaterialSource& source);
 
 struct PackingStart {
   int dimension = 2;
@@ -31,7 +31,7 @@ struct PackingStart {
 };
 
 // Measures of a state at its start. Throws ComputationError.
-PackingStart look_at_start(const grainlaw_state* state, const MaterialSource& source);
+PackingStart measure_start(const grainlaw_state* state, const MaterialSource& source);
 
 // Targets of a path that lie far from the start of the packing, one text each.
 std::vector<std::string> far_targets(const PackingStart& start, const std::vector<Segment>& path);
@@ -39,7 +39,7 @@ std::vector<std::string> far_targets(const PackingStart& start, const std::vecto
 // Prints unusual values to stderr.
 void warn(const std::string& name, const PackingStart& start);
 // Prints one line, "NAME: starts at mean pressure ...", and unusual values to stdout.
-void tell_start(const std::string& name, const PackingStart& start);
+void print_start(const std::string& name, const PackingStart& start);
 
 // Tells kn/p out of the usual range; "" within it.
 std::string unusual_stiffness(double stiffness);

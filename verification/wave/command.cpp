@@ -75,7 +75,7 @@ bool draw_case(const WaveCase& one, const std::vector<WaveRun>& runs,
 // Runs the particles first; each mesh is compared with them as it finishes.
 void run_case(const WaveCase& one, const std::filesystem::path& stem) {
   const WaveDomain domain = wave_domain(one);
-  tell_start(one.name, look_at_start(State(make_material(one.material)).get(), one.material));
+  print_start(one.name, measure_start(State(make_material(one.material)).get(), one.material));
   std::vector<WaveRun> runs{run_particles(one)};
   std::vector<std::string> columns{"elements[-]",  "particles[-]",    "steps[-]", "cuts[-]",
                                    "time_step[s]", "core_seconds[s]", "wall[s]"};

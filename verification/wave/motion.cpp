@@ -48,8 +48,8 @@ WaveMotion::WaveMotion(const WaveSpecimen& specimen, const grainlaw::core::Conta
       return (specimen.held[p] & direction) == 0 ? 1 / mass_[node(p)] : 0;
     };
     // The moment of inertia is M R^2 / 2.
-    inverse_mass_[node(p)] = {by_mass(held_x), by_mass(held_y),
-                              law.rotating() ? 2 * by_mass(held_rotation) : 0, 0};
+    inverse_mass_[node(p)] = {by_mass(support_x), by_mass(support_y),
+                              law.rotating() ? 2 * by_mass(support_rotation) : 0, 0};
     if (specimen.right[p]) right_.push_back(p);
     rest_.push_back(specimen.position[p]);
   }
@@ -151,7 +151,7 @@ void WaveMotion::break_bonds() {
   const std::vector<double> z = coordinates();
   const double before = grainlaw::core::stored_energy(list_, z, particles_.size(), law_);
   for (const std::size_t c : broken) {
-    list_.hold[c] = 0;
+    list_.bond_capacity[c] = 0;
     list_.rest[c] = list_.reach[c];
     if (law_.moments()) {
       const auto i = static_cast<std::size_t>(list_.i[c]), j = static_cast<std::size_t>(list_.j[c]);

@@ -22,7 +22,7 @@ enum Side : unsigned char { bottom = 1, top = 2, left = 4, right = 8 };
 
 std::vector<unsigned char> sides_of_frame(const Packing& packing) {
   const grainlaw::core::Frame& frame = *packing.frame;
-  const auto place = grainlaw::core::corner_places(frame);
+  const auto place = grainlaw::core::corner_indices(frame);
   constexpr std::array<unsigned char, 4> around{bottom, right, top, left};
   std::vector<unsigned char> side(packing.size(), 0);
   const std::size_t count = frame.boundary.size();
@@ -125,8 +125,9 @@ void place_particles(const grainlaw::core::Material<2>& material, const Numberin
           frame ? k + 1 == specimen.tiles && (side[p] & right) != 0 : k == specimen.tiles;
       specimen.right[q] = at_right;
       specimen.side[q] = side[p] & (bottom | top);
-      specimen.held[q] = static_cast<unsigned char>(
-          at_left || at_right ? held_x | held_y | held_rotation : (support ? held_y : 0));
+      specimen.held[q] =
+          static_cast<unsigned char>(at_left || at_right ? support_x | support_y | support_rotation
+                                                         : (support ? support_y : 0));
     }
 }
 

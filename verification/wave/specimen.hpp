@@ -14,7 +14,7 @@
 namespace verification {
 
 // Bits of WaveSpecimen::held: supported directions of a particle.
-enum Held : unsigned char { held_x = 1, held_y = 2, held_rotation = 4 };
+enum Held : unsigned char { support_x = 1, support_y = 2, support_rotation = 4 };
 
 // A specimen whose left end is supported and whose right end follows the pulse; bottom and top are
 // supported in y. When bottom and top of a frame are copies, the specimen is a slice of an infinite

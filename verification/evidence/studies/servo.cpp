@@ -30,7 +30,7 @@ constexpr std::array<Variant, 5> variants{
      {"servo, n_f = 0", "servo", "published", 0},
      {"direct, published relaxation", "direct", "published", 1},
      {"direct, advancing history", "direct", "advancing", 1},
-     {"direct", "direct", "chain", 1}}};
+     {"direct", "direct", "direct", 1}}};
 
 // eps_a over the tolerance of the particles' residuals: the servo's r_a is relative to M R / dt^2,
 // here about a thousand mean contact forces, so that both stop at the same unbalanced force.

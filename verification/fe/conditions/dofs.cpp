@@ -73,10 +73,10 @@ std::size_t dof(int node, int component) { return static_cast<std::size_t>(2 * n
 class Linker {
  public:
   Linker(const Model& model, std::vector<Program>& programs)
-      : ground_(2 * model.mesh.nodes.size()),
-        prescribed_by_(ground_, nullptr),
-        tied_by_(ground_, nullptr),
-        linkage_(ground_, programs) {
+      : regularisation_(2 * model.mesh.nodes.size()),
+        prescribed_by_(regularisation_, nullptr),
+        tied_by_(regularisation_, nullptr),
+        linkage_(regularisation_, programs) {
     // Collects all programs first, since the linkage refers to them.
     for (const auto& condition : model.displacements) programs.push_back(condition.value);
     for (const auto& condition : model.periodics)
@@ -88,13 +88,13 @@ class Linker {
   }
 
   [[nodiscard]] const Linkage& linkage() const { return linkage_; }
-  [[nodiscard]] std::size_t ground() const { return ground_; }
+  [[nodiscard]] std::size_t regularise() const { return regularisation_; }
 
  private:
   void prescribe(const PrescribedDisplacement& condition) {
     for (const int node : condition.nodes) {
       const std::size_t d = dof(node, condition.component);
-      if (!linkage_.link(d, ground_, {{next_program_, 1}}))
+      if (!linkage_.link(d, regularisation_, {{next_program_, 1}}))
         refuse(condition.place, node, condition.component,
                fmt::format("prescribed otherwise by {}", prescribed_by_[d]->place),
                "one value for it");
@@ -148,7 +148,7 @@ class Linker {
     }
   }
 
-  std::size_t ground_;
+  std::size_t regularisation_;
   std::vector<const PrescribedDisplacement*> prescribed_by_;
   std::vector<const Tie*> tied_by_;
   Linkage linkage_;
@@ -160,7 +160,7 @@ class Linker {
 Dofs number_dofs(const Model& model) {
   Dofs dofs;
   const Linker linker(model, dofs.programs);
-  const std::size_t ground = linker.ground();
+  const std::size_t ground = linker.regularise();
   std::vector<int> number(ground, -1);  // number of each root
   for (std::size_t d = 0; d < ground; ++d) {
     const auto [root, offset] = linker.linkage().find(d);

@@ -24,7 +24,7 @@ double Sine::at(double time) const {
   return amplitude * std::sin(2 * std::numbers::pi * turns);
 }
 
-double StraightWay::at(double time) const {
+double LinearSegment::at(double time) const {
   if (time >= end_time) return end_value;
   if (time <= start_time) return start_value;
   return start_value + (time - start_time) / (end_time - start_time) * (end_value - start_value);

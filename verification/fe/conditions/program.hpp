@@ -18,7 +18,7 @@ struct Sine {
 };
 
 // A linear function between two times, set during the run.
-struct StraightWay {
+struct LinearSegment {
   double start_time = 0, start_value = 0;
   double end_time = 0, end_value = 0;
 
@@ -30,7 +30,7 @@ struct StraightWay {
 struct Program {
   std::vector<std::array<double, 2>> points;  // (time, value), times increasing, at least one
   Sine sine{};
-  std::shared_ptr<const StraightWay> steered{};  // replaces points and sine
+  std::shared_ptr<const LinearSegment> steered{};  // replaces points and sine
 
   [[nodiscard]] double at(double time) const;
 

@@ -29,7 +29,7 @@ std::string motion_text(const Eigen::Vector3d& motion, double size, const Eigen:
 
 }  // namespace
 
-void check_held(const Model& model, const std::string& place) {
+void check_supports(const Model& model, const std::string& place) {
   const Dofs dofs = number_dofs(model);
   const auto& nodes = model.mesh.nodes;
   Eigen::Vector2d low = nodes.front(), high = nodes.front();

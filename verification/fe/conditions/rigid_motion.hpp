@@ -9,6 +9,6 @@ struct Model;
 
 // Throws InputError that names a rigid motion which no condition prevents. For statics only: a body
 // in motion needs no supports. `place`: the scene.
-void check_held(const Model& model, const std::string& place);
+void check_supports(const Model& model, const std::string& place);
 
 }  // namespace verification

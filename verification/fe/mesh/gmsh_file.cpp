@@ -65,7 +65,7 @@ class Reader {
     std::unordered_map<std::size_t, std::size_t> place;
     for (std::size_t k = 0; k < content_.node_tags.size(); ++k) place[content_.node_tags[k]] = k;
     for (const std::size_t tag : used) {
-      const auto& [x, y, z] = content_.node_places[place.at(tag)];
+      const auto& [x, y, z] = content_.node_positions[place.at(tag)];
       if (std::abs(z) > 1e-12)
         fail(fmt::format("node {} at z = {}", tag, z), "a mesh in the plane z = 0");
       number_[tag] = static_cast<int>(mesh_.nodes.size());

@@ -129,7 +129,7 @@ GmshContent read_gmsh(const std::filesystem::path& path) {
   gmsh.take(parameters, parameter_count);
   const std::vector<double> flat = gmsh.take(places, place_count);
   for (std::size_t k = 0; k + 2 < flat.size(); k += 3)
-    content.node_places.push_back({flat[k], flat[k + 1], flat[k + 2]});
+    content.node_positions.push_back({flat[k], flat[k + 1], flat[k + 2]});
   content.surface = elements(gmsh, 2, -1);
   content.groups = groups(gmsh);
   return content;

@@ -24,9 +24,9 @@ struct GmshGroup {
 
 struct GmshContent {
   std::vector<std::size_t> node_tags;
-  std::vector<std::array<double, 3>> node_places;  // [m]
-  std::vector<GmshElements> surface;               // all elements of dimension 2
-  std::vector<GmshGroup> groups;                   // named physical groups
+  std::vector<std::array<double, 3>> node_positions;  // [m]
+  std::vector<GmshElements> surface;                  // all elements of dimension 2
+  std::vector<GmshGroup> groups;                      // named physical groups
 };
 
 // Throws InputError for a file that Gmsh cannot read, and in a program built without Gmsh.

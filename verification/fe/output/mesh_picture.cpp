@@ -112,10 +112,10 @@ bool draw_mesh(const std::vector<MeshPanel>& panels, const std::string& title,
                const std::filesystem::path& stem) {
   if (panels.empty()) return true;
   constexpr double gap = 20, heading = 62, foot = 64, numbers = 62;  // pixels
-  double scale_room = 96;
+  double scale_margin = 96;
   for (const MeshPanel& panel : panels) {
     const auto range = colour_range(panel);
-    scale_room = std::max(scale_room, 44 + 12 * static_cast<double>(longest_label(range)));
+    scale_margin = std::max(scale_margin, 44 + 12 * static_cast<double>(longest_label(range)));
   }
   constexpr double widest = 900, tallest = 640;
   const auto count = static_cast<double>(panels.size());
@@ -127,9 +127,9 @@ bool draw_mesh(const std::vector<MeshPanel>& panels, const std::string& title,
     total += size.x();
     highest = std::max(highest, size.y());
   }
-  const double scale = std::min((widest - count * (gap + numbers + scale_room)) / total,
+  const double scale = std::min((widest - count * (gap + numbers + scale_margin)) / total,
                                 tallest / highest);  // pixels per m
-  const double wide = std::max(scale * total + count * (gap + numbers + scale_room), 420.0);
+  const double wide = std::max(scale * total + count * (gap + numbers + scale_margin), 420.0);
   const double high = scale * highest + heading + foot;
 
   std::string body =
@@ -171,7 +171,7 @@ bool draw_mesh(const std::vector<MeshPanel>& panels, const std::string& title,
         "set label 4 'y [mm]' at screen {:.5f},{:.5f} center rotate by 90\n",
         0.5 * (left + right) / wide, 14 / high, (left - 54) / wide, (foot + 0.5 * size.y()) / high);
     body += command + "unset label 1\n";
-    left = right + gap + numbers + scale_room;
+    left = right + gap + numbers + scale_margin;
   }
   body += "unset multiplot\n";
   return run_gnuplot(body, stem, static_cast<int>(std::lround(wide)),

@@ -37,7 +37,7 @@ Cycle read_cycle(SceneTable table, Model& model) {
   cycle.end_displacement = table.number_or("end_displacement", never, positive);
   cycle.end_mean_stress = table.number_or("end_mean_stress", 0, not_negative);
   table.close();
-  cycle.segment = std::make_shared<StraightWay>();
+  cycle.segment = std::make_shared<LinearSegment>();
   PrescribedDisplacement drive;
   drive.nodes = model.mesh.node_sets.at(set);
   drive.component = component == "x" ? 0 : 1;

@@ -20,7 +20,7 @@ struct Cycle {
   int cycles = 1;           // from zero to both limits and to zero
   double end_displacement = std::numeric_limits<double>::infinity();  // ends the run [m]
   double end_mean_stress = 0;  // least mean compression of the specimen; ends the run [Pa]
-  std::shared_ptr<StraightWay> segment;  // program of the drive
+  std::shared_ptr<LinearSegment> segment;  // program of the drive
 };
 
 // Reads [cycle]: on, component, step, limit_displacement, limit_force, tolerance, cycles,

@@ -48,7 +48,7 @@ class NewtonSolver final : public Solver {
       step.attempts.push_back(first);
       const double tolerance = loose ? options_.loose_tolerance : options_.tolerance;
       const bool small = next - time_ <= crossing_part * (to - from);
-      points_.set_time_step(told_time(next - time_));
+      points_.set_time_step(passed_time(next - time_));
       Attempt result = equilibrate(next, tolerance, step.residuals);
       if (result.stalled && small && crosses_jumps()) {
         result = cross_jumps(next, result, step.residuals, crossed);
@@ -145,7 +145,7 @@ class NewtonSolver final : public Solver {
       }
       const int made = iteration + 1;
       const bool loaded = prescribed.isZero(0);
-      if (loaded) see_far(displacement, system);
+      if (loaded) keep_farthest(displacement, system);
       const bool near = loaded && residual <= options_.jump_tolerance;
       const bool slow = options_.jump_iterations > 0 && made >= options_.jump_iterations &&
                         residual > slow_ratio * before;
@@ -173,19 +173,19 @@ class NewtonSolver final : public Solver {
   }
 
   // Keeps the iterate whose forces differ most from those of the committed stiffness.
-  void see_far(const Eigen::VectorXd& displacement, const System& system) {
+  void keep_farthest(const Eigen::VectorXd& displacement, const System& system) {
     const double distance =
         (system.residual - system_.residual + system_.stiffness * (displacement - displacement_))
             .norm();
     if (distance <= far_) return;
     far_ = distance;
-    far_displacement_ = displacement;
+    farthest_displacement_ = displacement;
   }
 
   // Crosses jumps from a stalled attempt and its iterate furthest beyond.
   Attempt cross_jumps(double time, Attempt last, std::vector<double>& residuals, int& crossed) {
     for (int crossing = 0; crossing < most_crossings && last.stalled; ++crossing) {
-      const Eigen::VectorXd beyond = far_displacement_;
+      const Eigen::VectorXd beyond = farthest_displacement_;
       if (points_.evaluate(beyond, options_.tangent, threads_) != GRAINLAW_OK) return last;
       points_.commit();
       ++crossed;
@@ -195,8 +195,8 @@ class NewtonSolver final : public Solver {
       last = equilibrate(time, options_.tolerance, residuals);
     }
     if (last.stalled &&
-        points_.evaluate(far_displacement_, options_.tangent, threads_) == GRAINLAW_OK) {
-      displacement_ = far_displacement_;
+        points_.evaluate(farthest_displacement_, options_.tangent, threads_) == GRAINLAW_OK) {
+      displacement_ = farthest_displacement_;
       system_ = assemble(model_, points_, displacement_, time);
       last.converged = last.loose = true;
     }
@@ -260,8 +260,8 @@ class NewtonSolver final : public Solver {
   System system_;                        // at the committed displacement and load
   double time_ = 0;                      // committed
   LastMove last_move_;
-  Eigen::VectorXd far_displacement_;  // iterate of the last attempt furthest from equilibrium
-  double far_ = -1;                   // its distance [N/m]; -1: none
+  Eigen::VectorXd farthest_displacement_;  // iterate of the last attempt furthest from equilibrium
+  double far_ = -1;                        // its distance [N/m]; -1: none
 };
 
 }  // namespace

@@ -46,7 +46,7 @@ class RelaxationSolver final : public Solver {
     int iterations = 0;
     const auto attempt = [&](double next, bool) {
       step.attempts.push_back(step.residuals.size());
-      points_.set_time_step(told_time(next - rest_.time));
+      points_.set_time_step(passed_time(next - rest_.time));
       const Attempt result = relax(next, step.residuals, iterations);
       if (result.converged)
         step.balance = std::max(step.balance, step.residuals.back());

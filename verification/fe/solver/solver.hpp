@@ -66,7 +66,7 @@ class Solver {
 
  protected:
   // Time of a part for its points; one load step where time stands still.
-  [[nodiscard]] double told_time(double part) const { return part > 0 ? part / load_step_ : 1; }
+  [[nodiscard]] double passed_time(double part) const { return part > 0 ? part / load_step_ : 1; }
 
   CutObserver observe_cut_;
 

@@ -16,10 +16,10 @@ struct Method {
   const char* boundary_method;
   const char* solver_method;
 };
-inline constexpr Method direct{"direct", "periodic-cell", "direct", "chain"};
+inline constexpr Method direct{"direct", "periodic-cell", "direct", "direct"};
 inline constexpr Method advancing{"advancing history", "periodic-cell", "direct", "advancing"};
 inline constexpr Method published{"published relaxation", "periodic-cell", "direct", "published"};
-inline constexpr Method frame_direct{"direct on a frame", "frame-p", "direct", "chain"};
+inline constexpr Method frame_direct{"direct on a frame", "frame-p", "direct", "direct"};
 inline constexpr Method frame_servo{"published servo", "frame-p", "servo", "published"};
 
 // Tolerance of everything that is called exact here [-]. The library does not go below rounding.

@@ -33,22 +33,24 @@ inline Quaternion quaternion_of(const Matrix3& r) {
   return q;
 }
 
-inline Quaternion turn_at(const std::vector<double>& coordinates, std::size_t n, std::size_t p) {
+inline Quaternion rotation_at(const std::vector<double>& coordinates, std::size_t n,
+                              std::size_t p) {
   return {coordinates[3 * n + p],
           {coordinates[4 * n + p], coordinates[5 * n + p], coordinates[6 * n + p]}};
 }
 
-inline void add_turn(const SplitIncrement<3>& increment, std::size_t n, std::vector<double>& z) {
+inline void add_rotation(const SplitIncrement<3>& increment, std::size_t n,
+                         std::vector<double>& z) {
   if (z.size() == 3 * n) return;
   const Quaternion turn = quaternion_of(increment.rotation);
   for (std::size_t p = 0; p < n; ++p) {
-    const Quaternion q = product(turn, turn_at(z, n, p));
+    const Quaternion q = product(turn, rotation_at(z, n, p));
     z[3 * n + p] = q.s;
     for (std::size_t k = 0; k < 3; ++k) z[(4 + k) * n + p] = q.v[k];
   }
 }
 
-inline void turn_springs(const SplitIncrement<3>& increment, Configuration<3>& configuration) {
+inline void rotate_springs(const SplitIncrement<3>& increment, Configuration<3>& configuration) {
   for (auto& contact : configuration.contacts) {
     contact.tangential_force = product<3>(increment.rotation, contact.tangential_force);
   }
@@ -62,8 +64,8 @@ inline void turn_springs(const SplitIncrement<3>& increment, Configuration<3>& c
 
 // Replaces rotations since F = I by Gibbs vectors since `from`, without the rotation of the
 // increment.
-inline void take_turn(const SplitIncrement<3>& increment, const Configuration<3>& from,
-                      std::size_t n, std::vector<double>& z) {
+inline void to_relative_rotation(const SplitIncrement<3>& increment, const Configuration<3>& from,
+                                 std::size_t n, std::vector<double>& z) {
   const bool rotating = z.size() > 3 * n;
   const std::vector<double> turned(z);
   z.resize(6 * n);
@@ -71,7 +73,8 @@ inline void take_turn(const SplitIncrement<3>& increment, const Configuration<3>
   for (std::size_t p = 0; p < n; ++p) {
     Quaternion q;
     if (rotating) {
-      q = product(product(back, turn_at(turned, n, p)), conjugate(turn_at(from.coordinates, n, p)));
+      q = product(product(back, rotation_at(turned, n, p)),
+                  conjugate(rotation_at(from.coordinates, n, p)));
     }
     for (std::size_t k = 0; k < 3; ++k) z[(3 + k) * n + p] = 2 * q.v[k] / q.s;
   }

@@ -1,7 +1,7 @@
-#include "increment/free_spins.hpp"
+#include "increment/two_contact_spheres.hpp"
 
+#include "base/capacity.hpp"
 #include "base/constants.hpp"
-#include "base/room.hpp"
 #include "increment/increment.hpp"
 #include "packing/geometry.hpp"
 
@@ -33,23 +33,23 @@ Place place_of(const Increment<3>& increment, std::size_t c, std::size_t q) {
 
 }  // namespace
 
-bool FreeSpins::possible(const Increment<3>& increment) {
+bool TwoContactSpheres::possible(const Increment<3>& increment) {
   const ContactLaw& law = *increment.problem().law;
   const bool by_moments = law.rolls() || (law.moments() && law.bond.bending_stiffness > 0);
   return law.rotating() && law.tangential() && !by_moments && !increment.motion().drag().acts();
 }
 
-void FreeSpins::find(const Increment<3>& increment) {
+void TwoContactSpheres::find(const Increment<3>& increment) {
   const auto& list = increment.contacts();
   const auto& node = increment.problem().space->node;
   const std::size_t n = increment.problem().nodes();
-  resize_with_room(count_, n);
-  resize_with_room(contact_, n);
-  resize_with_room(place_, n);
+  resize_with_capacity(count_, n);
+  resize_with_capacity(contact_, n);
+  resize_with_capacity(place_, n);
   std::fill(count_.begin(), count_.end(), static_cast<unsigned char>(0));
   const auto& scale = increment.scale();
   const double least = std::min(tuned::more_than_chance * scale.chance(),
-                                tuned::least_holding_force * scale.relative());
+                                tuned::least_supporting_force * scale.relative());
   for (std::size_t c = 0; c < list.size(); ++c) {
     if (increment.surely_open(c)) continue;
     const double force = normal_force(list, c, increment.overlap(c), *increment.problem().law);
@@ -60,22 +60,23 @@ void FreeSpins::find(const Increment<3>& increment) {
       if (count_[q] < more) ++count_[q];
     }
   }
-  reserve_with_room(held_, n);
+  reserve_with_capacity(spheres_, n);
   forget();
   for (std::size_t q = 0; q < n; ++q) {
     place_[q] = none;
     if (count_[q] != two) continue;
-    const Held held = held_at(increment, q);
-    if (!(held.stiffness < unlimited)) continue;  // both contacts in one direction: no chord
-    place_[q] = held_.size();
-    held_.push_back(held);
+    const TwoContactSphere sphere = sphere_at(increment, q);
+    if (!(sphere.stiffness < unlimited)) continue;  // both contacts in one direction: no chord
+    place_[q] = spheres_.size();
+    spheres_.push_back(sphere);
   }
-  if (held_.empty()) return;
+  if (spheres_.empty()) return;
   find_limits(increment);
   stop(increment);
 }
 
-FreeSpins::Held FreeSpins::held_at(const Increment<3>& increment, std::size_t q) const {
+TwoContactSpheres::TwoContactSphere TwoContactSpheres::sphere_at(const Increment<3>& increment,
+                                                                 std::size_t q) const {
   const auto& list = increment.contacts();
   const auto& motion = increment.motion();
   const std::size_t n = increment.problem().nodes();
@@ -83,15 +84,15 @@ FreeSpins::Held FreeSpins::held_at(const Increment<3>& increment, std::size_t q)
   const auto carried = product<3>(motion.deformation(), inverse<3>(motion.start_deformation()));
   const double* rotation = motion.coordinates().data() + 3 * n;
   const Vec<3> turned{rotation[q], rotation[n + q], rotation[2 * n + q]};
-  Held held{};
-  held.node = q;
-  held.contact = contact_[q];
+  TwoContactSphere sphere{};
+  sphere.node = q;
+  sphere.contact = contact_[q];
   Vec<3> point{};  // first contact point, over the radius
   for (std::size_t k = 0; k < 2; ++k) {
-    const std::size_t c = held.contact[k];
+    const std::size_t c = sphere.contact[k];
     const auto [side, neighbour] = place_of(increment, c, q);
-    held.side[k] = side;
-    held.neighbour[k] = neighbour;
+    sphere.side[k] = side;
+    sphere.neighbour[k] = neighbour;
     const Vec<3> shift{list.shift[0][c], list.shift[1][c], list.shift[2][c]};
     const Vec<3> start =
         branch<3>(motion.start().data(), n, static_cast<std::size_t>(list.i[c]),
@@ -100,53 +101,53 @@ FreeSpins::Held FreeSpins::held_at(const Increment<3>& increment, std::size_t q)
     const Vec<3> now = increment.branch(c);
     const Vec<3> departure = sum(now, -1, product<3>(carried, start));
     for (std::size_t m = 0; m < 3; ++m) {
-      const double outward = held.side[k] * list.start_normal[m][c];
-      held.chord[m] += k == 0 ? -outward : outward;
+      const double outward = sphere.side[k] * list.start_normal[m][c];
+      sphere.chord[m] += k == 0 ? -outward : outward;
       if (k == 0) point[m] = outward;
-      held.departure[m] += 0.5 * held.side[k] * departure[m];
+      sphere.departure[m] += 0.5 * sphere.side[k] * departure[m];
     }
   }
   // Ratio of the masses in a relaxation of spheres.
   const double inertia = 2 * increment.problem().law->ratio;
-  held.way_scale = 1 / (inertia * radius);
-  held.way = sum({}, held.way_scale, cross(held.chord, point));
-  held.by_spin = sum(held.chord, 0.5, cross(turned, held.chord));
-  held.excess = dot(held.chord, turned) + dot(held.way, held.departure);
-  held.stiffness =
-      tuned::free_spin_hold * increment.masses().of_unknowns()[3 * n + q] / square<3>(held.chord);
-  return held;
+  sphere.way_scale = 1 / (inertia * radius);
+  sphere.way = sum({}, sphere.way_scale, cross(sphere.chord, point));
+  sphere.by_spin = sum(sphere.chord, 0.5, cross(turned, sphere.chord));
+  sphere.excess = dot(sphere.chord, turned) + dot(sphere.way, sphere.departure);
+  sphere.stiffness =
+      tuned::chord_spring * increment.masses().of_unknowns()[3 * n + q] / square<3>(sphere.chord);
+  return sphere;
 }
 
-void FreeSpins::find_limits(const Increment<3>& increment) {
+void TwoContactSpheres::find_limits(const Increment<3>& increment) {
   const auto& list = increment.contacts();
   const auto& node = increment.problem().space->node;
-  reserve_with_room(limits_, place_.size());
-  limits_.assign(held_.size(), {Limit{unlimited, none, {}}, Limit{unlimited, none, {}}});
+  reserve_with_capacity(limits_, place_.size());
+  limits_.assign(spheres_.size(), {Limit{unlimited, none, {}}, Limit{unlimited, none, {}}});
   for (std::size_t c = 0; c < list.size(); ++c) {
     const auto i = static_cast<std::size_t>(node[static_cast<std::size_t>(list.i[c])]);
     const auto j = static_cast<std::size_t>(node[static_cast<std::size_t>(list.j[c])]);
     if (i == j) continue;
-    if (place_[i] != none) see_third(increment, c, place_[i], 1);
-    if (place_[j] != none) see_third(increment, c, place_[j], -1);
+    if (place_[i] != none) limit_by_third(increment, c, place_[i], 1);
+    if (place_[j] != none) limit_by_third(increment, c, place_[j], -1);
   }
 }
 
 // Finds how far the sphere may roll until contact c closes, to first order.
-void FreeSpins::see_third(const Increment<3>& increment, std::size_t c, std::size_t place,
-                          double side) {
-  const Held& held = held_[place];
-  if (c == held.contact[0] || c == held.contact[1]) return;
+void TwoContactSpheres::limit_by_third(const Increment<3>& increment, std::size_t c,
+                                       std::size_t place, double side) {
+  const TwoContactSphere& sphere = spheres_[place];
+  if (c == sphere.contact[0] || c == sphere.contact[1]) return;
   const auto& list = increment.contacts();
   const auto& motion = increment.motion();
   const Vec<3> branch = increment.branch(c);
   const double distance = length<3>(branch);
-  const double radius = motion.node_radius()[held.node];
+  const double radius = motion.node_radius()[sphere.node];
   const Vec<3> outward = sum({}, side / distance, branch);
   // Derivatives for a rotation of length chord about the chord: of the distance, and of the excess.
-  const Vec<3> moved = sum({}, radius / held.way_scale, held.way);
+  const Vec<3> moved = sum({}, radius / sphere.way_scale, sphere.way);
   const double opening = dot(outward, moved);
   if (std::abs(opening) < tuned::least_closing * length<3>(moved)) return;
-  const double turning = square<3>(held.chord) + dot(held.way, moved);
+  const double turning = square<3>(sphere.chord) + dot(sphere.way, moved);
   const double scale = turning / opening;
   const double room = std::abs(scale) * (distance - list.reach[c]);
   Limit& limit = limits_[place][opening > 0 ? 0 : 1];
@@ -154,31 +155,31 @@ void FreeSpins::see_third(const Increment<3>& increment, std::size_t c, std::siz
 }
 
 // Reduces positive excess to zero or to its lower limit, raises negative excess likewise.
-void FreeSpins::stop(const Increment<3>& increment) {
-  for (std::size_t k = 0; k < held_.size(); ++k) {
-    Held& held = held_[k];
+void TwoContactSpheres::stop(const Increment<3>& increment) {
+  for (std::size_t k = 0; k < spheres_.size(); ++k) {
+    TwoContactSphere& sphere = spheres_[k];
     const auto& [down, up] = limits_[k];
     const Limit* limit = nullptr;
-    if (held.excess > down.room) {
+    if (sphere.excess > down.room) {
       limit = &down;
-    } else if (held.excess < -up.room) {
+    } else if (sphere.excess < -up.room) {
       limit = &up;
     }
     if (limit == nullptr) continue;
-    held.excess = limit == &down ? down.room : -up.room;
-    held.third = limit->contact;
-    held.by_third = limit->by_branch;
-    const auto [side, neighbour] = place_of(increment, held.third, held.node);
-    held.third_side = side;
-    held.third_neighbour = neighbour;
-    by_chance_ = by_chance_ || count_[neighbour] < two;
+    sphere.excess = limit == &down ? down.room : -up.room;
+    sphere.third = limit->contact;
+    sphere.by_third = limit->by_branch;
+    const auto [side, neighbour] = place_of(increment, sphere.third, sphere.node);
+    sphere.third_side = side;
+    sphere.third_neighbour = neighbour;
+    arbitrary_ = arbitrary_ || count_[neighbour] < two;
   }
 }
 
-void FreeSpins::add_to(std::size_t nodes, std::span<double> residual) const {
-  for (const Held& held : held_) {
+void TwoContactSpheres::add_to(std::size_t nodes, std::span<double> residual) const {
+  for (const TwoContactSphere& sphere : spheres_) {
     for (std::size_t k = 0; k < 3; ++k) {
-      residual[(3 + k) * nodes + held.node] -= held.stiffness * held.excess * held.chord[k];
+      residual[(3 + k) * nodes + sphere.node] -= sphere.stiffness * sphere.excess * sphere.chord[k];
     }
   }
 }

@@ -21,11 +21,11 @@ class Increment;
 // history the sphere has not moved along the path, relative to its neighbours' affine motion. A
 // third sphere in the way stops it. A spring about the chord enforces the rule; its moment vanishes
 // at the solution.
-class FreeSpins {
+class TwoContactSpheres {
  public:
   // Two-contact sphere with its excess over the rule, chord . rotation + way . departure [rad], or
   // over its stop at a third sphere.
-  struct Held {
+  struct TwoContactSphere {
     std::size_t node;
     std::array<std::size_t, 2> contact;  // indices in the increment's list
     std::array<std::size_t, 2> neighbour;
@@ -53,17 +53,17 @@ class FreeSpins {
   // True if neither the law nor drag resists rotation about the chord.
   static bool possible(const Increment<3>& increment);
   void forget() {
-    held_.clear();
-    by_chance_ = false;
+    spheres_.clear();
+    arbitrary_ = false;
   }
   // Finds the two-contact spheres at the present coordinates, with the present masses.
   void find(const Increment<3>& increment);
   // Adds the moments of the springs to the residual [N m].
   void add_to(std::size_t nodes, std::span<double> residual) const;
 
-  [[nodiscard]] std::span<const Held> held() const { return held_; }
+  [[nodiscard]] std::span<const TwoContactSphere> spheres() const { return spheres_; }
   // True if some stop at an unsupported sphere, whose position depends on the relaxation.
-  [[nodiscard]] bool by_chance() const { return by_chance_; }
+  [[nodiscard]] bool arbitrary() const { return arbitrary_; }
 
  private:
   // Limit of the excess at a third sphere, in one direction of rolling.
@@ -72,17 +72,18 @@ class FreeSpins {
     std::size_t contact;
     Vec<3> by_branch;
   };
-  [[nodiscard]] Held held_at(const Increment<3>& increment, std::size_t node) const;
+  [[nodiscard]] TwoContactSphere sphere_at(const Increment<3>& increment, std::size_t node) const;
   void find_limits(const Increment<3>& increment);
-  void see_third(const Increment<3>& increment, std::size_t contact, std::size_t node, double side);
+  void limit_by_third(const Increment<3>& increment, std::size_t contact, std::size_t node,
+                      double side);
   void stop(const Increment<3>& increment);
 
-  std::vector<Held> held_;
+  std::vector<TwoContactSphere> spheres_;
   std::vector<unsigned char> count_;  // contacts of a node, at most three
   std::vector<std::array<std::size_t, 2>> contact_;
-  std::vector<std::size_t> place_;  // index of a node in held_
+  std::vector<std::size_t> place_;  // index of a node in spheres_
   std::vector<std::array<Limit, 2>> limits_;
-  bool by_chance_ = false;
+  bool arbitrary_ = false;
 };
 
 }  // namespace grainlaw::core

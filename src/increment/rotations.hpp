@@ -40,10 +40,10 @@ inline void add_spins<3>(const double* spin, std::size_t nodes, std::span<const 
 
 // Rotation of particles between the start of the increment and the last restart of the history.
 template <int D>
-class Turned;
+class RotationReference;
 
 template <>
-class Turned<2> {
+class RotationReference<2> {
  public:
   void reset(std::size_t /*particles*/, bool /*rotating*/) {}
   void restart(std::span<ParticleRecord<2>> /*records*/, double* /*rotation*/) {}
@@ -56,7 +56,7 @@ class Turned<2> {
 
 // Stores one unit quaternion per sphere.
 template <>
-class Turned<3> {
+class RotationReference<3> {
  public:
   void reset(std::size_t particles, bool rotating) {
     turn_.assign(rotating ? particles : 0, Quaternion{});

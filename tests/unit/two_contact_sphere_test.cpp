@@ -27,16 +27,18 @@ Deformation sheared_triaxially(int increments) {
   return {1 + 0.4 * strain, 0.1 * strain, 0, 0, 1 + 0.4 * strain, 0, 0, 0, 1 - strain};
 }
 
-std::size_t free_spins() { return workspace<3>().increment.free_spins().held().size(); }
+std::size_t two_contact_spheres() {
+  return workspace<3>().increment.two_contact_spheres().spheres().size();
+}
 
-TEST(free_spins, leave_the_tangent_exact_or_the_report_says_so) {
+TEST(two_contact_spheres, leave_the_tangent_exact_or_the_report_says_so) {
   State<3> state(hundred_spheres(1e-11));
   std::size_t most_free = 0;
   int exact = 0;
   for (int k = 1; k <= 8; ++k) {
     const Deformation F = sheared_triaxially(k);
     const Found found = evaluate(state, F, TangentKind::exact);
-    most_free = std::max(most_free, free_spins());
+    most_free = std::max(most_free, two_contact_spheres());
     double error = std::numeric_limits<double>::infinity();
     for (const double step : {1e-6, 1e-7, 1e-8}) {
       error =
@@ -55,7 +57,7 @@ TEST(free_spins, leave_the_tangent_exact_or_the_report_says_so) {
   EXPECT_GE(exact, 6);
 }
 
-TEST(free_spins, leave_it_exact_through_parts) {
+TEST(two_contact_spheres, leave_it_exact_through_parts) {
   State<3> whole(hundred_spheres(1e-11));
   for (int k = 1; k <= 4; ++k) {
     evaluate(whole, sheared_triaxially(k));
@@ -65,7 +67,7 @@ TEST(free_spins, leave_it_exact_through_parts) {
   state.restore(whole.committed());
   const Deformation F = sheared_triaxially(6);
   const Found found = evaluate(state, F, TangentKind::exact);
-  EXPECT_GE(free_spins(), 1U);
+  EXPECT_GE(two_contact_spheres(), 1U);
   EXPECT_GT(found.report.subincrements, 1);
   EXPECT_EQ(found.report.tangent_exact, 1);
   double error = std::numeric_limits<double>::infinity();
@@ -77,7 +79,7 @@ TEST(free_spins, leave_it_exact_through_parts) {
 }
 
 // Where a relaxation leaves them depends on how far it goes.
-TEST(free_spins, are_where_the_rule_says_however_they_are_solved_for) {
+TEST(two_contact_spheres, are_where_the_rule_says_however_they_are_solved_for) {
   State<3> state(hundred_spheres(1e-9));
   State<3> tighter(hundred_spheres(1e-11));
   std::size_t most_free = 0;
@@ -85,7 +87,7 @@ TEST(free_spins, are_where_the_rule_says_however_they_are_solved_for) {
     const Deformation F = sheared_triaxially(k);
     const Found one = evaluate(state, F);
     const Found other = evaluate(tighter, F);
-    most_free = std::max(most_free, free_spins());
+    most_free = std::max(most_free, two_contact_spheres());
     EXPECT_LT(relative_difference(one.stress, other.stress), 1e-8) << k;
     tighter.commit();
     state.restore(tighter.committed());
