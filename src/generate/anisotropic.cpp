@@ -103,7 +103,8 @@ void consolidate_anisotropically(StressControl<D>& control, StressTarget<D> targ
   Deviator<D> last{};
   double last_step = 0;
   constexpr double on_the_way = D == 2 ? StressControl<D>::tight : 1e-3;
-  for (int k = 0; k < most_steps && control.reach(target, on_the_way); ++k) {
+  bool bears = true;  // the target, where the last step ended
+  for (int k = 0; k < most_steps && (bears = control.reach(target, on_the_way)); ++k) {
     const auto found = deviatoric_fabric(control);
     const double a = anisotropy_of(control);
     lowest = std::min(lowest, a);
@@ -130,7 +131,7 @@ void consolidate_anisotropically(StressControl<D>& control, StressTarget<D> targ
     last_step = share * distance;
     if (norm(target.deviator) > largest_ratio) break;
   }
-  if (std::abs(anisotropy_of(control) - options.anisotropy) < allowed) return;
+  if (bears && std::abs(anisotropy_of(control) - options.anisotropy) < allowed) return;
   throw Error(GRAINLAW_NOT_CONVERGED,
               fmt::format("generator: anisotropy = {} was not met, found {:.4f} to {:.4f}; try "
                           "another seed or more {}",

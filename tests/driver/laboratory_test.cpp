@@ -9,6 +9,7 @@
 #include "point/scene.hpp"
 #include "scene_text.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -273,6 +274,29 @@ TEST_F(laboratory_test, another_law_in_a_case_takes_over_what_it_knows) {
   EXPECT_EQ(end.steps, 2);
   EXPECT_EQ(scene.material.changes["contact"]["friction"].value_or(0.0), 0.5);
   EXPECT_FALSE(scene.material.changes["contact"].as_table()->contains("young"));
+}
+
+TEST_F(laboratory_test, drag_is_a_column_of_a_law_in_time_alone_and_told_where_it_is_much) {
+  const auto run = [&](double time) {
+    PointScene scene = read("[[segment]]\ntest = 'drained'\nstrain = 0.04\nsteps = 20\n");
+    change(scene.material, "solver", "viscous_time", time);
+    PointEnd end;
+    testing::internal::CaptureStdout();
+    run_point(scene, directory_.path() / "drag", end);
+    return std::pair(testing::internal::GetCapturedStdout(),
+                     read_csv(directory_.path() / "drag.csv"));
+  };
+  const auto has = [](const CsvTable& table) {
+    return std::find(table.names.begin(), table.names.end(), "unbalanced") != table.names.end();
+  };
+  EXPECT_FALSE(has(run(0).second));
+  const auto [out, table] = run(10);
+  ASSERT_TRUE(has(table));
+  const auto& drag = table["unbalanced"];
+  const auto much =
+      std::count_if(drag.begin(), drag.end(), [](double value) { return value > much_drag; });
+  EXPECT_GT(much, 0);
+  EXPECT_NE(out.find(fmt::format("above 0.1 in {} steps", much)), std::string::npos) << out;
 }
 
 TEST_F(laboratory_test, an_ensemble_is_the_mean_of_its_packings_and_how_far_they_spread) {
