@@ -6,10 +6,10 @@
 namespace grainlaw::core {
 
 enum class Start { committed, trial };
-// chain: friction by return mapping, relaxation, then Newton (the default).
+// direct: friction by return mapping, relaxation, then Newton (the default).
 // advancing: viscous relaxation that advances the friction history at every step.
 // published: local damping, physical masses, history advanced at every step (the papers' method).
-enum class Method { chain, advancing, published };
+enum class Method { direct, advancing, published };
 
 // Meaning of an F at which no contact transmits force: an error, or an equilibrium with P = 0.
 enum class ContactsLost { error, stress_free };
