@@ -162,19 +162,21 @@ Triple cross(const Vec<3>& a, const Triple& b) {
 Lanes dot(const Vec<3>& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // Change of the excess of a two-contact sphere over its rule.
-Lanes excess_change(const Loop& loop, const TwoContactSpheres::Held& held) {
+Lanes excess_change(const Loop& loop, const TwoContactSpheres::TwoContactSphere& sphere) {
   const auto& motion = loop.increment.motion();
-  if (held.stopped()) {
-    const Vec<3> branch = loop.increment.branch(held.third);
-    return held.third_side * dot(held.by_third, product(loop.change, grainlaw::core::product<3>(
-                                                                         loop.pull_back, branch)));
+  if (sphere.stopped()) {
+    const Vec<3> branch = loop.increment.branch(sphere.third);
+    return sphere.third_side *
+           dot(sphere.by_third,
+               product(loop.change, grainlaw::core::product<3>(loop.pull_back, branch)));
   }
-  Lanes result = dot(
-      held.way, product(loop.change, grainlaw::core::product<3>(loop.pull_back, held.departure)));
+  Lanes result =
+      dot(sphere.way,
+          product(loop.change, grainlaw::core::product<3>(loop.pull_back, sphere.departure)));
   if (loop.history.normal == nullptr) return result;
   constexpr std::size_t b = Dimension<3>::unknowns;
   const std::size_t n = loop.increment.problem().nodes();
-  const double* rotation = motion.coordinates().data() + 3 * n + held.node;
+  const double* rotation = motion.coordinates().data() + 3 * n + sphere.node;
   const Vec<3> turned{rotation[0], rotation[n], rotation[2 * n]};
   std::array<Triple, 2> outward;
   Triple departure{};  // of the affinely moved start
@@ -182,21 +184,21 @@ Lanes excess_change(const Loop& loop, const TwoContactSpheres::Held& held) {
   const auto carried =
       grainlaw::core::product<3>(motion.deformation(), inverse<3>(motion.start_deformation()));
   for (std::size_t k = 0; k < 2; ++k) {
-    const std::size_t c = held.contact[k];
+    const std::size_t c = sphere.contact[k];
     for (std::size_t m = 0; m < 3; ++m) {
-      outward[k][m] = held.side[k] * load(loop.history.normal[c][m]);
-      departure[m] += 0.5 * (load(loop.history.motion[held.node * b + m]) -
-                             load(loop.history.motion[held.neighbour[k] * b + m]));
-      if (k == 0) point[m] = held.side[k] * loop.increment.contacts().start_normal[m][c];
+      outward[k][m] = sphere.side[k] * load(loop.history.normal[c][m]);
+      departure[m] += 0.5 * (load(loop.history.motion[sphere.node * b + m]) -
+                             load(loop.history.motion[sphere.neighbour[k] * b + m]));
+      if (k == 0) point[m] = sphere.side[k] * loop.increment.contacts().start_normal[m][c];
     }
   }
   Triple chord;
   for (std::size_t m = 0; m < 3; ++m) chord[m] = outward[1][m] - outward[0][m];
   Triple way = cross(chord, point);
-  add(way, cross(held.chord, outward[0]));
-  const double scale = held.way_scale;
-  result += dot(turned, chord) + scale * dot(held.departure, way) +
-            dot(held.way, product(carried, departure));
+  add(way, cross(sphere.chord, outward[0]));
+  const double scale = sphere.way_scale;
+  result += dot(turned, chord) + scale * dot(sphere.departure, way) +
+            dot(sphere.way, product(carried, departure));
   return result;
 }
 
@@ -237,11 +239,11 @@ void add_residual_changes<3>(const Increment<3>& increment, const Stiffness<3>& 
       add_to(contact.node_j, 3 + k, moment[k]);
     }
   }
-  for (const auto& held : increment.two_contact_spheres().spheres()) {
-    const Lanes excess = excess_change(loop, held);
+  for (const auto& sphere : increment.two_contact_spheres().spheres()) {
+    const Lanes excess = excess_change(loop, sphere);
     for (std::size_t k = 0; k < 3; ++k) {
-      double* const at = residual[held.node * b + 3 + k].lane;
-      simd::store(at, simd::load<width>(at) - held.stiffness * held.chord[k] * excess);
+      double* const at = residual[sphere.node * b + 3 + k].lane;
+      simd::store(at, simd::load<width>(at) - sphere.stiffness * sphere.chord[k] * excess);
     }
   }
 }
