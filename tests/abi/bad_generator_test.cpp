@@ -54,7 +54,10 @@ TEST(bad_generator, keys_of_growth_are_checked) {
   told(good + "anisotropy_direction = 45\n", "3: packing.anisotropy", "anisotropy_direction");
   told(good + "friction = 0.4\nanisotropy = 0.1\nanisotropy_direction = 200\n",
        "11: packing.anisotropy_direction", "from -180 to 180");
-  told(ten + "pressure = 1e4\nvoid_ratio = 0.2\n", "9: packing.void_ratio", "found both");
+  told(ten + "pressure = 1e4\nvoid_ratio = 0.2\nfriction = 0.1\n", "10: packing.friction",
+       "none beside pressure and void_ratio together");
+  told(ten + "pressure = 1e4\nvoid_ratio = 0.2\nanisotropy = 0.1\n", "10: packing.anisotropy",
+       "none beside pressure and void_ratio together");
   told("count = 0\nradii = [1e-3, 2e-3]\nseed = 1\npressure = 1e4\n", "5: packing.count",
        "an integer from 2");
   told("count = 10\nradii = [1e-3, 2e-3]\nseed = 0.5\npressure = 1e4\n", "7: packing.seed",

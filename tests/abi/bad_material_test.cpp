@@ -182,7 +182,7 @@ TEST(bad_material, any_mistake_in_a_generator_is_told) {
       {6, "radii = [1e-3, \"a\"]", 6, "packing.radii", "[smallest, largest]"},
       {7, "seed = -1", 7, "packing.seed", "found -1, expected an integer >= 0"},
       {8, "", 3, "packing.pressure", "found nothing, expected either pressure or void_ratio"},
-      {8, "pressure = 1e5\nvoid_ratio = 0.2", 9, "packing.void_ratio", "found both"},
+      {8, "pressure = 1e5\nvoid_ratio = 0.2\nfriction = 0.1", 10, "packing.friction", "together"},
       {8, "pressure = 0", 8, "packing.pressure", "a number > 0"},
       {8, "void_ratio = -0.2", 8, "packing.void_ratio", "a number > 0"},
       {8, "pressure = 1e5\nfriction = -0.1", 9, "packing.friction", "a number >= 0"},
