@@ -2,7 +2,7 @@
 
 namespace grainlaw::test {
 
-const std::string& data_directory() {
+const std::string& data_folder() {
   static const std::string path = GRAINLAW_TEST_DATA;
   return path;
 }

@@ -24,7 +24,7 @@ using grainlaw::State;
 using Tensor = std::array<double, 4>;
 using Tangent = std::array<double, 16>;
 
-inline const std::string data_directory = grainlaw::test::data_directory();
+inline const std::string data_directory = grainlaw::test::data_folder();
 inline const std::string material_path = data_directory + "/rve400.toml";
 
 // 400 discs at 100 kPa; loaded once, as it never changes.

@@ -33,7 +33,7 @@ constexpr int path_digits = 8;  // of the tolerance, for the states the samples 
 
 // Tolerance 10^-digits.
 Material material(int digits) {
-  const std::string data = grainlaw::test::data_directory();
+  const std::string data = grainlaw::test::data_folder();
   const std::string text =
       "dimension = 2\n"
       "[packing]\n"

@@ -24,7 +24,7 @@ const double wave_speed = std::sqrt(modulus / density);
 Material string_material() {
   MaterialSource source;
   source.file = grainlaw::test::data_file("string.toml");
-  source.base = grainlaw::test::data_directory();
+  source.base = grainlaw::test::data_folder();
   return make_material(source);
 }
 

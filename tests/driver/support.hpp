@@ -33,7 +33,7 @@ inline Material lattice_material() {
 inline Material packing_material() {
   MaterialSource source;
   source.file = grainlaw::test::data_file("rve400.toml");
-  source.base = grainlaw::test::data_directory();
+  source.base = grainlaw::test::data_folder();
   return make_material(source);
 }
 

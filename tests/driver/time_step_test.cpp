@@ -16,7 +16,7 @@ namespace {
 Material with_drag(double increment) {
   MaterialSource source;
   source.file = grainlaw::test::data_file("rve400.toml");
-  source.base = grainlaw::test::data_directory();
+  source.base = grainlaw::test::data_folder();
   toml::table solver{{"viscous_time", 100}, {"viscous_increment", increment}};
   source.changes.insert("solver", std::move(solver));
   return make_material(source);

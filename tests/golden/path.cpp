@@ -68,7 +68,7 @@ void add_measures(Hash& hash, const State& state) {
 
 Path::Path(std::string name, const std::string& toml, std::vector<Answer>& answers)
     : name_(std::move(name)),
-      state_(Material::parse(toml, grainlaw::test::data_directory())),
+      state_(Material::parse(toml, grainlaw::test::data_folder())),
       answers_(answers) {}
 
 void Path::go_to(const Tensor& F, unsigned want) {

@@ -55,12 +55,12 @@ BlockMatrix<width> with_loose_node(BlockSize<width> components, double to_others
     std::fill_n(matrix.block(matrix.upper(e)), b, BlockColumn<width>{});
     std::fill_n(matrix.block(matrix.lower(e)), b, BlockColumn<width>{});
   }
-  std::vector<BlockColumn<width>> regularise(matrix.nodes);
-  for (std::size_t q = 0; q < ground.size(); ++q) {
-    for (std::size_t k = 0; k < b; ++k) ground[q].lane[k] = q == 7 ? 0.5 : to_others;
+  std::vector<BlockColumn<width>> regularisation(matrix.nodes);
+  for (std::size_t q = 0; q < regularisation.size(); ++q) {
+    for (std::size_t k = 0; k < b; ++k) regularisation[q].lane[k] = q == 7 ? 0.5 : to_others;
   }
   lu.analyse(matrix);
-  EXPECT_TRUE(lu.factorise(matrix, ground));
+  EXPECT_TRUE(lu.factorise(matrix, regularisation));
   return matrix;
 }
 

@@ -45,10 +45,10 @@ BlockMatrix<width> matrix_of_units(std::size_t nodes, std::mt19937& random) {
   return matrix;
 }
 
-std::vector<One> ground_of(const BlockMatrix<width>& matrix, double value) {
-  std::vector<One> regularise(matrix.nodes);
-  for (auto& of_node : ground) std::fill_n(of_node.lane, Dilu::size, value);
-  return ground;
+std::vector<One> regularisation_of(const BlockMatrix<width>& matrix, double value) {
+  std::vector<One> regularisation(matrix.nodes);
+  for (auto& of_node : regularisation) std::fill_n(of_node.lane, Dilu::size, value);
+  return regularisation;
 }
 
 double difference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -63,7 +63,7 @@ TEST(krylov, solves_as_a_factorisation_does) {
     BlockLU<width> lu;
     lu.analyse(matrix);
     ASSERT_TRUE(lu.factorise(matrix));
-    dilu.factorise(matrix, ground_of(matrix, 1e-12));
+    dilu.factorise(matrix, regularisation_of(matrix, 1e-12));
     const auto b = random_vector(unknowns(matrix), random);
     for (const auto method : methods) {
       std::vector<One> x;
@@ -80,7 +80,7 @@ TEST(krylov, solves_several_together_as_one_by_one) {
   lu.analyse(matrix);
   ASSERT_TRUE(lu.factorise(matrix));
   Dilu dilu;
-  dilu.factorise(matrix, ground_of(matrix, 1e-12));
+  dilu.factorise(matrix, regularisation_of(matrix, 1e-12));
   std::array<std::vector<double>, width> right;
   for (auto& b : right) b = random_vector(unknowns(matrix), random);
   std::fill(right[6].begin(), right[6].end(), 0.0);
@@ -109,7 +109,7 @@ TEST(krylov, a_block_triangular_matrix_takes_next_to_no_products) {
     std::fill_n(matrix.block(below), Dilu::size, One{});
   }
   Dilu dilu;
-  dilu.factorise(matrix, ground_of(matrix, 1e-15));
+  dilu.factorise(matrix, regularisation_of(matrix, 1e-15));
   const auto b = random_vector(unknowns(matrix), random);
   for (const auto method : methods) {
     std::vector<One> x;
@@ -122,7 +122,7 @@ TEST(krylov, fewer_products_for_a_looser_tolerance) {
   std::mt19937 random(34);
   const auto matrix = matrix_of_units(200, random);
   Dilu dilu;
-  dilu.factorise(matrix, ground_of(matrix, 1e-12));
+  dilu.factorise(matrix, regularisation_of(matrix, 1e-12));
   const auto b = by_node(matrix, random_vector(unknowns(matrix), random));
   for (const auto method : methods) {
     std::vector<One> x;
@@ -140,7 +140,7 @@ TEST(krylov, a_node_that_nothing_holds_stays_where_nothing_moves_it) {
     std::fill_n(matrix.block(matrix.lower(e)), Dilu::size, One{});
   }
   Dilu dilu;
-  dilu.factorise(matrix, ground_of(matrix, 1e-9));
+  dilu.factorise(matrix, regularisation_of(matrix, 1e-9));
   auto b = random_vector(unknowns(matrix), random);
   for (std::size_t k = 7; k < b.size(); k += matrix.nodes) b[k] = 0;
   for (const auto method : methods) {
@@ -156,7 +156,7 @@ TEST(krylov, gives_up_after_the_products_it_may_spend) {
   auto matrix = matrix_of_units(100, random);
   std::swap(matrix.blocks[0], matrix.blocks[6 * 50]);
   Dilu dilu;
-  dilu.factorise(matrix, ground_of(matrix, 1e-12));
+  dilu.factorise(matrix, regularisation_of(matrix, 1e-12));
   const auto b = random_vector(unknowns(matrix), random);
   for (const auto method : methods) {
     std::vector<One> x;
@@ -169,7 +169,7 @@ TEST(krylov, ends_where_numbers_are_none) {
   std::mt19937 random(37);
   auto matrix = matrix_of_units(20, random);
   Dilu dilu;
-  dilu.factorise(matrix, ground_of(matrix, 1e-12));
+  dilu.factorise(matrix, regularisation_of(matrix, 1e-12));
   auto b = random_vector(unknowns(matrix), random);
   b[3] = std::numeric_limits<double>::quiet_NaN();
   for (const auto method : methods) {
