@@ -72,12 +72,10 @@ class Beside {
     static std::atomic<unsigned> number{0};
     const bool unique = first.empty() || link;  // behind a link may be another disk
     for (;;) {
-      const std::string beside_it =
-          unique ? fmt::format("{}.{}.{}.new", target_, ::getpid(), number++) : first;
-      Descriptor beside(beside_it, O_WRONLY | O_CREAT | (unique ? O_EXCL : O_TRUNC));
+      name_ = unique ? fmt::format("{}.{}.{}.new", target_, ::getpid(), number++) : first;
+      Descriptor beside(name_, O_WRONLY | O_CREAT | (unique ? O_EXCL : O_TRUNC));
       if (!beside.valid() && errno == EEXIST && unique) continue;
       if (!beside.valid()) fail_file(path_, "written", errno);
-      name_ = beside_it;
       int error = beside.write(text);
       if (error == 0 && exists) error = beside.keep_mode(old.st_mode & 07777U);
       if (error == 0 && writing_.wait) error = beside.sync();

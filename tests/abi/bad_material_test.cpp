@@ -139,7 +139,7 @@ TEST(bad_material, any_mistake_is_told_with_file_line_key_and_expectation) {
       {15, "force_floor = -1", 15, "solver.force_floor", "a number >= 0"},
       {15, "start = \"last\"", 15, "solver.start", "one of \"committed\", \"trial\""},
       {15, "method = \"newton\"", 15, "solver.method",
-       "one of \"chain\", \"advancing\", \"published\""},
+       "one of \"direct\", \"advancing\", \"published\", \"chain\""},
       {15, "contacts_lost = \"free\"", 15, "solver.contacts_lost", "\"error\", \"stress_free\""},
       {15, "contacts_lost = true", 15, "solver.contacts_lost", "one of \"error\""},
       {15, "increment_limit = 0", 15, "solver.increment_limit", "a number > 0"},
