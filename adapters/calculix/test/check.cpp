@@ -68,6 +68,7 @@ std::vector<Call> accepted(const std::vector<Call>& calls) {
 
 bool patch(grainlaw::State state, const std::vector<Call>& calls, const std::string& path) {
   const auto rows = read_numbers(path, 1);
+  state.set_time_step(1);  // each is a step of CalculiX
   const auto steps = accepted(calls);
   bool good = steps.size() == rows.size();
   for (std::size_t k = 0; k < steps.size() && k < rows.size(); ++k) {
