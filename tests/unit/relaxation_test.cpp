@@ -112,7 +112,8 @@ TEST(relaxation, chain_reaches_the_tightest_tolerance) {
   }
 }
 
-TEST(relaxation, hard_increment_succeeds_or_is_recoverable) {
+TEST(relaxation, hard_increments_succeed_and_a_dilution_is_recoverable) {
+  int solved = 0;
   for (const auto& law : {rough_law(), smooth_law()}) {
     for (const auto boundary : {BoundaryType::periodic_cell, BoundaryType::frame_p}) {
       State state(make_material(describe(small_packing(), law, boundary)));
@@ -125,6 +126,7 @@ TEST(relaxation, hard_increment_succeeds_or_is_recoverable) {
         EXPECT_GE(at.status, GRAINLAW_OK);
         EXPECT_EQ(state.has_trial(), at.status == GRAINLAW_OK);
         if (at.status == GRAINLAW_OK) {
+          ++solved;
           EXPECT_LT(at.report.residual, 1e-6);
         } else {
           EXPECT_LT(at.report.step_ratio, 1);
@@ -138,6 +140,8 @@ TEST(relaxation, hard_increment_succeeds_or_is_recoverable) {
       }
     }
   }
+  EXPECT_GE(solved, 10);  // GCC's code solves the first three of each four at any width: 12
+  EXPECT_LT(solved, 16);  // the last one dilutes the packing
 }
 
 TEST(relaxation, too_large_a_step_is_refused) {
