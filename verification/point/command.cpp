@@ -10,6 +10,7 @@
 #include "app/text.hpp"
 #include "point/ensemble.hpp"
 #include "point/figures.hpp"
+#include "point/price_of_drag.hpp"
 #include "point/run.hpp"
 #include "point/scene.hpp"
 
@@ -30,6 +31,7 @@ struct PointArguments {
   std::vector<std::string> cases;
   int jobs = 1;
   int steps = 0;
+  bool against_equilibrium = false;
 };
 
 bool has_member(const Ensemble& ensemble, const std::string& name) {
@@ -100,6 +102,32 @@ std::vector<PointScene> chosen(std::vector<PointScene> scenes, const std::string
   return result;
 }
 
+// Adds each scene with drag in equilibrium. Throws InputError where there is none.
+std::vector<PointScene> with_equilibrium(std::vector<PointScene> scenes) {
+  std::vector<PointScene> result;
+  for (const PointScene& scene : scenes)
+    if (has_drag(scene.material)) result.push_back(in_equilibrium(scene));
+  if (result.empty())
+    throw InputError(
+        "--against-equilibrium: no case has drag, expected a material with solver.viscous_number");
+  result.insert(result.begin(), scenes.begin(), scenes.end());
+  return result;
+}
+
+void tell_prices(const std::vector<PointScene>& scenes, const std::vector<PointEnd>& ends,
+                 const Destination& to) {
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    const std::string other = scenes[k].name + "_equilibrium";
+    const auto balanced = std::find_if(scenes.begin(), scenes.end(),
+                                       [&](const PointScene& one) { return one.name == other; });
+    if (balanced == scenes.end() || ends[k].particles == 0) continue;
+    if (ends[static_cast<std::size_t>(balanced - scenes.begin())].particles == 0) continue;
+    fmt::print("{} {}\n", scenes[k].name,
+               price_of_drag(read_csv(to.stem(scenes[k].name + ".csv")),
+                             read_csv(to.stem(other + ".csv"))));
+  }
+}
+
 void write_ends(const std::vector<PointScene>& scenes, const std::vector<PointEnd>& ends,
                 const std::filesystem::path& path) {
   const bool spheres = std::any_of(scenes.begin(), scenes.end(),
@@ -132,6 +160,7 @@ void run_command(const PointArguments& arguments) {
   const std::vector<Ensemble> ensembles = ensembles_of(file, prefix);
   outputs_of(file, prefix, scenes, ensembles).check_apart(arguments.scene);
   scenes = chosen(std::move(scenes), prefix, ensembles, arguments.cases);
+  if (arguments.against_equilibrium) scenes = with_equilibrium(std::move(scenes));
   const Destination& to = arguments.destination;
   const OwnFiles own =
       to.claim(outputs_of(file, prefix, scenes, ensembles), inputs_of(file, scenes));
@@ -157,6 +186,7 @@ void run_command(const PointArguments& arguments) {
     ensemble.members = begun;
     write_ensemble(ensemble, to.directory, of_it->abscissa, of_it->figure);
   }
+  tell_prices(scenes, ends, to);
   failures.check(arguments.scene);
 }
 
@@ -172,6 +202,8 @@ void add_point_command(CLI::App& app) {
   command->add_option("--steps", arguments->steps, "leave every path after so many; 0: none")
       ->check(at_least(0))
       ->capture_default_str();
+  command->add_flag("--against-equilibrium", arguments->against_equilibrium,
+                    "lead every case with drag in equilibrium too, and tell the difference");
   command->add_option("--jobs", arguments->jobs, "cases at a time")
       ->check(at_least(1))
       ->capture_default_str();
