@@ -7,7 +7,7 @@
 #include "app/interrupt.hpp"
 #include "app/jobs.hpp"
 #include "app/output.hpp"
-#include "app/text.hpp"
+#include "io/csv_records.hpp"
 #include "point/ensemble.hpp"
 #include "point/figures.hpp"
 #include "point/price_of_drag.hpp"
@@ -23,6 +23,9 @@
 #include <vector>
 
 namespace verification {
+
+using grainlaw::core::csv_record;
+
 namespace {
 
 struct PointArguments {
@@ -133,22 +136,32 @@ void write_ends(const std::vector<PointScene>& scenes, const std::vector<PointEn
   const bool spheres = std::any_of(scenes.begin(), scenes.end(),
                                    [](const PointScene& scene) { return scene.dimension == 3; });
   const int dimension = spheres ? 3 : 2;
-  std::string table = "case,particles[-],steps[-],steps_wanted[-],";
+  std::vector<std::string> row{"case", "particles[-]", "steps[-]", "steps_wanted[-]"};
   for (int i = 1; i <= dimension; ++i)
-    for (int j = 1; j <= dimension; ++j) table += fmt::format("F{}{}[-],", i, j);
-  table +=
-      "relaxation_steps[-],servo_corrections[-],factorisations[-],evaluations[-],"
-      "history_advanced[-],cpu[s],status[-],end\n";
+    for (int j = 1; j <= dimension; ++j) row.push_back(fmt::format("F{}{}[-]", i, j));
+  for (const char* name : {"relaxation_steps[-]", "servo_corrections[-]", "factorisations[-]",
+                           "evaluations[-]", "history_advanced[-]", "cpu[s]", "status[-]", "end"})
+    row.emplace_back(name);
+  std::string table = csv_record(row);
   for (std::size_t k = 0; k < scenes.size(); ++k) {
     const PointEnd& end = ends[k];
-    table += fmt::format("{},{},{},{},", csv_field(scenes[k].name), end.particles, end.steps,
-                         end.steps_wanted);
+    row = {scenes[k].name};
+    const auto add = [&](const auto& value) { row.push_back(fmt::format("{}", value)); };
+    add(end.particles);
+    add(end.steps);
+    add(end.steps_wanted);
     for (int i = 0; i < dimension; ++i)
-      for (int j = 0; j < dimension; ++j) table += fmt::format("{:.9g},", end.deformation(i, j));
-    table += fmt::format("{},{},{},{},{},{:.4g},{},{}\n", end.effort.relaxation_steps,
-                         end.effort.servo_corrections, end.effort.factorisations,
-                         end.effort.evaluations, end.effort.history_advanced, end.cpu,
-                         static_cast<int>(end.status), csv_field(end.text));
+      for (int j = 0; j < dimension; ++j)
+        row.push_back(fmt::format("{:.9g}", end.deformation(i, j)));
+    add(end.effort.relaxation_steps);
+    add(end.effort.servo_corrections);
+    add(end.effort.factorisations);
+    add(end.effort.evaluations);
+    add(end.effort.history_advanced);
+    row.push_back(fmt::format("{:.4g}", end.cpu));
+    add(static_cast<int>(end.status));
+    row.push_back(end.text);
+    table += csv_record(row);
   }
   write_atomically(path, table);
 }
