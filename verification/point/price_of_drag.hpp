@@ -11,8 +11,8 @@ namespace verification {
 // The scene as NAME_equilibrium, its material without the law in time.
 PointScene in_equilibrium(const PointScene& scene);
 
-// Differences of the stress deviator and of the volumetric strain between the tables of a path with
-// drag and of the same path in equilibrium, as text.
+// Text of how stress deviator and volumetric strain differ between two tables of a path, with drag
+// and in equilibrium.
 std::string price_of_drag(const CsvTable& with_drag, const CsvTable& equilibrium);
 
 }  // namespace verification
