@@ -215,6 +215,8 @@ GRAINLAW_TUNED(double, longest_drag, 36);
 GRAINLAW_TUNED(double, longest_follow, 3);
 // Strain up to which an increment counts as a hold, which may take no time [-]; chosen.
 GRAINLAW_TUNED(double, largest_held_strain, 1e-9);
+// Largest drag over the mean contact force above which reports warn [-]; chosen.
+GRAINLAW_TUNED(double, much_drag, 0.1);
 // Residual at which a relaxation with drag hands over to Newton [-]; chosen.
 GRAINLAW_TUNED(double, drag_hand_over, 1e-4);
 

@@ -1,6 +1,7 @@
 #include "equilibrium/drag_start.hpp"
 
 #include "base/constants.hpp"
+#include "equilibrium/stages.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -61,6 +62,7 @@ DragStart<D> start_drag(const Request<D>& request, int parts, Increment<D>& incr
   for (std::size_t k = 0; k < squared<D>; ++k) {
     how.strain_rate[k] = (mean[k] + strain[k]) / (1 + duration);
   }
+  const bool fading = may_fade(request, increment);
   const double radius = 0.5 * increment.motion().mean_branch();
   how.stiffness = tuned::drag_stiffness<D> *
                   (increment.scale().mean_force() / radius +
@@ -77,7 +79,8 @@ DragStart<D> start_drag(const Request<D>& request, int parts, Increment<D>& incr
   const double square = inner<D>(mean, mean) + slowest * slowest;
   const double along = inner<D>(strain, mean) / duration;
   const double turned = std::clamp(-along / square, 0.0, 1.0);
-  const double drop = 1 - tuned::drag_of_reversal;
+  // A packing whose forces fade needs all of its drag.
+  const double drop = fading ? 0 : 1 - tuned::drag_of_reversal;
   const double share = 1 - drop * turned * turned * (3 - 2 * turned);
   how.stiffness *= share;
   if (turned == 0 || turned == 1) return how;

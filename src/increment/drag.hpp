@@ -35,8 +35,8 @@ struct DragStart {
   std::array<double, Dimension<D>::spins> turn{};
 };
 
-// Velocity that a mass at rest gains in a part, over its displacement beyond affine motion
-// [1 / memory], and its derivative by the duration of the part.
+// Velocity that a mass at rest gains in a part over its displacement beyond affine motion
+// [1 / memory]. Slope: derivative by the duration of the part.
 struct MeanPull {
   double value = 0, slope = 0;
 };

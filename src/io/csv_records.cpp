@@ -38,4 +38,18 @@ bool CsvRecords::next(std::vector<std::string>& fields) {
   return true;
 }
 
+std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + '"';
+}
+
+std::string csv_record(const std::vector<std::string>& fields) {
+  std::string line;
+  for (const std::string& field : fields) line += csv_field(field) + ',';
+  if (!fields.empty()) line.pop_back();
+  return line + '\n';
+}
+
 }  // namespace grainlaw::core

@@ -1,4 +1,4 @@
-// Comma-separated values (RFC 4180), record by record.
+// Comma-separated values (RFC 4180), read and written record by record.
 #pragma once
 
 #include <cstddef>
@@ -27,5 +27,11 @@ class CsvRecords {
   std::size_t line_ = 1, next_line_ = 1;
   bool open_ = false;
 };
+
+// A field as text, quoted where necessary.
+std::string csv_field(std::string_view text);
+
+// A record as a line.
+std::string csv_record(const std::vector<std::string>& fields);
 
 }  // namespace grainlaw::core

@@ -3,13 +3,12 @@
 #include "base/capacity.hpp"
 #include "equilibrium/strategy.hpp"
 #include "homogenise/stress.hpp"
+#include "state/report.hpp"
 #include "state/rotated_configuration.hpp"
 #include "state/scratch.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <utility>
 
 namespace grainlaw::core {
@@ -22,24 +21,6 @@ constexpr double largest_stretch_change = 0.3;
 // well below the increments of a host.
 constexpr double perturbation = 1e-5;
 constexpr double perturbed_tolerance = 1e-9;
-
-void describe(grainlaw_report& report, const char* text) {
-  std::snprintf(report.message, sizeof report.message, "%s", text);
-}
-
-// Number of contacts that opened, closed, lost their bond, or began or ceased to slide.
-template <int D>
-int status_changes(const Configuration<D>& before, const Configuration<D>& after) {
-  auto a = before.contacts.begin();
-  int changes = 0;
-  for (const auto& contact : after.contacts) {
-    for (; a != before.contacts.end() && key_of(*a) < key_of(contact); ++a) ++changes;
-    const bool known = a != before.contacts.end() && key_of(*a) == key_of(contact);
-    if (!known || a->sliding != contact.sliding || a->bonded != contact.bonded) ++changes;
-    if (known) ++a;
-  }
-  return changes + static_cast<int>(before.contacts.end() - a);
-}
 
 template <int D>
 bool too_far(const SplitIncrement<D>& split) {
@@ -68,13 +49,6 @@ void guess_from_trial(const Configuration<D>& from, const Configuration<D>& tria
   to_relative_rotation(last, from, particles, z);
   request.guess = &z;
   request.guess_deformation = last.target;
-}
-
-template <int D>
-void add_cost(const Increment<D>& increment, grainlaw_report& report) {
-  report.relaxation_steps += increment.cost.relaxation_steps;
-  report.servo_corrections += increment.cost.servo_corrections;
-  report.factorisations += increment.cost.factorisations;
 }
 
 // Forward differences of P, each from the same history (Guo & Zhao 2014, eq. 8, as dP/dF).
@@ -232,11 +206,7 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
   report.history_advanced = outcome.history_advanced ? 1 : 0;
   report.residual = w.increment.residual_norm();
   const auto& drag = w.increment.motion().drag();
-  if (drag.acts()) {
-    report.unbalanced =
-        drag.largest(w.increment.motion().records()) / w.increment.scale().relative();
-    report.viscous_work = w.increment.losses().dragged();
-  }
+  add_drag(w.increment, report);
   if (outcome.status != GRAINLAW_OK) {
     describe(report, grainlaw_status_text(outcome.status));
     return outcome.status;

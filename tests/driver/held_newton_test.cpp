@@ -12,7 +12,8 @@ namespace verification {
 namespace {
 
 // One element, compressed by 1.6 % in one load step: too much for Newton's method in one go.
-std::vector<LoadStep> compress(const NewtonOptions& options, double strain = 0.016) {
+std::vector<LoadStep> compress(const NewtonOptions& options, double strain = 0.016,
+                               const Material& material = packing_material()) {
   Model model;
   model.mesh = rectangle_mesh({0.05, 0.1}, {1, 1}, ElementKind::q4r);
   const auto& sets = model.mesh.node_sets;
@@ -20,7 +21,6 @@ std::vector<LoadStep> compress(const NewtonOptions& options, double strain = 0.0
   model.displacements.push_back({sets.at("bottom"), 1, Program{{{0, 0}}, {}}, "bottom_y"});
   model.displacements.push_back({sets.at("top"), 1, Program::linear(0, -0.1 * strain), "top_y"});
   model.loads.pressures.push_back({model.mesh.side_sets["right"], Program{{{0, 1e5}}, {}}, true});
-  const Material material = packing_material();
   const auto solver = make_newton_solver(model, material, options, 1);
   std::vector<LoadStep> steps;
   for (int step = 0; step <= 1; ++step) steps.push_back(solver->advance(step, step));
@@ -55,6 +55,15 @@ TEST(line_search, never_increases_the_residual) {
   EXPECT_GT(count(steps).corrections, 4);
   EXPECT_EQ(count(steps).increases, 0);
   EXPECT_LE(steps.back().residuals.back(), 1e-6);
+}
+
+TEST(line_search, of_bounded_corrections_applies_the_whole_displacement) {
+  NewtonOptions options{
+      .max_iterations = 100, .max_cuts = 0, .loose_tolerance = 1, .patience = 100};
+  options.largest_correction = 8e-3;
+  options.line_search = 4;
+  const std::vector<LoadStep> steps = compress(options, 0.03, thirty_discs(2, 0));
+  EXPECT_NEAR(steps.back().displacements.back(), -0.1 * 0.03, 1e-15);
 }
 
 // Increase, increase, slow, fast, fast.

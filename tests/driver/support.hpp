@@ -29,6 +29,23 @@ inline Material lattice_material() {
   return make_material(source);
 }
 
+// Discs at 100 kPa, a millisecond an evaluation; viscous_time 0: without drag.
+inline Material thirty_discs(int seed, double viscous_time) {
+  MaterialSource source;
+  source.base = ".";
+  source.changes = toml::parse(R"(
+    dimension = 2
+    thickness = 0.1
+    packing = { generator = "compaction", count = 30, radii = [2e-3, 4e-3], pressure = 1e5 }
+    contact = { law = "frictional", young = 6e8, ratio = 0.8, friction = 0.5463 }
+    solver = {}
+  )")
+                       .table();
+  source.changes["packing"].as_table()->insert("seed", seed);
+  if (viscous_time > 0) source.changes["solver"].as_table()->insert("viscous_time", viscous_time);
+  return make_material(source);
+}
+
 // The 400 discs of tests/data.
 inline Material packing_material() {
   MaterialSource source;

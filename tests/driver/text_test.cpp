@@ -2,6 +2,8 @@
 #include "app/text.hpp"
 #include "../temporary_directory.hpp"
 #include "app/csv.hpp"
+#include "app/table.hpp"
+#include "io/csv_records.hpp"
 
 #include <gtest/gtest.h>
 
@@ -65,10 +67,22 @@ TEST(text, in_a_table_is_read_as_it_was_written) {
   EXPECT_EQ(table["two\nlines"], (std::vector<double>{4, 10}));
 
   std::string text = "name,value\n";
-  for (const std::string& name : names) text += csv_field(name) + ",1\r\n";
+  for (const std::string& name : names) text += grainlaw::core::csv_field(name) + ",1\r\n";
   std::ofstream(path, std::ios::binary) << text;
   EXPECT_EQ(read_csv_names(path), names);
   EXPECT_EQ(read_csv(path)["value"], std::vector<double>(names.size(), 1));
+}
+
+TEST(text, a_table_keeps_its_columns_whatever_they_are_called) {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "table.csv";
+  Table table("", {"case", "one, two", "a \"b\"[-]"});
+  table.row({"first, and second", 1.0, 2.0});
+  table.write(path);
+  const CsvTable read = read_csv(path);
+  EXPECT_EQ(read.names, (std::vector<std::string>{"case", "one, two", "a \"b\""}));
+  EXPECT_EQ(read["one, two"], std::vector<double>{1});
+  EXPECT_EQ(read_csv_names(path), std::vector<std::string>{"first; and second"});
 }
 
 }  // namespace

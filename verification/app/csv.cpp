@@ -1,7 +1,6 @@
 #include "app/csv.hpp"
 
 #include "app/library.hpp"
-#include "app/text.hpp"
 #include "io/csv_records.hpp"
 
 #include <fmt/format.h>
@@ -12,13 +11,11 @@
 #include <limits>
 
 namespace verification {
-namespace {
 
-std::string header(const std::vector<std::string>& columns) {
-  std::vector<std::string> fields;
-  for (const std::string& column : columns) fields.push_back(csv_field(column));
-  return fmt::format("{}\n", fmt::join(fields, ","));
-}
+using grainlaw::core::csv_record;
+using grainlaw::core::CsvRecords;
+
+namespace {
 
 std::string line(const std::vector<double>& values, std::size_t columns) {
   if (values.size() != columns) throw std::logic_error("csv: a row of another length");
@@ -33,7 +30,7 @@ std::string without_unit(const std::string& column) {
 // Returns the length if the table there can be continued from it.
 std::uintmax_t checked(const std::filesystem::path& path, const std::vector<std::string>& columns,
                        std::uintmax_t length) {
-  const std::string expected = header(columns);
+  const std::string expected = csv_record(columns);
   std::string found(expected.size(), '\0');
   std::error_code error;
   if (std::filesystem::is_regular_file(path, error)) {
@@ -52,7 +49,7 @@ std::uintmax_t checked(const std::filesystem::path& path, const std::vector<std:
 }  // namespace
 
 CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns)
-    : file_(path, header(columns)), columns_(columns.size()) {}
+    : file_(path, csv_record(columns)), columns_(columns.size()) {}
 
 CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns,
                      std::uintmax_t length)
@@ -62,9 +59,13 @@ void CsvWriter::row(const std::vector<double>& values) { file_.append(line(value
 
 void write_csv(const std::filesystem::path& path, const std::vector<std::string>& columns,
                const std::vector<std::vector<double>>& rows) {
-  std::string text = header(columns);
+  std::string text = csv_record(columns);
   for (const std::vector<double>& row : rows) text += line(row, columns.size());
   write_atomically(path, text);
+}
+
+bool CsvTable::has(std::string_view name) const {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 const std::vector<double>& CsvTable::operator[](std::string_view name) const {
@@ -77,7 +78,7 @@ const std::vector<double>& CsvTable::operator[](std::string_view name) const {
 
 CsvTable read_csv(const std::filesystem::path& path) {
   const std::string text = as<InputError>([&] { return grainlaw::core::read_text(path.string()); });
-  grainlaw::core::CsvRecords records(text);
+  CsvRecords records(text);
   CsvTable table;
   std::vector<std::string> fields;
   if (!records.next(fields)) throw InputError(fmt::format("{}: cannot be read", path.string()));
@@ -95,7 +96,7 @@ CsvTable read_csv(const std::filesystem::path& path) {
 
 std::vector<std::string> read_csv_names(const std::filesystem::path& path) {
   const std::string text = as<InputError>([&] { return grainlaw::core::read_text(path.string()); });
-  grainlaw::core::CsvRecords records(text);
+  CsvRecords records(text);
   std::vector<std::string> names, fields;
   records.next(fields);
   while (records.next(fields)) names.push_back(fields.front());

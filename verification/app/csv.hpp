@@ -43,6 +43,7 @@ struct CsvTable {
   std::vector<std::vector<double>> columns;  // [names.size()][rows]
 
   [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
+  [[nodiscard]] bool has(std::string_view name) const;
   // Column of this name. Throws InputError when there is none.
   [[nodiscard]] const std::vector<double>& operator[](std::string_view name) const;
 };

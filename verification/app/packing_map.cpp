@@ -87,9 +87,9 @@ void PackingMap::look_at_discs(const Snapshot& snapshot) {
     if (!cut_) include(centres.back(), 1.03 * snapshot.radius[p]);
   }
   std::vector<int> kind(snapshot.size(), 0);
-  for (const int p : snapshot.boundary) {
-    kind[static_cast<std::size_t>(p)] = 1;
-    outline_.push_back(centres[static_cast<std::size_t>(p)]);
+  for (const std::size_t p : snapshot.boundary) {
+    kind[p] = 1;
+    outline_.push_back(centres[p]);
   }
   if (cut_)
     for (const auto& [a, b] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {

@@ -22,6 +22,10 @@ struct Attempt {
   grainlaw_status status = GRAINLAW_OK;  // of a failed evaluation
 };
 
+// Largest change of F per Newton correction (Frobenius norm); longer ones are made in parts [-]. A
+// point takes a stretch of 30 %, and a smaller load step does not shorten what an unstable body asks.
+inline constexpr double largest_correction = 0.1;
+
 // A step that failed at its smallest part. `status` is that of the failed evaluation, OK when all
 // succeeded.
 struct StepError : ComputationError {

@@ -1,4 +1,4 @@
-// Particles and contacts of a state as files of the library, with their pictures and counts.
+// Particles and contacts of a state, with their pictures and counts.
 #pragma once
 
 #include "app/library.hpp"
@@ -25,10 +25,10 @@ struct SnapshotContact {
 };
 
 struct Snapshot {
-  std::vector<double> x, y, radius;  // [m]
-  std::vector<double> rotation;      // since F = I [rad]; spheres: length of the rotation vector
-  std::vector<int> boundary;         // particles of a frame in order; else empty
-  std::vector<double> cell;          // H, row-major [m]
+  std::vector<double> x, y, radius;   // [m]
+  std::vector<double> rotation;       // since F = I [rad]; spheres: length of the rotation vector
+  std::vector<std::size_t> boundary;  // particles of a frame in order; else empty
+  std::vector<double> cell;           // H, row-major [m]
   std::vector<SnapshotContact> contacts;
   std::vector<double> z{};  // of spheres [m]
 

@@ -1,9 +1,9 @@
 #include "app/table.hpp"
 
 #include "app/atomic_file.hpp"
+#include "io/csv_records.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -38,14 +38,14 @@ void Table::print() const {
 
 void Table::write(const std::filesystem::path& path) const {
   std::filesystem::create_directories(path.has_parent_path() ? path.parent_path() : ".");
-  std::string text = fmt::format("{}\n", fmt::join(columns_, ","));
+  std::string text = grainlaw::core::csv_record(columns_);
   for (const auto& row : rows_) {
     std::vector<std::string> fields;
     for (const Cell& cell : row) {
       fields.push_back(cell.full);
       std::replace(fields.back().begin(), fields.back().end(), ',', ';');  // keeps it one field
     }
-    text += fmt::format("{}\n", fmt::join(fields, ","));
+    text += grainlaw::core::csv_record(fields);
   }
   write_file(path, text);
 }

@@ -13,9 +13,6 @@ std::string gnuplot_text(std::string_view text);
 // U+FFFD.
 std::string xml_text(std::string_view text);
 
-// A field of a comma-separated table (RFC 4180), quoted where necessary.
-std::string csv_field(std::string_view text);
-
 // One word of a shell command.
 std::string shell_text(std::string_view text);
 

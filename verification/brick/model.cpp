@@ -91,13 +91,24 @@ BrickField::BrickField(const BrickModel& model, const Material& material, int th
   volume_ = measure_scalar(state(0), GRAINLAW_REFERENCE_VOLUME);
 }
 
+TensorOf<3> BrickField::deformed(TensorOf<3> F, std::size_t point,
+                                 const Eigen::VectorXd& displacement) const {
+  for (int a = 0; a < 8; ++a)
+    F += displacement.segment<3>(3 * nodes_[point][static_cast<std::size_t>(a)]) *
+         geometry_[point].gradient.row(a);
+  return F;
+}
+
+double BrickField::largest_change(const Eigen::VectorXd& displacement) const {
+  double largest = 0;
+  for (std::size_t p = 0; p < nodes_.size(); ++p)
+    largest = std::max(largest, deformed(TensorOf<3>::Zero(), p, displacement).norm());
+  return largest;
+}
+
 grainlaw_status BrickField::evaluate(const Eigen::VectorXd& displacement, unsigned want) {
   for (std::size_t p = 0; p < nodes_.size(); ++p) {
-    TensorOf<3> F = TensorOf<3>::Identity();
-    for (int a = 0; a < 8; ++a)
-      F += displacement.segment<3>(3 * nodes_[p][static_cast<std::size_t>(a)]) *
-           geometry_[p].gradient.row(a);
-    deformation_[p] = F;
+    deformation_[p] = deformed(TensorOf<3>::Identity(), p, displacement);
     reports_[p] = grainlaw_report_default();
   }
   last_ = set_.evaluate(numbers(deformation_), numbers(stress_), want, numbers(tangent_), threads_,

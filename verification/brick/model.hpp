@@ -69,6 +69,8 @@ class BrickField {
   // Evaluates all points and keeps the result for assemble(). Returns recoverable failures; throws
   // StatusError.
   grainlaw_status evaluate(const Eigen::VectorXd& displacement, unsigned want);
+  // Largest change of F (Frobenius norm) at a point due to this change of displacement.
+  [[nodiscard]] double largest_change(const Eigen::VectorXd& displacement) const;
   [[nodiscard]] BrickSystem assemble(const Eigen::VectorXd& displacement) const;
   void commit();
   void revert();
@@ -79,6 +81,10 @@ class BrickField {
   [[nodiscard]] const grainlaw_state* state(std::size_t point) const { return set_.state(point); }
 
  private:
+  // F plus the gradient of a displacement at a point.
+  [[nodiscard]] TensorOf<3> deformed(TensorOf<3> F, std::size_t point,
+                                     const Eigen::VectorXd& displacement) const;
+
   const BrickModel& model_;
   int threads_;
   Points set_;

@@ -64,8 +64,9 @@ Attempt BrickNewton::equilibrate(double time, double tolerance, std::vector<doub
   for (int iteration = 0; iteration < options_.max_iterations && !stalled; ++iteration) {
     const Eigen::VectorXd correction = solve(system, unknowns_, prescribed);
     if (!correction.allFinite()) return {.reason = "the stiffness is singular"};
-    displacement += correction;
-    prescribed.setZero();
+    const double share = std::min(1.0, largest_correction / field_.largest_change(correction));
+    displacement += share * correction;
+    prescribed *= 1 - share;
     if (field_.evaluate(displacement, GRAINLAW_WANT_TANGENT_EXACT) != GRAINLAW_OK) {
       const grainlaw_summary& summary = field_.summary();
       residuals.push_back(std::numeric_limits<double>::quiet_NaN());
@@ -73,9 +74,10 @@ Attempt BrickNewton::equilibrate(double time, double tolerance, std::vector<doub
               .reason = fmt::format("point {}: {}", summary.first_failed, summary.message)};
     }
     system = field_.assemble(displacement);
-    const double residual = unknowns_.reduce(system.residual).norm() / system.scale;
+    const double residual =
+        unknowns_.reduce(system.residual - system.stiffness * prescribed).norm() / system.scale;
     residuals.push_back(residual);
-    if (residual <= tolerance) {
+    if (residual <= tolerance && prescribed.isZero(0)) {
       displacement_ = displacement;
       system_ = system;
       time_ = time;

@@ -1,8 +1,8 @@
 #include "dns/repeat.hpp"
 
 #include "app/atomic_file.hpp"
-#include "app/csv.hpp"
 #include "app/library.hpp"
+#include "app/packing_tables.hpp"
 
 #include <fmt/format.h>
 
@@ -14,10 +14,6 @@
 
 namespace verification {
 namespace {
-
-bool has_column(const CsvTable& table, const char* name) {
-  return std::find(table.names.begin(), table.names.end(), name) != table.names.end();
-}
 
 // A particle of a frame that is not a copy, or the copy `of` p: particle `first` shifted by lattice
 // vectors.
@@ -142,60 +138,53 @@ std::vector<std::string> frame_columns(const FramePacking& frame) {
 }  // namespace
 
 FramePacking read_frame(const std::string& prefix) {
-  const CsvTable particles = read_csv(prefix + "_particles.csv");
-  const CsvTable contacts = read_csv(prefix + "_contacts.csv");
-  const CsvTable cell = read_csv(prefix + "_cell.csv");
+  const PackingTables packing = read_packing_tables(prefix);
+  const CsvTable &particles = packing.particles, &contacts = packing.contacts, &cell = packing.cell;
   const auto wrong = [&](const std::string& found) {
     throw InputError(
         fmt::format("{}_particles.csv: found {}, expected a frame whose opposite "
                     "sides are copies of each other",
                     prefix, found));
   };
-  if (!has_column(particles, "frame_order")) wrong("no column frame_order");
+  if (!packing.framed()) wrong("no column frame_order");
   FramePacking frame;
   frame.x = particles["x"];
   frame.y = particles["y"];
   frame.radius = particles["r"];
-  frame.cell = {cell["H00"][0], cell["H01"][0], cell["H10"][0], cell["H11"][0]};
+  std::copy_n(packing.h.begin(), 4, frame.cell.begin());
   frame.thickness = cell["thickness"][0];
-  if (has_column(cell, "rho")) frame.density = cell["rho"][0];
-  std::map<int, int> number, at_place;
-  for (std::size_t p = 0; p < frame.size(); ++p) {
-    number[static_cast<int>(particles["id"][p])] = static_cast<int>(p);
-    const auto place = static_cast<int>(particles["frame_order"][p]);
-    if (place >= 0) at_place[place] = static_cast<int>(p);
-  }
+  if (cell.has("rho")) frame.density = cell["rho"][0];
   std::size_t corners = 0;
-  for (const auto& [place, p] : at_place) {
+  for (const std::size_t p : packing.boundary) {
     // Every edge particle of copied sides has a partner, and no corner has one.
-    if (particles["partner"][static_cast<std::size_t>(p)] < 0) {
+    if (particles["partner"][p] < 0) {
       if (corners < 4) frame.corner[corners] = frame.boundary.size();
       ++corners;
     }
-    frame.boundary.push_back(p);
+    frame.boundary.push_back(static_cast<int>(p));
   }
   if (corners != 4 || frame.corner[0] != 0)
     wrong(fmt::format("{} particles of the boundary without a partner", corners));
   const auto [c0, c1, c2, c3] = frame.corner;
   if (c1 - c0 != c3 - c2 || c2 - c1 != frame.boundary.size() - c3) wrong("sides that differ");
   // Under a boundary that does not couple copies, the reference alone has copies.
-  if (has_column(particles, "reference_x")) {
+  if (particles.has("reference_x")) {
     const auto& h = frame.cell;
-    for (const int p : frame.boundary) {
-      const int id = static_cast<int>(particles["partner"][static_cast<std::size_t>(p)]);
-      if (id < 0) continue;
-      const auto a = static_cast<std::size_t>(p), b = static_cast<std::size_t>(number.at(id));
+    for (const std::size_t a : packing.boundary) {
+      const double partner = particles["partner"][a];
+      if (partner < 0) continue;
+      const std::size_t b = packing.number.at(partner);
       const double dx = std::abs(frame.x[b] - frame.x[a]), dy = std::abs(frame.y[b] - frame.y[a]);
       const double off = std::min(std::hypot(dx - std::abs(h[0]), dy - std::abs(h[2])),
                                   std::hypot(dx - std::abs(h[1]), dy - std::abs(h[3])));
       if (off > 1e-9 * (std::abs(h[0]) + std::abs(h[3]))) wrong("sides that moved on their own");
     }
   }
-  const bool moments = has_column(contacts, "moment"), bonds = has_column(contacts, "bonded");
+  const bool moments = contacts.has("moment"), bonds = contacts.has("bonded");
   for (std::size_t c = 0; c < contacts.rows(); ++c) {
     FrameContact contact;
-    contact.i = number.at(static_cast<int>(contacts["i"][c]));
-    contact.j = number.at(static_cast<int>(contacts["j"][c]));
+    contact.i = static_cast<int>(packing.pairs[c].first);
+    contact.j = static_cast<int>(packing.pairs[c].second);
     contact.normal_force = contacts["fn"][c];
     contact.tangential_force = {contacts["ftx_on_j"][c], contacts["fty_on_j"][c]};
     if (moments) contact.moment = contacts["moment"][c];

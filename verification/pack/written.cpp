@@ -1,8 +1,7 @@
 #include "pack/written.hpp"
 
-#include "app/csv.hpp"
+#include "app/packing_tables.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -33,38 +32,30 @@ void weigh_copies(WrittenPacking& packing) {
 }  // namespace
 
 WrittenPacking read_written(const std::string& prefix) {
-  const CsvTable table = read_csv(prefix + "_particles.csv");
-  const CsvTable cell = read_csv(prefix + "_cell.csv");
-  const CsvTable contacts = read_csv(prefix + "_contacts.csv");
+  const PackingTables tables = read_packing_tables(prefix);
+  const CsvTable &particles = tables.particles, &contacts = tables.contacts;
   WrittenPacking packing;
-  packing.cell << cell["H00"][0], cell["H01"][0], cell["H10"][0], cell["H11"][0];
-  packing.radius = table["r"];
-  const bool framed =
-      std::find(table.names.begin(), table.names.end(), "frame_order") != table.names.end();
-  std::map<int, std::size_t> number;  // index of an id
+  packing.cell = Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(tables.h.data());
+  packing.radius = particles["r"];
+  packing.boundary = tables.boundary;
   std::vector<Eigen::Vector2i> wrap;
-  std::map<double, std::size_t> boundary;
-  for (std::size_t p = 0; p < table.rows(); ++p) {
-    Eigen::Vector2d centre(table["x"][p], table["y"][p]);
+  for (std::size_t p = 0; p < particles.rows(); ++p) {
+    Eigen::Vector2d centre(particles["x"][p], particles["y"][p]);
     Eigen::Vector2i cells = Eigen::Vector2i::Zero();
-    if (!framed) cells = (packing.cell.inverse() * centre).array().floor().cast<int>();
+    if (!tables.framed()) cells = (packing.cell.inverse() * centre).array().floor().cast<int>();
     packing.centre.push_back(centre - packing.cell * cells.cast<double>());
     wrap.push_back(cells);
-    number[static_cast<int>(table["id"][p])] = p;
-    if (framed && table["frame_order"][p] >= 0) boundary[table["frame_order"][p]] = p;
   }
-  for (const auto& [order, particle] : boundary) packing.boundary.push_back(particle);
   for (std::size_t c = 0; c < contacts.rows(); ++c) {
     WrittenContact contact;
-    contact.i = number.at(static_cast<int>(contacts["i"][c]));
-    contact.j = number.at(static_cast<int>(contacts["j"][c]));
+    std::tie(contact.i, contact.j) = tables.pairs[c];
     // The written shift refers to unwrapped positions.
     const Eigen::Vector2d shift(contacts["shift_x"][c], contacts["shift_y"][c]);
     contact.shift = shift.cast<int>() + wrap[contact.j] - wrap[contact.i];
     contact.normal_force = contacts["fn"][c];
     packing.contacts.push_back(contact);
   }
-  if (framed) weigh_copies(packing);
+  if (tables.framed()) weigh_copies(packing);
   return packing;
 }
 

@@ -7,9 +7,10 @@
 #include "app/interrupt.hpp"
 #include "app/jobs.hpp"
 #include "app/output.hpp"
-#include "app/text.hpp"
+#include "io/csv_records.hpp"
 #include "point/ensemble.hpp"
 #include "point/figures.hpp"
+#include "point/price_of_drag.hpp"
 #include "point/run.hpp"
 #include "point/scene.hpp"
 
@@ -22,6 +23,9 @@
 #include <vector>
 
 namespace verification {
+
+using grainlaw::core::csv_record;
+
 namespace {
 
 struct PointArguments {
@@ -30,6 +34,7 @@ struct PointArguments {
   std::vector<std::string> cases;
   int jobs = 1;
   int steps = 0;
+  bool against_equilibrium = false;
 };
 
 bool has_member(const Ensemble& ensemble, const std::string& name) {
@@ -100,27 +105,63 @@ std::vector<PointScene> chosen(std::vector<PointScene> scenes, const std::string
   return result;
 }
 
+// Adds each scene with drag in equilibrium. Throws InputError where there is none.
+std::vector<PointScene> with_equilibrium(std::vector<PointScene> scenes) {
+  std::vector<PointScene> result;
+  for (const PointScene& scene : scenes)
+    if (has_drag(scene.material)) result.push_back(in_equilibrium(scene));
+  if (result.empty())
+    throw InputError(
+        "--against-equilibrium: no case has drag, expected a material with solver.viscous_number");
+  result.insert(result.begin(), scenes.begin(), scenes.end());
+  return result;
+}
+
+void tell_prices(const std::vector<PointScene>& scenes, const std::vector<PointEnd>& ends,
+                 const Destination& to) {
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    const std::string other = scenes[k].name + "_equilibrium";
+    const auto balanced = std::find_if(scenes.begin(), scenes.end(),
+                                       [&](const PointScene& one) { return one.name == other; });
+    if (balanced == scenes.end() || ends[k].particles == 0) continue;
+    if (ends[static_cast<std::size_t>(balanced - scenes.begin())].particles == 0) continue;
+    fmt::print("{} {}\n", scenes[k].name,
+               price_of_drag(read_csv(to.stem(scenes[k].name + ".csv")),
+                             read_csv(to.stem(other + ".csv"))));
+  }
+}
+
 void write_ends(const std::vector<PointScene>& scenes, const std::vector<PointEnd>& ends,
                 const std::filesystem::path& path) {
   const bool spheres = std::any_of(scenes.begin(), scenes.end(),
                                    [](const PointScene& scene) { return scene.dimension == 3; });
   const int dimension = spheres ? 3 : 2;
-  std::string table = "case,particles[-],steps[-],steps_wanted[-],";
+  std::vector<std::string> row{"case", "particles[-]", "steps[-]", "steps_wanted[-]"};
   for (int i = 1; i <= dimension; ++i)
-    for (int j = 1; j <= dimension; ++j) table += fmt::format("F{}{}[-],", i, j);
-  table +=
-      "relaxation_steps[-],servo_corrections[-],factorisations[-],evaluations[-],"
-      "history_advanced[-],cpu[s],status[-],end\n";
+    for (int j = 1; j <= dimension; ++j) row.push_back(fmt::format("F{}{}[-]", i, j));
+  for (const char* name : {"relaxation_steps[-]", "servo_corrections[-]", "factorisations[-]",
+                           "evaluations[-]", "history_advanced[-]", "cpu[s]", "status[-]", "end"})
+    row.emplace_back(name);
+  std::string table = csv_record(row);
   for (std::size_t k = 0; k < scenes.size(); ++k) {
     const PointEnd& end = ends[k];
-    table += fmt::format("{},{},{},{},", csv_field(scenes[k].name), end.particles, end.steps,
-                         end.steps_wanted);
+    row = {scenes[k].name};
+    const auto add = [&](const auto& value) { row.push_back(fmt::format("{}", value)); };
+    add(end.particles);
+    add(end.steps);
+    add(end.steps_wanted);
     for (int i = 0; i < dimension; ++i)
-      for (int j = 0; j < dimension; ++j) table += fmt::format("{:.9g},", end.deformation(i, j));
-    table += fmt::format("{},{},{},{},{},{:.4g},{},{}\n", end.effort.relaxation_steps,
-                         end.effort.servo_corrections, end.effort.factorisations,
-                         end.effort.evaluations, end.effort.history_advanced, end.cpu,
-                         static_cast<int>(end.status), csv_field(end.text));
+      for (int j = 0; j < dimension; ++j)
+        row.push_back(fmt::format("{:.9g}", end.deformation(i, j)));
+    add(end.effort.relaxation_steps);
+    add(end.effort.servo_corrections);
+    add(end.effort.factorisations);
+    add(end.effort.evaluations);
+    add(end.effort.history_advanced);
+    row.push_back(fmt::format("{:.4g}", end.cpu));
+    add(static_cast<int>(end.status));
+    row.push_back(end.text);
+    table += csv_record(row);
   }
   write_atomically(path, table);
 }
@@ -132,6 +173,7 @@ void run_command(const PointArguments& arguments) {
   const std::vector<Ensemble> ensembles = ensembles_of(file, prefix);
   outputs_of(file, prefix, scenes, ensembles).check_apart(arguments.scene);
   scenes = chosen(std::move(scenes), prefix, ensembles, arguments.cases);
+  if (arguments.against_equilibrium) scenes = with_equilibrium(std::move(scenes));
   const Destination& to = arguments.destination;
   const OwnFiles own =
       to.claim(outputs_of(file, prefix, scenes, ensembles), inputs_of(file, scenes));
@@ -157,6 +199,7 @@ void run_command(const PointArguments& arguments) {
     ensemble.members = begun;
     write_ensemble(ensemble, to.directory, of_it->abscissa, of_it->figure);
   }
+  tell_prices(scenes, ends, to);
   failures.check(arguments.scene);
 }
 
@@ -172,6 +215,8 @@ void add_point_command(CLI::App& app) {
   command->add_option("--steps", arguments->steps, "leave every path after so many; 0: none")
       ->check(at_least(0))
       ->capture_default_str();
+  command->add_flag("--against-equilibrium", arguments->against_equilibrium,
+                    "lead every case with drag in equilibrium too, and tell the difference");
   command->add_option("--jobs", arguments->jobs, "cases at a time")
       ->check(at_least(1))
       ->capture_default_str();

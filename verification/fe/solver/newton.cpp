@@ -112,25 +112,24 @@ class NewtonSolver final : public Solver {
     double best = std::numeric_limits<double>::infinity();
     int best_iteration = 0;
     bool stalled = false;
-    ElasticShare share(options_.elastic_share);
+    ElasticShare elastic(options_.elastic_share);
     for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
       const bool follows = iteration == 0 && again.size() > 0;
       Eigen::VectorXd correction;
       {
         const auto measure = points_.cost().measure(Stage::linear_solve);
         correction = follows ? again
-                     : share.value() == 0
+                     : elastic.value() == 0
                          ? solve(system.stiffness, system.residual, dofs_, prescribed)
-                         : solve(system.stiffness + share.value() * elastic_, system.residual,
+                         : solve(system.stiffness + elastic.value() * elastic_, system.residual,
                                  dofs_, prescribed);
       }
       if (!correction.allFinite()) return {.reason = "the stiffness is singular"};
-      const double factor = follows ? 1 : bound(correction);
-      correction *= factor;
-      prescribed *= 1 - factor;
+      double share = follows ? 1 : bound(correction);
       const int halvings = iteration == 0 ? 0 : options_.line_search;
       const Attempt step =
-          correct(displacement, system, correction, time, residuals.back(), halvings);
+          correct(displacement, system, correction, share, time, residuals.back(), halvings);
+      prescribed *= 1 - share;
       if (!step.converged) {
         residuals.push_back(std::numeric_limits<double>::quiet_NaN());
         return step;
@@ -138,7 +137,7 @@ class NewtonSolver final : public Solver {
       const double before = residuals.back();
       const double residual = error(system, prescribed);
       residuals.push_back(residual);
-      if (iteration > 0 && options_.elastic_share > 0) share.update(before, residual);
+      if (iteration > 0 && options_.elastic_share > 0) elastic.update(before, residual);
       if (residual < 0.5 * best) {
         best = residual;
         best_iteration = iteration;
@@ -203,13 +202,12 @@ class NewtonSolver final : public Solver {
     return last;
   }
 
-  // Applies a correction. It is halved while a point refuses or the residual exceeds `before`, if
-  // there are halvings; with none at the start it is applied whole.
+  // Applies a share of a correction. It is halved while a point refuses or the residual exceeds
+  // `before`, if there are halvings; with none at the start it is applied whole.
   Attempt correct(Eigen::VectorXd& displacement, System& system, const Eigen::VectorXd& correction,
-                  double time, double before, int halvings) {
-    double fraction = 1;
-    for (int halving = 0;; ++halving, fraction *= 0.5) {
-      const Eigen::VectorXd place = displacement + fraction * correction;
+                  double& share, double time, double before, int halvings) {
+    for (int halving = 0;; ++halving, share *= 0.5) {
+      const Eigen::VectorXd place = displacement + share * correction;
       const bool reached = points_.evaluate(place, options_.tangent, threads_) == GRAINLAW_OK;
       if (reached) {
         System found = assemble(model_, points_, place, time);

@@ -24,7 +24,7 @@ struct NewtonOptions {
   int patience = 4;
   // Largest change of F per correction (Frobenius norm); corrections are shortened to it; 0: no
   // bound [-]. A correction far beyond the load increment is expensive and seldom useful.
-  double largest_correction = 0;
+  double largest_correction = verification::largest_correction;
   // Halvings of a correction until the residual does not increase and no point refuses; then the
   // step is cut. The first correction, which applies the load, is not halved; 0: none is.
   int line_search = 0;

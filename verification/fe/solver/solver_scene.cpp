@@ -17,7 +17,8 @@ NewtonOptions read_newton(SceneTable table, const MaterialSource& material) {
   options.jump_tolerance = table.number_or("jump_tolerance", 0, not_negative);
   options.jump_iterations = table.integer_or("jump_iterations", 0, 0);
   options.patience = table.integer_or("patience", options.patience, 1);
-  options.largest_correction = table.number_or("largest_correction", 0, not_negative);
+  options.largest_correction =
+      table.number_or("largest_correction", options.largest_correction, not_negative);
   options.max_iterations = table.integer_or("max_iterations", options.max_iterations, 1);
   options.line_search = table.integer_or("line_search", 0, 0);
   options.elastic_share = table.number_or("elastic_share", 0, {0, 1, false, "a number in [0, 1]"});

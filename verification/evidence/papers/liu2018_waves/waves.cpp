@@ -7,19 +7,10 @@
 #include <cmath>
 
 namespace verification {
-namespace {
-
-// Field of a table, without commas: the page puts them back.
-std::string field(std::string text) {
-  std::replace(text.begin(), text.end(), ',', ';');
-  return text;
-}
-
-}  // namespace
 
 void WaveStudy::add(const std::string& figure, const std::string& quantity,
                     const std::string& paper, const std::string& here, const std::string& verdict) {
-  facts.add(figure, field(quantity), field(paper), field(here), verdict);
+  facts.add(figure, quantity, paper, here, verdict);
 }
 
 void WaveStudy::agree(const std::string& figure, const std::string& quantity,

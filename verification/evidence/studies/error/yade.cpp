@@ -5,14 +5,15 @@
 #include "evidence/studies/statistics.hpp"
 
 #include "app/progress.hpp"
+#include "io/csv_records.hpp"
+#include "io/text_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <cstdlib>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 namespace verification::error_study {
@@ -77,19 +78,24 @@ double slower_than_recorded(double yade_step) {
 
 std::vector<YadeRow> read_yade(const StudyOptions& options, double slower) {
   const std::filesystem::path path = options.scene("reference/yade_cost.csv");
-  std::ifstream stream(path);
+  const std::string text = as<InputError>([&] { return grainlaw::core::read_text(path.string()); });
+  grainlaw::core::CsvRecords records(text);
   std::vector<YadeRow> rows;
   bool header = true;
-  for (std::string line; std::getline(stream, line);) {
-    if (line.empty() || line.front() == '#') continue;
+  for (std::vector<std::string> fields; records.next(fields);) {
+    if (fields.front().empty() || fields.front().front() == '#') continue;
     if (std::exchange(header, false)) continue;
-    std::istringstream fields(line);
+    if (fields.size() != 5)
+      throw InputError(
+          fmt::format("{}:{}: found {} fields, expected setting,kind,error,cpu_low,"
+                      "cpu_high",
+                      path.string(), records.line(), fields.size()));
     YadeRow row{};
-    char comma = 0;
-    if (!std::getline(fields, row.setting, ',') || !std::getline(fields, row.kind, ',') ||
-        !(fields >> row.error >> comma >> row.cpu_low >> comma >> row.cpu_high))
-      throw InputError(fmt::format("{}: found '{}', expected setting,kind,error,cpu_low,cpu_high",
-                                   path.string(), line));
+    row.setting = fields[0];
+    row.kind = fields[1];
+    row.error = std::strtod(fields[2].c_str(), nullptr);
+    row.cpu_low = std::strtod(fields[3].c_str(), nullptr);
+    row.cpu_high = std::strtod(fields[4].c_str(), nullptr);
     row.recorded = 0.5 * (row.cpu_low + row.cpu_high);
     row.cpu_low *= slower;
     row.cpu_high *= slower;

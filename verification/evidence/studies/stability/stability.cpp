@@ -179,13 +179,10 @@ void write_tables(const std::vector<Row>& rows, const std::filesystem::path& out
       "- released",
       printed);
   for (const Row& row : rows) {
-    Row written, narrow;
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      written.push_back(row[k]);
-      written.back().full = without(row[k].full, ',', ';');
+    Row narrow;
+    for (std::size_t k = 0; k < row.size(); ++k)
       if (columns[k].printed) narrow.push_back(row[k]);
-    }
-    full.row(written);
+    full.row(row);
     shown.row(narrow);
   }
   shown.print();

@@ -1,0 +1,51 @@
+// Filling of reports.
+#pragma once
+
+#include <grainlaw/grainlaw.h>
+#include "base/constants.hpp"
+#include "increment/increment.hpp"
+
+#include <cstdio>
+
+namespace grainlaw::core {
+
+inline void describe(grainlaw_report& report, const char* text) {
+  std::snprintf(report.message, sizeof report.message, "%s", text);
+}
+
+// Number of contacts that opened, closed, lost their bond, or began or ceased to slide.
+template <int D>
+int status_changes(const Configuration<D>& before, const Configuration<D>& after) {
+  auto a = before.contacts.begin();
+  int changes = 0;
+  for (const auto& contact : after.contacts) {
+    for (; a != before.contacts.end() && key_of(*a) < key_of(contact); ++a) ++changes;
+    const bool known = a != before.contacts.end() && key_of(*a) == key_of(contact);
+    if (!known || a->sliding != contact.sliding || a->bonded != contact.bonded) ++changes;
+    if (known) ++a;
+  }
+  return changes + static_cast<int>(before.contacts.end() - a);
+}
+
+template <int D>
+void add_cost(const Increment<D>& increment, grainlaw_report& report) {
+  report.relaxation_steps += increment.cost.relaxation_steps;
+  report.servo_corrections += increment.cost.servo_corrections;
+  report.factorisations += increment.cost.factorisations;
+}
+
+// Size and work of the drag, and a warning where it carries part of the load.
+template <int D>
+void add_drag(const Increment<D>& increment, grainlaw_report& report) {
+  const auto& drag = increment.motion().drag();
+  if (!drag.acts()) return;
+  report.unbalanced = drag.largest(increment.motion().records()) / increment.scale().relative();
+  report.viscous_work = increment.losses().dragged();
+  if (report.unbalanced > tuned::much_drag) {
+    describe(report,
+             "drag carries part of the load (unbalanced above 0.1); a smaller "
+             "solver.viscous_number lowers it");
+  }
+}
+
+}  // namespace grainlaw::core
