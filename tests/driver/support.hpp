@@ -29,8 +29,8 @@ inline Material lattice_material() {
   return make_material(source);
 }
 
-// Discs at 100 kPa, a millisecond an evaluation; viscous_time 0: without drag.
-inline Material thirty_discs(int seed, double viscous_time) {
+// Discs at 100 kPa, a millisecond an evaluation; viscous_number 0: without drag.
+inline Material thirty_discs(int seed, double viscous_number) {
   MaterialSource source;
   source.base = ".";
   source.changes = toml::parse(R"(
@@ -42,7 +42,7 @@ inline Material thirty_discs(int seed, double viscous_time) {
   )")
                        .table();
   source.changes["packing"].as_table()->insert("seed", seed);
-  if (viscous_time > 0) source.changes["solver"].as_table()->insert("viscous_time", viscous_time);
+  source.changes["solver"].as_table()->insert("viscous_number", viscous_number);
   return make_material(source);
 }
 

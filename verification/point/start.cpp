@@ -178,6 +178,9 @@ std::string unusual_stiffness(double stiffness) {
   return text;
 }
 
+constexpr const char* law_in_time =
+    "solver.viscous_number = 1e-3 with viscous_rate, the strain of a step";
+
 std::string why_at_start(const PackingStart& start, int steps_done) {
   constexpr int first_steps = 3;
   if (steps_done >= first_steps) return {};
@@ -190,7 +193,7 @@ std::string load_advice(const PackingStart& start, int steps_done) {
          fmt::format(
              "; try more load steps{}, or displacement in place of a load that the body may not "
              "carry",
-             start.drag ? "" : ", solver.viscous_number = 1e-3");
+             start.drag ? "" : fmt::format(", {}", law_in_time));
 }
 
 std::string path_advice(const PackingStart& start, int steps_done, grainlaw_status status,
@@ -210,8 +213,7 @@ std::string path_advice(const PackingStart& start, int steps_done, grainlaw_stat
                      "; try {:.6g} steps or more instead of {}: each strains by {:.2g}, {:.2g} "
                      "times p/kn",
                      std::ceil(hard * segment.steps), segment.steps, strain, hard);
-  return why +
-         (start.drag ? "; try more steps" : "; try more steps, or solver.viscous_number = 1e-3");
+  return why + "; try more steps" + (start.drag ? "" : fmt::format(", or {}", law_in_time));
 }
 
 void warn(const std::string& name, const PackingStart& start) {
