@@ -20,7 +20,7 @@ class Points {
   Points(const dealii::Mapping<2>& mapping, const dealii::DoFHandler<2>& dofs,
          const dealii::Quadrature<2>& quadrature, const grainlaw::Material& material);
 
-  // How long increments take from now on, for a material with solver.viscous_increment.
+  // How long increments take from now on, for a material with solver.viscous_rate.
   void set_time_step(double step) { points_.set_time_step(step); }
   // Stress and exact tangent at I + grad u in all points. False when one found no equilibrium; then
   // message() and step_ratio() tell, and forces and stiffness stay those of the last success.

@@ -75,7 +75,7 @@ class Points:
         return Answer(not failed, min(ratio for _, ratio, _ in ranks), failed[0] if failed else "")
 
     def set_time_step(self, step):
-        """How long increments take from now on, for a material with solver.viscous_increment."""
+        """How long increments take from now on, for a material with solver.viscous_rate."""
         self.states.set_time_step(step)
 
     def commit(self):

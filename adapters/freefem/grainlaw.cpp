@@ -5,7 +5,7 @@
 //   grainlawEvaluate(sand, F, P [, A [, threads]])     number of points that found no equilibrium
 //       F, P [dim^2, n]: component i*dim+J; A [dim^4, n]: dP_iJ/dF_kL at ((i*dim+J)*dim+k)*dim+L
 //   grainlawSetTimeStep(sand, time)                    how long increments take from now on, for a
-//                                                      material with solver.viscous_increment
+//                                                      material with solver.viscous_rate
 //   grainlawStepRatio(sand), grainlawFirstFailed(sand), grainlawMessage(sand)
 //       of the last evaluation: by how much to shorten the step, which point failed first (-1:
 //       none) and why

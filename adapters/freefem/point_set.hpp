@@ -31,7 +31,7 @@ class PointSet {
   long evaluate(const Array& F, const Array& P, const Array* A, long threads);
   [[nodiscard]] const grainlaw::PointsEvaluation& last() const { return last_; }
 
-  // How long increments take from now on: a material with solver.viscous_increment asks for it.
+  // How long increments take from now on: a material with solver.viscous_rate asks for it.
   void set_time_step(double step);
 
   // All points, or none: refused unless the last evaluation found an equilibrium in each of them.

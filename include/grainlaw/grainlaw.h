@@ -154,9 +154,10 @@ typedef struct grainlaw_report {
   int history_advanced;   /* 1: a fallback advanced the friction history; approximate */
   char message[256];      /* one line of text, "" after plain success */
   int broken_bonds;       /* bonds that broke in this evaluation [-] */
-  double unbalanced;      /* with solver.viscous_time: largest drag on a particle / mean contact
+  double unbalanced;      /* with solver.viscous_number: largest drag on a particle / mean contact
                              normal force, 0 at equilibrium [-] */
-  double viscous_work;    /* with solver.viscous_time: work done on the drag [J] */
+  double viscous_work;    /* with solver.viscous_number: work done on the drag, of which its springs
+                             and masses store a part [J] */
 } grainlaw_report;
 
 /* A report with its size set and zeros elsewhere. */
@@ -212,9 +213,10 @@ GRAINLAW_API grainlaw_status grainlaw_evaluate_batch(size_t n, grainlaw_state* c
                                                      double* A, grainlaw_status* status,
                                                      grainlaw_report* reports, int threads);
 
-/* Set the time of the following increments, in the host's unit; copies and bytes keep it. A material
- * with solver.viscous_increment > 0 asks for it: without one, or with 0, F has to stay
- * (BAD_ARGUMENT). Errors: NULL_POINTER, BAD_HANDLE, BAD_ARGUMENT (not finite, or below 0). */
+/* Set the time of the following increments, in the unit of solver.viscous_rate; copies and bytes
+ * keep it. A material with that key asks for it: without one, or with 0, F has to stay
+ * (BAD_ARGUMENT). To others the strain is the time, and they ignore it. Errors: NULL_POINTER,
+ * BAD_HANDLE, BAD_ARGUMENT (not finite, or below 0). */
 GRAINLAW_API grainlaw_status grainlaw_state_set_time_step(grainlaw_state*, double time_step);
 
 /* Make the trial the committed state. Errors: NULL_POINTER, BAD_HANDLE, NO_TRIAL. */

@@ -200,16 +200,23 @@ GRAINLAW_TUNED(int, most_products, 400);
 
 // ---- Drag ------------------------------------------------------------------------------------
 
-// Upper bound of the ratio rho between expected and last displacement [-]. @formula inertia;
-// chosen.
-GRAINLAW_TUNED(double, largest_follow, 3);
-// Least strain of an increment that has a direction to continue in [-]. After a
-// pause, fluctuations would otherwise be expected to repeat in any next increment. Chosen; verification/README.md,
-// "Without jumps", says between which bounds.
-GRAINLAW_TUNED(double, least_followed_strain, 1e-9);
-// Residual at which a relaxation of discs with drag hands over to Newton [-]; chosen. Spheres with
-// drag relax down to the tolerance.
-GRAINLAW_TUNED(double, drag_hand_over, 1e-3);
+// Stiffness of the springs over the mean contact force per radius [-]. @formula viscous; chosen.
+template <int D>
+GRAINLAW_TUNED(double, drag_stiffness, (D == 2 ? 1.0 : 3.0));
+// Share of a contact's stiffness that the springs have without forces [-]; chosen.
+GRAINLAW_TUNED(double, drag_floor, 1e-3);
+// Share of their stiffness that the springs have where the strain turns back [-]; chosen.
+GRAINLAW_TUNED(double, drag_of_reversal, 0.1);
+// Mean strain rate over the viscous number below which nothing turns back [-]; chosen.
+GRAINLAW_TUNED(double, slowest_drag_rate, 0.01);
+// Duration from which on a part has no drag to speak of [memories]; method.
+GRAINLAW_TUNED(double, longest_drag, 36);
+// Bound of the time for which the drag's masses are followed [memories]; chosen.
+GRAINLAW_TUNED(double, longest_follow, 3);
+// Strain up to which an increment counts as a hold, which may take no time [-]; chosen.
+GRAINLAW_TUNED(double, largest_held_strain, 1e-9);
+// Residual at which a relaxation with drag hands over to Newton [-]; chosen.
+GRAINLAW_TUNED(double, drag_hand_over, 1e-4);
 
 // ---- Strategy --------------------------------------------------------------------------------
 

@@ -1,15 +1,13 @@
-// How the parts of an increment with drag begin.
+// Start of a part with drag.
 #pragma once
 
 #include "equilibrium/request.hpp"
-#include "increment/drag.hpp"
 
 namespace grainlaw::core {
 
-// Start of part k of `parts`: share `inertia` of the drag is that of masses, the rest plain drag.
-// The first part scales the last displacement by the strain in its direction, the others repeat it.
-// @formula inertia
+// Finds the forces at the start of the increment and returns the drag of one of `parts` equal parts.
+// The increment begins anew afterwards. @formula viscous
 template <int D>
-DragStart<D> drag_start(const Request<D>& request, int k, int parts);
+DragStart<D> start_drag(const Request<D>& request, int parts, Increment<D>& increment);
 
 }  // namespace grainlaw::core

@@ -14,12 +14,11 @@ enum class Method { direct, advancing, published };
 // Meaning of an F at which no contact transmits force: an error, or an equilibrium with P = 0.
 enum class ContactsLost { error, stress_free };
 
-// Drag on the fluctuations, so that each increment takes a time. @formula viscous
+// Drag on the fluctuations, so that rearrangements take time. @formula viscous
 struct Viscosity {
-  double time = 0;       // tau in relaxation times of a contact [-]; 0: no drag
-  double inertia = 1;    // share of masses in the drag, which scales rho [-]
-  double increment = 0;  // host time that takes `time`; 0: every increment does
-  long steps = 1;        // parts of an increment [-]
+  double number = 0;  // strain rate x memory [-]; 0: no drag
+  double rate = 0;    // strain rate that `number` is meant at [1 / host time]; 0: time is strain
+  long steps = 1;     // parts of an increment [-]
 };
 
 struct SolverOptions {

@@ -23,12 +23,15 @@ struct Workspace {
   NewtonMemory<D> newton;
   Sensitivity<D> sensitivity;
   std::vector<double> guess;
-  std::vector<double> move;  // displacement of the fluctuations in the last part with drag
+  std::vector<double> velocity;  // of the drag's masses at the end of the last part
 };
 
 // Stages to try: all; or those of the whole increment alone, without parts. committed and advancing
 // restrict `whole` to one kind of history, for callers that cut the step between the two.
 enum class Trying { all, whole, committed, advancing };
+
+// Duration of an increment that its strain sets.
+inline constexpr double by_strain = -1;
 
 template <int D>
 struct Request {
@@ -36,9 +39,10 @@ struct Request {
   const SolverOptions* options = nullptr;
   const Configuration<D>* from = nullptr;
   Tensor<D> deformation{};  // F to reach, without its rotation relative to `from`
+  std::array<double, Dimension<D>::spins> turn{};  // that rotation [rad]
   double tolerance = 1e-6;
-  double loose_tolerance = 0;  // for this request, see SolverOptions
-  double duration = 1;         // of the increment; an ordinary one has 1 [-]
+  double loose_tolerance = 0;   // for this request, see SolverOptions
+  double duration = by_strain;  // of the increment [memories]
   Trying trying = Trying::all;
   bool sensitivities = false;
   // Coordinates at guess_deformation from which the iteration starts, rotations relative to `from`.

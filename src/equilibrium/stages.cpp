@@ -83,14 +83,13 @@ void start_iteration(const Request<D>& request, double share, Increment<D>& incr
 
 template <int D>
 bool has_drag(const Request<D>& request) {
-  return request.options->viscosity.time > 0;
+  return request.options->viscosity.number > 0;
 }
 
-// Tolerance, raised to what rounding leaves [-]: more with a stiff drag. It changes while forces fade.
+// Tolerance, raised to what rounding leaves [-]. It changes while forces fade.
 template <int D>
 double reachable(const Request<D>& request, const Increment<D>& increment) {
-  const double drag = increment.motion().drag().how().rate / tuned::contacts_of_a_particle;
-  const double rounding = std::max(1.0, drag) * increment.scale().relative_rounding();
+  const double rounding = increment.scale().relative_rounding();
   return std::max(request.tolerance, std::min(rounding, tuned::largest_rounding));
 }
 
@@ -114,7 +113,7 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
     return is_free(request, increment);
   double target = reachable(request, increment);
   double hand_over = hand_over_of(increment.problem().nodes());
-  if (has_drag(request)) hand_over = D == 2 ? tuned::drag_hand_over : target;
+  if (has_drag(request)) hand_over = tuned::drag_hand_over;
   const bool coarse = target > tuned::worth_newton * hand_over;
   if (coarse) hand_over = target;
   bool last = false;
@@ -179,21 +178,18 @@ bool solve_parts(const Request<D>& request, int parts, Workspace<D>& w, Outcome&
   outcome.history_advanced = false;
   outcome.loose = false;
   outcome.sensitivities = request.sensitivities;
+  DragStart<D> drag;
+  if (has_drag(request)) drag = start_drag(request, parts, increment);
   for (int k = 1; k <= parts; ++k) {
     const double share = static_cast<double>(k) / parts;
     if (k == 1) {
-      if (has_drag(request)) {
-        increment.begin(*request.problem, *request.from, request.from->deformation);
-        increment.find_first_drag();
-      }
       start_iteration(request, share, increment);
     } else {
       increment.deform(between<D>(request.from->deformation, request.deformation, share));
     }
     if (has_drag(request)) {
       const bool guessed = request.guess != nullptr && parts == 1;
-      increment.begin_drag(drag_start(request, k, parts), k == 1 ? request.from->move : w.move,
-                           !guessed);
+      increment.begin_drag(drag, k == 1 ? request.from->velocity : w.velocity, !guessed);
     }
     if (!solve_part(request, w, outcome)) return false;
     double start = static_cast<double>(k - 1) / parts;
@@ -219,7 +215,7 @@ bool solve_parts(const Request<D>& request, int parts, Workspace<D>& w, Outcome&
     if (!settled) return false;
     if (has_drag(request)) {
       if (outcome.sensitivities && k < parts) w.sensitivity.carry_drag(increment);
-      increment.end_drag(w.move);
+      increment.end_drag(w.velocity);
     }
     if (k < parts) {
       carry();

@@ -74,7 +74,7 @@ class Stages {
       return;
     }
     const Viscosity& viscosity = request.options->viscosity;
-    if (viscosity.time > 0) {
+    if (viscosity.number > 0) {
       // P depends a little on the number of parts, so that number is constant in F as long as it
       // converges.
       const int steps = static_cast<int>(viscosity.steps);

@@ -62,6 +62,7 @@ void AverageMasses::take_out(const BoundarySpace<2>& space, std::span<const Mass
 
 void AverageMasses::project_out_velocity(const BoundarySpace<2>& space, std::size_t nodes,
                                          std::span<double> velocity, std::span<const double> mass) {
+  const auto mass_of = [&](std::size_t q) { return mass.empty() ? 1.0 : mass[q]; };
   for (std::size_t i = 0; i < 2; ++i) {
     const auto& average = space.average[i];
     if (average.rows == 0) continue;
@@ -72,14 +73,14 @@ void AverageMasses::project_out_velocity(const BoundarySpace<2>& space, std::siz
       const auto& row = average.row[k];
       off[0] += row[0] * velocity[q];
       off[1] += row[1] * velocity[q];
-      sum[0] += row[0] * row[0] / mass[q];
-      sum[1] += row[0] * row[1] / mass[q];
-      sum[2] += row[1] * row[1] / mass[q];
+      sum[0] += row[0] * row[0] / mass_of(q);
+      sum[1] += row[0] * row[1] / mass_of(q);
+      sum[2] += row[1] * row[1] / mass_of(q);
     }
     const auto c = times(inverse(sum, average.rows), off);
     for (std::size_t k = 0; k < average.node.size(); ++k) {
       const std::size_t q = i * nodes + static_cast<std::size_t>(average.node[k]);
-      velocity[q] -= (c[0] * average.row[k][0] + c[1] * average.row[k][1]) / mass[q];
+      velocity[q] -= (c[0] * average.row[k][0] + c[1] * average.row[k][1]) / mass_of(q);
     }
   }
 }

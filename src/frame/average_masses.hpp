@@ -18,9 +18,10 @@ class AverageMasses {
   void take_out(const BoundarySpace<2>& space, std::span<const MassRecord<2>> mass,
                 std::span<ForceRecord<2>> residual) const;
 
-  // Projects out of velocities (component-major, with these masses) what changes the averages.
+  // Projects out of velocities (component-major, with these masses; none: equal ones) what changes
+  // the averages.
   static void project_out_velocity(const BoundarySpace<2>& space, std::size_t nodes,
-                                   std::span<double> velocity, std::span<const double> mass);
+                                   std::span<double> velocity, std::span<const double> mass = {});
 
  private:
   std::array<std::array<double, 3>, 2> inverse_{};  // of sum row row / m: xx, xy, yy

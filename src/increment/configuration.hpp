@@ -27,10 +27,10 @@ struct Configuration {
   std::vector<double> bond_gaps;  // stress-free branch - (R_i + R_j), one per contact; empty unless
                                   // bonds span gaps [m]
   double broken_bonds = 0;        // since F = I, weighted as their contacts [-]
-  // Displacement of the fluctuations ([m], rotation vectors [rad]) and G - 1 in the last part of
-  // the last increment with drag. Empty without drag.
-  std::vector<double> move;
-  Tensor<D> move_stretch{};
+  // Velocity of the drag's masses, as positions [m] and rotation vectors [rad] per memory, and the
+  // mean strain rate [1 / memory]. Empty without drag.
+  std::vector<double> velocity;
+  Tensor<D> strain_rate{};
 };
 
 // True if no value is infinite or NaN.
@@ -44,7 +44,7 @@ bool all_finite(const Configuration<D>& c) {
   const auto& contacts = c.contacts;
   return all_finite(c.deformation) && all_finite(c.coordinates) && all_finite(c.stress) &&
          std::isfinite(c.dissipated) && all_finite(c.moments) && all_finite(c.bond_gaps) &&
-         all_finite(c.move) && all_finite(c.move_stretch) &&
+         all_finite(c.velocity) && all_finite(c.strain_rate) &&
          std::all_of(contacts.begin(), contacts.end(), [](const ContactHistory<D>& contact) {
            return all_finite(contact.tangential_force);
          });

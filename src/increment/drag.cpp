@@ -2,6 +2,7 @@
 
 #include "base/capacity.hpp"
 #include "base/simd.hpp"
+#include "frame/average_masses.hpp"
 #include "increment/records.hpp"
 
 #include <algorithm>
@@ -19,13 +20,13 @@ Record<D> load(const Struct& record) {
   return simd::load<Dimension<D>::lanes>(&record.x);
 }
 
-// Stiffness of one contact over the duration; 0 for rotations of particles without rotation.
-MassRecord<2> stiffness_of(const LeastMass<2>& least, double rate, bool rotating) {
-  return {rate * least.x, rate * least.y, rotating ? rate * least.roll : 0, 0};
+// Share of the stiffness of one contact; 0 for rotations of particles without rotation.
+MassRecord<2> stiffness_of(const LeastMass<2>& least, double share, bool rotating) {
+  return {share * least.x, share * least.y, rotating ? share * least.roll : 0, 0};
 }
-MassRecord<3> stiffness_of(const LeastMass<3>& least, double rate, bool rotating) {
-  const double x = rate * least.x;
-  const double spin = rotating ? rate * least.spin : 0;
+MassRecord<3> stiffness_of(const LeastMass<3>& least, double share, bool rotating) {
+  const double x = share * least.x;
+  const double spin = rotating ? share * least.spin : 0;
   return {x, x, x, spin, spin, spin, {0, 0}};
 }
 
@@ -34,8 +35,8 @@ MassRecord<3> stiffness_of(const LeastMass<3>& least, double rate, bool rotating
 template <int D>
 void Drag<D>::begin(const DragStart<D>& how, const BoundarySpace<D>& space, bool rotating,
                     std::span<const LeastMass<D>> least, const std::vector<double>& start,
-                    const Tensor<D>& from, std::span<const double> affine,
-                    std::span<const double> move) {
+                    const Tensor<D>& from, const Tensor<D>& stretch, std::span<const double> affine,
+                    std::span<const double> velocity) {
   how_ = how;
   from_ = from;
   copy_with_capacity(start, part_start_);
@@ -46,19 +47,31 @@ void Drag<D>::begin(const DragStart<D>& how, const BoundarySpace<D>& space, bool
     particle_[static_cast<std::size_t>(space.node[p])] = static_cast<std::int32_t>(p);
   }
   resize_with_capacity(expected_, nodes);
-  resize_with_capacity(move_, nodes);
+  resize_with_capacity(velocity_, nodes);
+  resize_with_capacity(spring_, nodes);
   resize_with_capacity(stiffness_, nodes);
   const std::size_t components = affine.size() / n;
+  const double decay = std::exp(-how.duration);
   for (std::size_t q = 0; q < nodes; ++q) {
     const auto p = static_cast<std::size_t>(particle_[q]);
-    stiffness_[q] = stiffness_of(least[q], how.rate, rotating);
-    expected_[q] = move_[q] = {};
+    stiffness_[q] = stiffness_of(least[q], decay * how.stiffness / least[q].x, rotating);
+    expected_[q] = velocity_[q] = spring_[q] = {};
+    ForceRecord<D> force = first_[q];
+    for (std::size_t k = 0; k < D; ++k) {
+      component(force, k) = 0;
+      for (std::size_t l = 0; l < D; ++l) {
+        component(force, k) += stretch[D * k + l] * component(first_[q], l);
+      }
+    }
     const double radius = 1 / least[q].inverse_radius;
     for (std::size_t k = 0; k < components; ++k) {
       const double length = k < D ? 1 : radius;
-      const double last = move.empty() ? 0 : move[k * n + p];
-      component(move_[q], k) = length * last;
-      component(expected_[q], k) = length * (affine[k * n + p] + how.follow * last);
+      const double stiffness = spring_stiffness(q, k);
+      if (stiffness > 0) component(spring_[q], k) = component(force, k) / stiffness;
+      if (!velocity.empty()) component(velocity_[q], k) = length * velocity[k * n + p];
+      component(expected_[q], k) = length * affine[k * n + p] +
+                                   how.follow * component(velocity_[q], k) -
+                                   (1 - how.duration) * component(spring_[q], k);
     }
   }
 }
@@ -126,17 +139,64 @@ double Drag<D>::largest(std::span<const Place> particles) const {
 }
 
 template <int D>
-void Drag<D>::set_drag_before(std::span<const ForceRecord<D>> forces) {
-  resize_with_capacity(before_, forces.size());
-  std::copy(forces.begin(), forces.end(), before_.begin());
+void Drag<D>::set_first_force(std::span<const ForceRecord<D>> forces) {
+  resize_with_capacity(first_, forces.size());
+  std::copy(forces.begin(), forces.end(), first_.begin());
 }
 
 template <int D>
-void Drag<D>::set_drag_before(std::span<const Place> particles) {
+void Drag<D>::set_first_force(std::span<const Place> particles) {
   for (std::size_t q = 0; q < expected_.size(); ++q) {
     const auto distance =
         load<D>(particles[static_cast<std::size_t>(particle_[q])]) - load<D>(expected_[q]);
-    simd::store(&before_[q].x, load<D>(stiffness_[q]) * distance);
+    simd::store(&first_[q].x, load<D>(stiffness_[q]) * distance);
+  }
+}
+
+// Series of (1 - (1 + h) exp(-h)) / h and its derivative, which cancel for short parts.
+MeanPull mean_pull(double h) {
+  MeanPull result;
+  if (h > 0.1) {
+    const double decay = std::exp(-h);
+    result.value = (1 - (1 + h) * decay) / h;
+    result.slope = decay - result.value / h;
+    return result;
+  }
+  double power = 1;  // (-h)^(k - 2) / k!
+  for (int k = 2; k < 14; ++k) {
+    power /= k;
+    result.value += (k - 1) * power * h;
+    result.slope += (k - 1) * (k - 1) * power;
+    power *= -h;
+  }
+  return result;
+}
+
+// u = exp(-h) ((1 + h) u_0 + h f_0 / k) + mean_pull(h) (displacement beyond affine motion)
+template <int D>
+void Drag<D>::find_velocity(const BoundarySpace<D>& space, std::span<const Place> particles,
+                            std::span<const double> affine, std::span<double> velocity) {
+  const std::size_t n = particles.size();
+  const std::size_t nodes = expected_.size();
+  const std::size_t components = affine.size() / n;
+  const double h = how_.duration;
+  const double decay = std::exp(-h);
+  const double pull = mean_pull(h).value;
+  resize_with_capacity(node_velocity_, components * nodes);
+  for (std::size_t q = 0; q < nodes; ++q) {
+    const auto p = static_cast<std::size_t>(particle_[q]);
+    for (std::size_t k = 0; k < components; ++k) {
+      const double length = k < D ? 1 : particles[p].radius;
+      const double moved = component(particles[p], k) - length * affine[k * n + p];
+      const double start = (1 + h) * component(velocity_[q], k) + h * component(spring_[q], k);
+      node_velocity_[k * nodes + q] = (decay * start + pull * moved) / length;
+    }
+  }
+  if constexpr (D == 2) AverageMasses::project_out_velocity(space, nodes, node_velocity_);
+  for (std::size_t k = 0; k < components; ++k) {
+    for (std::size_t p = 0; p < n; ++p) {
+      velocity[k * n + p] = node_velocity_[k * nodes + static_cast<std::size_t>(space.node[p])];
+    }
   }
 }
 
@@ -150,9 +210,10 @@ double Drag<D>::work(std::span<const Place> particles, std::span<const double> a
     const Place distance = excess(q, particles);
     for (std::size_t k = 0; k < components; ++k) {
       const double length = k < D ? 1 : particles[p].radius;
-      const double moved = component(particles[p], k) - length * affine[k * n + p];
+      double moved = component(particles[p], k) - length * affine[k * n + p];
+      if (k >= D) moved += length * how_.turn[k - D];
       const double drag = component(stiffness_[q], k) * component(distance, k);
-      sum += 0.5 * (component(before_[q], k) + drag) * moved;
+      sum += 0.5 * (component(first_[q], k) + drag) * moved;
     }
   }
   return sum;

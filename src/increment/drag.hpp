@@ -1,10 +1,10 @@
-// Drag on the fluctuations: each part of an increment is one implicit Euler step of masses with
-// drag.
-//   r(z) - W (z - z*) = 0,  z* = G (x + rho u)   @formula viscous
-// x: positions at the start of the part [m]. u: displacement of the fluctuations in the part before
-// [m]. G: deformation of the part. W: stiffness of one contact over the duration of the part [N/m].
-// Rotations likewise, without G. Rearrangements, which are jumps between equilibria, then take
-// time.
+// Drag on the fluctuations by a spring, a dashpot and a mass in series. A part of an increment solves
+// their equations exactly for a constant velocity of the fluctuations.
+//   r(z) = f = W (z - z*),  W = k exp(-h),  z* = G (x + h u - (1 - h) f_0 / k)   @formula viscous
+// x: positions at the start of the part [m]. u: velocity of the masses there [m per memory]. f_0:
+// drag there [N]. G: deformation of the part. h: its duration [memories]. k: stiffness of the
+// springs [N/m]. Rotations likewise, without G. Rearrangements, which are jumps between equilibria,
+// then take time.
 #pragma once
 
 #include "boundary/boundary_space.hpp"
@@ -12,6 +12,8 @@
 #include "math/dimension.hpp"
 #include "math/tensor.hpp"
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -21,27 +23,41 @@ namespace grainlaw::core {
 // Start of a part.
 template <int D>
 struct DragStart {
-  double rate = 0;    // 1 / duration, in relaxation times of a contact [-]; 0: no drag
-  double follow = 0;  // rho, the share of the last displacement that is expected again [-]
-  Tensor<D> follow_by_stretch{};  // d rho / dG
-  Tensor<D> stretch{};            // G - 1 as prescribed
+  double stiffness = 0;  // k of a translation [N/m]; 0: no drag
+  double duration = 0;   // h, at most tuned::longest_drag [memories]
+  double follow = 0;     // time for which the masses are followed, h unless that is long [memories]
+  // Derivatives by F at the end of the increment.
+  Tensor<D> duration_by_F{};  // of h
+  double follow_by_duration = 1;
+  Tensor<D> log_stiffness_by_F{};  // of log k
+  Tensor<D> strain_rate{};         // mean strain rate at the end of the increment [1 / memory]
+  // Rotation of the packing, in which the motion is seen without it [rad].
+  std::array<double, Dimension<D>::spins> turn{};
 };
+
+// Velocity that a mass at rest gains in a part, over its displacement beyond affine motion
+// [1 / memory], and its derivative by the duration of the part.
+struct MeanPull {
+  double value = 0, slope = 0;
+};
+[[nodiscard]] MeanPull mean_pull(double duration);
 
 template <int D>
 class Drag {
  public:
   using Place = ParticleRecord<D>;
 
-  void stop() { how_.rate = 0; }
-  [[nodiscard]] bool acts() const { return how_.rate > 0; }
+  void stop() { how_.stiffness = 0; }
+  [[nodiscard]] bool acts() const { return how_.stiffness > 0; }
   [[nodiscard]] const DragStart<D>& how() const { return how_; }
 
   // Begins a part at the coordinates `start` under the deformation `from`. `affine` is its end
-  // without fluctuations, `move` the last displacement under the deformation of the part. `least`
-  // is the stiffness of one contact, per node.
+  // without fluctuations, `velocity` that of the masses and `stretch` the deformation of the part
+  // that it underwent. `least` is the stiffness of one contact, per node.
   void begin(const DragStart<D>& how, const BoundarySpace<D>& space, bool rotating,
              std::span<const LeastMass<D>> least, const std::vector<double>& start,
-             const Tensor<D>& from, std::span<const double> affine, std::span<const double> move);
+             const Tensor<D>& from, const Tensor<D>& stretch, std::span<const double> affine,
+             std::span<const double> velocity);
 
   // Moves the expected positions of nodes with a change of the found components of F.
   void follow_deformation(const BoundarySpace<D>& space, const Tensor<D>& change);
@@ -58,24 +74,34 @@ class Drag {
     return acts() ? NodeDrag<D>{expected_, stiffness_} : NodeDrag<D>{};
   }
 
-  // Takes the contact forces on the nodes at the start of a part as the drag of the part before.
-  void set_drag_before(std::span<const ForceRecord<D>> forces);
-  // Takes the drag at the end of this part as that of the part before.
-  void set_drag_before(std::span<const Place> particles);
+  // Takes the contact forces on the nodes at the start of a part as the drag there.
+  void set_first_force(std::span<const ForceRecord<D>> forces);
+  // Takes the drag at the end of this part as that at the start of the next.
+  void set_first_force(std::span<const Place> particles);
+  // Writes the velocities of the masses at the end of the part, component-major, for particles whose
+  // affine motion led to `affine`. They keep the averages that the boundary constrains.
+  void find_velocity(const BoundarySpace<D>& space, std::span<const Place> particles,
+                     std::span<const double> affine, std::span<double> velocity);
 
   // Largest drag on a node [N].
   [[nodiscard]] double largest(std::span<const Place> particles) const;
-  // Work of the drag on the fluctuations since the position `affine` [J]. It takes the mean of the
-  // drag at both ends, since the energy of springs is a trapezoid too. An implicit step alone would
-  // take the drag at its end. @formula viscous
+  // Work of the drag on the fluctuations since the position `affine`, and of its moments on the
+  // rotation of the packing [J]. It takes the mean of the drag at both ends, since the energy of the
+  // contacts is a trapezoid too. @formula viscous
   [[nodiscard]] double work(std::span<const Place> particles, std::span<const double> affine) const;
 
   // Stiffness of the drag on node q [N/m].
   [[nodiscard]] const MassRecord<D>& stiffness(std::size_t q) const { return stiffness_[q]; }
+  // Stiffness k of the spring of node q, component c [N/m].
+  [[nodiscard]] double spring_stiffness(std::size_t q, std::size_t c) const {
+    return std::exp(how_.duration) * component(stiffness_[q], c);
+  }
   // Distance of node q from its expected position; rotations as lengths R theta [m].
   [[nodiscard]] Place excess(std::size_t q, std::span<const Place> particles) const;
-  // Last displacement of node q, which the drag expects again; rotations as lengths R theta [m].
-  [[nodiscard]] const Place& move(std::size_t q) const { return move_[q]; }
+  // Velocity of the mass of node q at the start of the part; rotations as lengths [m per memory].
+  [[nodiscard]] const Place& velocity(std::size_t q) const { return velocity_[q]; }
+  // Length of the spring of node q at the start of the part, f_0 / k [m].
+  [[nodiscard]] const Place& spring(std::size_t q) const { return spring_[q]; }
 
   // Coordinates and F at the start of the part.
   [[nodiscard]] const std::vector<double>& start() const { return part_start_; }
@@ -86,9 +112,10 @@ class Drag {
   Tensor<D> from_{};
   std::vector<double> part_start_;
   std::vector<std::int32_t> particle_;  // one particle of each node
-  std::vector<Place> expected_, move_;
+  std::vector<Place> expected_, velocity_, spring_;
   std::vector<MassRecord<D>> stiffness_;
-  std::vector<ForceRecord<D>> before_;  // drag at the start of the part
+  std::vector<ForceRecord<D>> first_;  // drag at the start of the part
+  std::vector<double> node_velocity_;
 };
 
 }  // namespace grainlaw::core

@@ -142,10 +142,16 @@ void Increment<D>::find_forces(History history) {
 }
 
 template <int D>
-void Increment<D>::find_first_drag() {
+void Increment<D>::find_first_drag(bool stressed) {
   motion_.load_records();
-  sum_forces(forces_);
-  motion_.find_first_drag(std::span(forces_).first(problem_->nodes()));
+  sum_masses();
+  if (stressed) {
+    sum_forces(forces_);
+    reduce(forces_);
+  } else {
+    std::fill(forces_.begin(), forces_.end(), ForceRecord<D>{});
+  }
+  motion_.set_first_drag(std::span(forces_).first(problem_->nodes()));
 }
 
 template <int D>

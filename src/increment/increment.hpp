@@ -91,12 +91,13 @@ class Increment {
   // Finds the directions in which contacts or the boundary support a node, as fixed_bit() of each.
   void find_supported(std::vector<unsigned char>& held) const;
 
-  // Computes the drag at the start of an increment, before its first part begins.
-  void find_first_drag();
-  void begin_drag(const DragStart<D>& how, std::span<const double> last_move, bool as_expected) {
-    motion_.begin_drag(how, masses_.least(), last_move, as_expected);
+  // Computes the drag and the force scale at the start of an increment, before its first part
+  // begins. Without stress there is no drag.
+  void find_first_drag(bool stressed);
+  void begin_drag(const DragStart<D>& how, std::span<const double> velocity, bool as_expected) {
+    motion_.begin_drag(how, masses_.least(), velocity, as_expected);
   }
-  void end_drag(std::vector<double>& move) { losses_.drag(motion_.end_drag(move)); }
+  void end_drag(std::vector<double>& velocity) { losses_.drag(motion_.end_drag(velocity)); }
 
   // Breaks overloaded bonds and restarts the history here; returns false if there is none. Breaks
   // the worst bond and all whose excess is at least half of its. Others may be relieved, and equal

@@ -223,34 +223,33 @@ void Motion<D>::restart_rotations() {
 
 template <int D>
 void Motion<D>::begin_drag(const DragStart<D>& how, std::span<const LeastMass<D>> contact_stiffness,
-                           std::span<const double> last_move, bool as_expected) {
+                           std::span<const double> velocity, bool as_expected) {
   const auto n = problem_->particles();
   copy_with_capacity(start_, affine_);
   carry_affinely(start_deformation_, deformation_, affine_.data());
-  resize_with_capacity(last_move_, last_move.size());
-  std::copy(last_move.begin(), last_move.end(), last_move_.begin());
-  if (!last_move.empty() && !problem_->space->bound_to_axes()) {
-    map_positions<D>(product<D>(deformation_, inverse<D>(start_deformation_)), n,
-                     last_move_.data());
+  resize_with_capacity(velocity_, velocity.size());
+  std::copy(velocity.begin(), velocity.end(), velocity_.begin());
+  Tensor<D> stretch = identity<D>();
+  if (!problem_->space->bound_to_axes()) {
+    stretch = product<D>(deformation_, inverse<D>(start_deformation_));
+    if (!velocity.empty()) map_positions<D>(stretch, n, velocity_.data());
   }
   drag_.begin(how, *problem_->space, problem_->law->rotating(), contact_stiffness, start_,
-              start_deformation_, affine_, last_move_);
+              start_deformation_, stretch, affine_, velocity_);
   if (!as_expected) return;
   coordinates_ = affine_;
-  for (std::size_t k = 0; k < last_move_.size(); ++k) {
-    coordinates_[k] += how.follow * last_move_[k];
-  }
+  for (std::size_t k = 0; k < velocity_.size(); ++k) coordinates_[k] += how.follow * velocity_[k];
 }
 
 template <int D>
-double Motion<D>::end_drag(std::vector<double>& move) {
+double Motion<D>::end_drag(std::vector<double>& velocity) {
   copy_with_capacity(drag_.start(), affine_);
   carry_affinely(drag_.from(), deformation_, affine_.data());
   load_records();
-  resize_with_capacity(move, coordinates_.size());
-  for (std::size_t k = 0; k < move.size(); ++k) move[k] = coordinates_[k] - affine_[k];
+  resize_with_capacity(velocity, coordinates_.size());
+  drag_.find_velocity(*problem_->space, records_, affine_, velocity);
   const double work = drag_.work(records_, affine_);
-  drag_.set_drag_before(records_);
+  drag_.set_first_force(records_);
   return work;
 }
 

@@ -48,15 +48,14 @@ class Motion {
   void restart_rotations();
 
   // Takes contact forces on the nodes at the start of the increment as the drag there.
-  void find_first_drag(std::span<const ForceRecord<D>> forces) { drag_.set_drag_before(forces); }
-  // Begins drag from the start of the history to the present F. `last_move` is the displacement of
-  // the fluctuations in the part before (empty: none). `contact_stiffness` is that of one contact,
-  // per node. With `as_expected`, particles go to their expected positions.
+  void set_first_drag(std::span<const ForceRecord<D>> forces) { drag_.set_first_force(forces); }
+  // Begins drag from the start of the history to the present F. `velocity` is that of its masses
+  // there (empty: 0). `contact_stiffness` is that of one contact, per node. With `as_expected`,
+  // particles go on as the masses move.
   void begin_drag(const DragStart<D>& how, std::span<const LeastMass<D>> contact_stiffness,
-                  std::span<const double> last_move, bool as_expected);
-  // Ends the part: writes the displacement of the fluctuations to `move` and returns the work of
-  // the drag [J].
-  double end_drag(std::vector<double>& move);
+                  std::span<const double> velocity, bool as_expected);
+  // Ends the part: writes the velocity of the masses and returns the work of the drag [J].
+  double end_drag(std::vector<double>& velocity);
   [[nodiscard]] const Drag<D>& drag() const { return drag_; }
 
   // Writes coordinates without rigid translation, with rotations since F = I.
@@ -100,7 +99,7 @@ class Motion {
   RotationReference<D> turned_;
   std::vector<double> carried_start_;
   Drag<D> drag_;
-  std::vector<double> affine_, last_move_;
+  std::vector<double> affine_, velocity_;
   std::vector<double> node_radius_;
   double deformation_scale_ = 1;
   double mean_branch_ = 0;

@@ -164,7 +164,7 @@ std::uint64_t fingerprint_of(const Material<D>& material) {
       add(rules, sizeof rules);
     }
   }
-  if (material.solver.viscosity.time > 0) add("drag", 4);  // drag saves the last displacement
+  if (material.solver.viscosity.number > 0) add("drag", 4);  // drag saves velocities
   add(material.packing.cell.data(), sizeof material.packing.cell);
   add_all(material.packing.radius);
   add_all(material.packing.position);
@@ -234,7 +234,7 @@ std::shared_ptr<const Material<D>> make_material(MaterialDescription description
   direct.found = {};
   SolverOptions options = material->solver;
   options.method = Method::direct;
-  options.viscosity.time = 0;
+  options.viscosity.number = 0;
   const double tolerance = std::min(options.tolerance, tightest_needed);
   Problem<D> problem{&material->packing, &material->law, &direct,
                      relative_floor * (may_be_free ? unloaded_force : least_force), tolerance};

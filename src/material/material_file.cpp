@@ -35,6 +35,29 @@ PublishedOptions read_published(TomlTable table) {
   return published;
 }
 
+void read_viscosity(TomlTable& table, SolverOptions& solver) {
+  Viscosity& viscosity = solver.viscosity;
+  for (const char* old : {"viscous_time", "viscous_inertia", "viscous_increment"}) {
+    if (table.has(old))
+      table.fail(old, "a key of an earlier law",
+                 "viscous_number (1e-3, say), and viscous_rate where the host's time counts");
+  }
+  table.optional("viscous_number", number_at_least(0), viscosity.number);
+  for (const char* key : {"viscous_steps", "viscous_rate"}) {
+    if (viscosity.number == 0 && table.has(key))
+      table.fail(key, "a value", "none but with viscous_number > 0");
+  }
+  table.optional("viscous_rate", number_at_least(0), viscosity.rate);
+  table.optional("viscous_steps", integer_between(1, tuned::most_subincrements), viscosity.steps);
+  if (viscosity.number == 0) return;
+  if (solver.method != Method::direct)
+    table.fail("viscous_number", fmt::format("{:g} with another method", viscosity.number),
+               "method = \"direct\"");
+  if (solver.loose_tolerance > 0)
+    table.fail("loose_tolerance", fmt::format("{:g} with viscous_number", solver.loose_tolerance),
+               "0: with drag every increment is balanced");
+}
+
 // Reads the solver options; the published servo works with the published relaxation alone.
 SolverOptions read_solver(TomlTable table, const BoundaryOptions& boundary) {
   const bool servo = boundary.method == BoundaryMethod::servo;
@@ -69,21 +92,7 @@ SolverOptions read_solver(TomlTable table, const BoundaryOptions& boundary) {
     table.fail(
         "contacts_lost", "\"stress_free\" with a boundary under a stress",
         "\"error\": without contacts nothing carries what \"T\" or boundary.stress asks for");
-  Viscosity& viscosity = solver.viscosity;
-  table.optional("viscous_time", number_at_least(0), viscosity.time);
-  for (const char* key : {"viscous_inertia", "viscous_steps", "viscous_increment"}) {
-    if (viscosity.time == 0 && table.has(key))
-      table.fail(key, "a value", "none but with viscous_time > 0");
-  }
-  table.optional("viscous_inertia", number_between(0, 1), viscosity.inertia);
-  table.optional("viscous_increment", number_at_least(0), viscosity.increment);
-  table.optional("viscous_steps", integer_between(1, tuned::most_subincrements), viscosity.steps);
-  if (viscosity.time > 0 && solver.method != Method::direct)
-    table.fail("viscous_time", fmt::format("{:g} with another method", viscosity.time),
-               "method = \"chain\"");
-  if (viscosity.time > 0 && solver.loose_tolerance > 0)
-    table.fail("loose_tolerance", fmt::format("{:g} with viscous_time", solver.loose_tolerance),
-               "0: with drag every increment is balanced");
+  read_viscosity(table, solver);
   solver.published = read_published(table.optional_table("published"));
   if (solver.method != Method::published && table.has("published"))
     table.fail("published", "a table", "none but with method = \"published\"");

@@ -19,15 +19,14 @@ void rotate_configuration(const SplitIncrement<D>& increment, const Tensor<D>& F
   add_rotation(increment, particles, configuration.coordinates);
   rotate_springs(increment, configuration);
   configuration.deformation = F;
-  if (configuration.move.empty()) return;
+  if (configuration.velocity.empty()) return;
   const Tensor<D>& r = increment.rotation;
-  map_positions<D>(r, particles, configuration.move.data());
+  map_positions<D>(r, particles, configuration.velocity.data());
   if constexpr (D == 3) {
-    if (configuration.move.size() > D * particles)
-      map_positions<D>(r, particles, configuration.move.data() + D * particles);
+    if (configuration.velocity.size() > D * particles)
+      map_positions<D>(r, particles, configuration.velocity.data() + D * particles);
   }
-  configuration.move_stretch =
-      product<D>(product<D>(r, configuration.move_stretch), transpose<D>(r));
+  configuration.strain_rate = product<D>(product<D>(r, configuration.strain_rate), transpose<D>(r));
 }
 
 }  // namespace grainlaw::core

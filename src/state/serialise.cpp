@@ -4,10 +4,10 @@
 //   coordinates [number of the material's];
 //   contacts: i32 i  i32 j  i16 shift[dim]  u8 1 sliding, 2 bonded;
 //             tangential force, of spheres three  [moment]  [gap of the bond];
-//   [G - 1 and displacement of the last part with drag]  [time step];
+//   [mean strain rate  velocities of the drag's masses  time step];
 //   u64 XXH3 of everything before.
-// Parts in brackets exist only with a law that has bonds, moments or drag. Version 3 has the time
-// step, of materials that ask for one; version 2 has none.
+// Parts in brackets exist only with a law that has bonds, moments or drag. States with drag are of
+// version 4, others of version 2; version 3 was of an earlier drag.
 #include "state/serialise.hpp"
 
 #include "base/error.hpp"
@@ -21,32 +21,31 @@
 namespace grainlaw::core {
 namespace {
 
-constexpr std::uint32_t version_with_time = saved_state.newest;
+constexpr std::uint32_t version_with_drag = saved_state.newest;
 constexpr std::size_t header_size = version_end + sizeof(std::uint32_t) + sizeof(std::uint64_t);
 template <int D>
 constexpr std::size_t plain_contact_size =
     2 * sizeof(std::int32_t) + D * sizeof(std::int16_t) +
     sizeof(std::uint8_t) + Dimension<D>::tangents * sizeof(double);
 
-// Number of doubles of the last displacement: positions, and rotations as vectors.
 template <int D>
-std::size_t move_size(const Material<D>& material) {
-  if (material.solver.viscosity.time == 0) return 0;
+bool has_drag(const Material<D>& material) {
+  return material.solver.viscosity.number > 0;
+}
+
+// Number of doubles of the velocities: of positions, and rotations as vectors.
+template <int D>
+std::size_t velocities(const Material<D>& material) {
   return D == 3 ? Dimension<D>::unknowns * material.packing.size()
                 : material.initial.coordinates.size();
 }
 
 template <int D>
-bool asks_for_time(const Material<D>& material) {
-  return material.solver.viscosity.increment > 0;
-}
-
-template <int D>
-std::size_t size_without_contacts(const Material<D>& material, bool with_time) {
+std::size_t size_without_contacts(const Material<D>& material) {
+  const std::size_t drag = has_drag(material) ? squared<D> + velocities(material) + 1 : 0;
   return header_size + checksum_size +
          sizeof(double) * (2 * squared<D> + (material.law.bonds() ? 2 : 1) +
-                           material.initial.coordinates.size() + move_size(material) +
-                           (move_size(material) > 0 ? squared<D> : 0) + (with_time ? 1 : 0));
+                           material.initial.coordinates.size() + drag);
 }
 
 template <int D>
@@ -78,8 +77,7 @@ void check_contacts(const std::vector<ContactHistory<D>>& contacts, std::size_t 
 
 template <int D>
 std::size_t saved_size(const Material<D>& material, const Configuration<D>& configuration) {
-  return size_without_contacts(material, asks_for_time(material)) +
-         configuration.contacts.size() * contact_size(material);
+  return size_without_contacts(material) + configuration.contacts.size() * contact_size(material);
 }
 
 template <int D>
@@ -88,7 +86,7 @@ void save_configuration(const Material<D>& material, const Configuration<D>& con
   const std::size_t spins = material.law.moments() ? Dimension<D>::spins : 0;
   ByteWriter out(bytes);
   SavedKind written = saved_state;
-  if (asks_for_time(material)) written.version = version_with_time;
+  if (has_drag(material)) written.version = version_with_drag;
   out.begin(written);
   out.put(static_cast<std::uint32_t>(configuration.contacts.size()));
   out.put(material.fingerprint);
@@ -109,13 +107,13 @@ void save_configuration(const Material<D>& material, const Configuration<D>& con
       out.put(configuration.bond_gaps.empty() ? 0.0 : configuration.bond_gaps[c]);
     }
   }
-  if (const std::size_t size = move_size(material); size > 0) {
-    for (const double component : configuration.move_stretch) out.put(component);
-    for (std::size_t k = 0; k < size; ++k) {
-      out.put(configuration.move.empty() ? 0.0 : configuration.move[k]);
+  if (has_drag(material)) {
+    for (const double component : configuration.strain_rate) out.put(component);
+    for (std::size_t k = 0; k < velocities(material); ++k) {
+      out.put(configuration.velocity.empty() ? 0.0 : configuration.velocity[k]);
     }
+    out.put(time_step);
   }
-  if (asks_for_time(material)) out.put(time_step);
   out.end();
 }
 
@@ -125,13 +123,13 @@ Configuration<D> load_configuration(const Material<D>& material, std::span<const
   check_envelope(bytes, saved_state);
   require(bytes.size() >= header_size + checksum_size, GRAINLAW_BAD_BYTES, "truncated");
   ByteReader in(bytes.subspan(sizeof(SavedKind::letters)));
-  const bool with_time = in.get<std::uint32_t>() == version_with_time;
+  const auto version = in.get<std::uint32_t>();
   const std::size_t contacts = in.get<std::uint32_t>();
   require(in.get<std::uint64_t>() == material.fingerprint, GRAINLAW_WRONG_MATERIAL,
           "of another material");
-  require(!with_time || move_size(material) > 0, GRAINLAW_WRONG_VERSION,
-          "of another format version");
-  const std::size_t fixed_size = size_without_contacts(material, with_time);
+  require(version == (has_drag(material) ? version_with_drag : saved_state.version),
+          GRAINLAW_WRONG_VERSION, "of another format version");
+  const std::size_t fixed_size = size_without_contacts(material);
   require(
       bytes.size() >= fixed_size && bytes.size() - fixed_size == contacts * contact_size(material),
       GRAINLAW_BAD_BYTES, "its length does not fit its content");
@@ -158,12 +156,13 @@ Configuration<D> load_configuration(const Material<D>& material, std::span<const
     for (std::size_t k = 0; k < spins; ++k) found.moments.push_back(in.get_finite());
     if (material.law.bonds()) found.bond_gaps.push_back(in.get_finite());
   }
-  if (const std::size_t size = move_size(material); size > 0) {
-    for (double& component : found.move_stretch) component = in.get_finite();
-    found.move.resize(size);
-    for (double& component : found.move) component = in.get_finite();
+  double step = untold;
+  if (has_drag(material)) {
+    for (double& component : found.strain_rate) component = in.get_finite();
+    found.velocity.resize(velocities(material));
+    for (double& component : found.velocity) component = in.get_finite();
+    step = in.get_finite();
   }
-  const double step = with_time ? in.get_finite() : untold;
   require(step >= 0 || step == untold, GRAINLAW_BAD_BYTES, "a time step below 0");
   if (time_step != nullptr) *time_step = step;
   const auto none = [](double gap) { return gap == 0; };

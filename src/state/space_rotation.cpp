@@ -26,6 +26,13 @@ Tensor<3> polar_rotation(const Tensor<3>& a) {
   return r;
 }
 
+Vec<3> rotation_vector(const Tensor<3>& r) {
+  const Vec<3> axis{0.5 * (r[7] - r[5]), 0.5 * (r[2] - r[6]), 0.5 * (r[3] - r[1])};
+  const double sine = length<3>(axis);
+  const double scale = sine > 0 ? std::atan2(sine, 0.5 * (trace<3>(r) - 1)) / sine : 1;
+  return {scale * axis[0], scale * axis[1], scale * axis[2]};
+}
+
 Tensor<3> skew(const Vec<3>& axis) {
   return {0, -axis[2], axis[1], axis[2], 0, -axis[0], -axis[1], axis[0], 0};
 }
@@ -37,6 +44,7 @@ SplitIncrement<3> split_rotation<3>(const Tensor<3>& F, const Tensor<3>& committ
   const Tensor<3> df = product<3>(F, inverse<3>(committed));
   SplitIncrement<3> increment;
   increment.rotation = polar_rotation(df);
+  increment.turn = rotation_vector(increment.rotation);
   increment.stretch = product<3>(transpose<3>(increment.rotation), df);
   increment.target = product<3>(increment.stretch, committed);
   return increment;

@@ -215,6 +215,7 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
 
   const Problem<D> problem = material.problem();
   Request<D> request{&problem, &material.solver, &committed_, split.target};
+  request.turn = split.turn;
   request.tolerance = material.solver.tolerance;
   request.loose_tolerance = material.solver.loose_tolerance;
   request.sensitivities = kind == TangentKind::exact;
@@ -262,8 +263,8 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
   w.increment.advance_history();
   w.increment.export_to(committed_, trial_);
   if (drag.acts()) {
-    copy_with_capacity(w.move, trial_.move, state_capacity);
-    trial_.move_stretch = drag.how().stretch;
+    copy_with_capacity(w.velocity, trial_.velocity, state_capacity);
+    trial_.strain_rate = drag.how().strain_rate;
   }
   report.broken_bonds = static_cast<int>(std::lround(w.increment.losses().broken_bonds()));
   report.contacts = static_cast<int>(trial_.contacts.size());

@@ -3,6 +3,7 @@
 #include "base/constants.hpp"
 #include "base/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace grainlaw::core {
@@ -10,21 +11,21 @@ namespace grainlaw::core {
 template <int D>
 double duration_of(const Material<D>& material, const Configuration<D>& committed,
                    const Tensor<D>& F, double time_step) {
-  const double usual = material.solver.viscosity.increment;
-  if (usual == 0) return 1;
+  const Viscosity& viscosity = material.solver.viscosity;
+  if (viscosity.rate == 0) return by_strain;
   double squares = 0;
   for (std::size_t k = 0; k < squared<D>; ++k) {
     const double change = F[k] - committed.deformation[k];
     squares += change * change;
   }
-  const bool held = std::sqrt(squares) <= tuned::least_followed_strain;
+  const bool held = std::sqrt(squares) <= tuned::largest_held_strain;
   if (!held && !(time_step > 0)) {
     throw Error(GRAINLAW_BAD_ARGUMENT,
-                "the material has solver.viscous_increment and was told no time step above 0: tell "
-                "the host's before the increment (grainlaw_state_set_time_step), or leave "
-                "viscous_increment out, so that every increment lasts viscous_time");
+                "the material has solver.viscous_rate and was told no time step above 0: tell the "
+                "host's before the increment (grainlaw_state_set_time_step), or leave viscous_rate "
+                "out, so that the strain is the time");
   }
-  return time_step >= 0 ? time_step / usual : 1;
+  return std::max(time_step, 0.0) * viscosity.rate / viscosity.number;
 }
 
 template double duration_of(const Material<2>&, const Configuration<2>&, const Tensor<2>&, double);

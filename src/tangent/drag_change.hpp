@@ -16,8 +16,8 @@ template <int D>
 std::array<double, Dimension<D>::spins * Dimension<D>::spins> rotation_by_spin(
     const Increment<D>& increment, std::size_t q);
 
-// Derivatives of what the drag expects, carried from part to part, as changes relative to affine
-// motion. @formula viscous
+// Derivatives of the drag, carried from part to part, as changes relative to affine motion.
+// @formula viscous
 template <int D>
 class DragDerivatives {
  public:
@@ -31,8 +31,19 @@ class DragDerivatives {
   void carry(const Increment<D>& increment, std::span<const ByDeformation<D>> motion);
 
  private:
-  std::vector<ByDeformation<D>> start_, move_;  // per node and component, at the start of the part
-  bool carried_ = false;                        // false: they are zero
+  using Components = std::array<simd::Lanes<Dimension<D>::lanes>,
+                                static_cast<std::size_t>(Dimension<D>::unknowns)>;
+  // Changes of a node's position and velocity at the start of the part, of the length of its spring
+  // there, and of its expected position; then of the duration and the logarithm of W.
+  struct Changes {
+    Components start, velocity, spring, expected;
+    simd::Lanes<Dimension<D>::lanes> duration, log_stiffness;
+  };
+  void find_changes(const Increment<D>& increment, std::size_t q, Changes& changes) const;
+
+  // Per node and component, at the start of the part.
+  std::vector<ByDeformation<D>> start_, velocity_, force_;
+  bool carried_ = false;  // false: they are zero
 };
 
 }  // namespace grainlaw::core

@@ -26,7 +26,7 @@ class biaxial_scene : public testing::Test {
     const double way = 1e-4 * steps;
     std::ofstream(path) << "steps = " << steps << "\nthreads = 1\n"
                         << more
-                        << small_packing_of_seed(5, ", viscous_time = 100, viscous_increment = 1")
+                        << small_packing_of_seed(5, ", viscous_number = 1e-3, viscous_rate = 1e-3")
                         << R"(
 [newton]
 tolerance = 1e-6

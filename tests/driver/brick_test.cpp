@@ -137,7 +137,7 @@ TEST_F(brick, under_triaxial_compression_is_one_volume) { expect_one_volume("");
 
 // The points of both are told the same time.
 TEST_F(brick, with_drag_is_one_volume) {
-  expect_one_volume("solver = { viscous_time = 100, viscous_increment = 1 }\n");
+  expect_one_volume("solver = { viscous_number = 1e-3, viscous_rate = 1e-3 }\n");
 }
 
 TEST_F(brick, several_are_as_one) {

@@ -12,12 +12,14 @@
 namespace verification {
 namespace {
 
-// The 400 discs, of which an increment that lasts `increment` has a viscous time of 100.
-Material with_drag(double increment) {
+// The 400 discs with drag that remembers for the time `memory`; 0: the strain is the time.
+Material with_drag(double memory) {
   MaterialSource source;
   source.file = grainlaw::test::data_file("rve400.toml");
   source.base = grainlaw::test::data_folder();
-  toml::table solver{{"viscous_time", 100}, {"viscous_increment", increment}};
+  constexpr double number = 1e-3;
+  toml::table solver{{"viscous_number", number}};
+  if (memory > 0) solver.insert("viscous_rate", number / memory);
   source.changes.insert("solver", std::move(solver));
   return make_material(source);
 }
@@ -43,9 +45,9 @@ std::unique_ptr<Solver> relaxation(const Model& model, const Material& material)
 }
 
 // The force on top at the end, reached in quarters.
-double force_in_quarters(MakeSolver make, double load_step, double increment) {
+double force_in_quarters(MakeSolver make, double load_step, double memory) {
   const Model model = specimen(2e-3);
-  const Material material = with_drag(increment);
+  const Material material = with_drag(memory);
   const auto solver = make(model, material);
   solver->set_load_step(load_step);
   LoadStep last;
@@ -62,14 +64,14 @@ TEST(time_step, a_part_of_a_load_step_lasts_its_share_of_it) {
   }
 }
 
-// Without `viscous_increment` increments last one and the same time.
+// Without `viscous_rate` the strain is the time.
 TEST(time_step, is_nothing_to_points_that_do_not_ask_for_it) {
   EXPECT_EQ(force_in_quarters(newton, 1, 0), force_in_quarters(newton, 0.25, 0));
 }
 
 TEST(time_step, a_path_that_is_cut_has_the_drag_of_its_time) {
-  const auto axial = [](double increment, int steps, int max_iterations, int cuts) {
-    PointDriver driver(with_drag(increment), {.tolerance = 1e-7, .max_iterations = max_iterations});
+  const auto axial = [](double memory, int steps, int max_iterations, int cuts) {
+    PointDriver driver(with_drag(memory), {.tolerance = 1e-7, .max_iterations = max_iterations});
     int found = 0;
     driver.run(drained_segment(-2e-3, -1e5, steps),
                [&](const PointStep& step) { found += step.record.effort.cuts; });

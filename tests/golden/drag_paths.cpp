@@ -4,8 +4,8 @@
 namespace grainlaw::golden {
 namespace {
 
-const std::string drag = solver("viscous_time = 100");
-const std::string timed_drag = solver("viscous_time = 100\nviscous_increment = 0.5");
+const std::string drag = solver("viscous_number = 1e-3");
+const std::string timed_drag = solver("viscous_number = 1e-3\nviscous_rate = 2e-3");
 const std::string sand_of_spheres = R"(
 [contact]
 law = "frictional"
@@ -61,16 +61,16 @@ void lead_drag_paths(const On& on) {
   on("drag/discs", made_discs + sand + drag, through(2, monotone));
   on("drag/discs/reversed", made_discs + sand + drag, through(2, reversed));
   on("drag/discs/held", made_discs + sand + drag, through(2, held));
-  on("drag/discs/parts", made_discs + sand + solver("viscous_time = 100\nviscous_steps = 4"),
+  on("drag/discs/parts", made_discs + sand + solver("viscous_number = 1e-3\nviscous_steps = 4"),
      through(2, reversed));
   on("drag/discs/uneven", made_discs + sand + timed_drag, uneven(2));
-  on("drag/discs/trial", made_discs + sand + solver("viscous_time = 100\nstart = \"trial\""),
+  on("drag/discs/trial", made_discs + sand + solver("viscous_number = 1e-3\nstart = \"trial\""),
      uneven(2));
-  on("drag/discs/plain", made_discs + sand + solver("viscous_time = 100\nviscous_inertia = 0"),
+  on("drag/discs/coarse", made_discs + sand + solver("viscous_number = 1e-4"),
      through(2, reversed));
   on("drag/discs/turned", made_discs + sand + drag, turned);
   on("drag/discs/lost_and_found",
-     made_discs + sand + solver("viscous_time = 100\ncontacts_lost = \"stress_free\""),
+     made_discs + sand + solver("viscous_number = 1e-3\ncontacts_lost = \"stress_free\""),
      spread_and_closed);
   on("drag/discs/locked", made_discs + sand + "rotation = false\n" + drag, through(2, reversed));
   on("drag/discs/rolling", made_discs + sand + "rolling = { ratio = 0.5, friction = 0.1 }\n" + drag,
@@ -94,7 +94,7 @@ void lead_drag_paths(const On& on) {
   on("drag/spheres/reversed", made_spheres + sand_of_spheres + drag, through(3, reversed));
   on("drag/spheres/held", made_spheres + sand_of_spheres + drag, through(3, held));
   on("drag/spheres/parts",
-     made_spheres + sand_of_spheres + solver("viscous_time = 100\nviscous_steps = 3"),
+     made_spheres + sand_of_spheres + solver("viscous_number = 1e-3\nviscous_steps = 3"),
      through(3, reversed));
   on("drag/spheres/uneven", made_spheres + sand_of_spheres + timed_drag, uneven(3));
   on("drag/spheres/rolling", made_spheres + rolling_sand_of_spheres + drag, through(3, reversed));

@@ -152,9 +152,9 @@ TEST(allocation, does_not_happen_in_the_reference_methods) {
 
 TEST(allocation, does_not_happen_with_spheres_either) {
   using namespace sphere_test;
-  for (const double drag : {0.0, 100.0}) {
+  for (const double drag : {0.0, 1e-3}) {
     MaterialDescription description = sphere_test::describe(1e-8);
-    description.solver.viscosity.time = drag;
+    description.solver.viscosity.number = drag;
     grainlaw::core::State<3> state(make_material<3>(description));
     for (int k = 1; k <= last; ++k) {
       const Deformation F{1 + 0.4 * strain * k, 0, 0, 0, 1 + 0.4 * strain * k, 0, 0, 0,

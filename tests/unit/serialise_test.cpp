@@ -94,17 +94,16 @@ TEST(serialise, another_version_is_told_from_damage) {
   EXPECT_EQ(status_of(bytes), GRAINLAW_WRONG_VERSION);
 }
 
-// Bytes with a time step are of version 3, as only materials that ask for one write them.
-TEST(serialise, a_time_step_is_kept_where_the_material_asks_for_it) {
+TEST(serialise, a_time_step_is_kept_with_drag) {
   Material material = small_material();
   const std::size_t without = saved_size(material, small_configuration());
-  material.solver.viscosity = {.time = 100, .increment = 2};
+  material.solver.viscosity.number = 1e-3;
   std::vector<std::byte> bytes(saved_size(material, small_configuration()));
   EXPECT_EQ(bytes.size(), without + 8 * (4 + 9) + 8);
   double step = 0;
   for (const double told : {untold, 0.0, 1e-300, 0.25}) {
     save_configuration(material, small_configuration(), bytes, told);
-    EXPECT_EQ(std::memcmp(bytes.data(), "GRAINLAW\3\0\0\0", 12), 0);
+    EXPECT_EQ(std::memcmp(bytes.data(), "GRAINLAW\4\0\0\0", 12), 0);
     (void)load_configuration(material, bytes, &step);
     EXPECT_EQ(step, told);
   }
@@ -112,12 +111,19 @@ TEST(serialise, a_time_step_is_kept_where_the_material_asks_for_it) {
     save_configuration(material, small_configuration(), bytes, wrong);
     EXPECT_EQ(status_of(bytes, material), GRAINLAW_BAD_BYTES) << wrong;
   }
-  material.solver.viscosity.increment = 0;  // of the version before
-  bytes.resize(saved_size(material, small_configuration()));
-  save_configuration(material, small_configuration(), bytes, 1);
-  material.solver.viscosity.increment = 2;
-  (void)load_configuration(material, bytes, &step);
-  EXPECT_EQ(step, untold);
+}
+
+TEST(serialise, drag_of_another_law_is_another_version) {
+  Material material = small_material();
+  std::vector<std::byte> without = save(small_configuration());
+  material.solver.viscosity.number = 1e-3;
+  EXPECT_EQ(status_of(without, material), GRAINLAW_WRONG_VERSION);
+  std::vector<std::byte> bytes(saved_size(material, small_configuration()));
+  save_configuration(material, small_configuration(), bytes);
+  EXPECT_EQ(status_of(bytes), GRAINLAW_WRONG_VERSION);
+  bytes[8] = std::byte{3};
+  seal(bytes);
+  EXPECT_EQ(status_of(bytes, material), GRAINLAW_WRONG_VERSION);
 }
 
 TEST(serialise, another_material_is_told) {

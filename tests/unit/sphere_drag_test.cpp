@@ -12,7 +12,7 @@ Deformation at(double strain) {
 
 std::shared_ptr<const Material<3>> with_drag(long steps) {
   MaterialDescription description = describe();
-  description.solver.viscosity.time = 100;
+  description.solver.viscosity.number = 1e-3;
   description.solver.viscosity.steps = steps;
   return make_material<3>(description);
 }

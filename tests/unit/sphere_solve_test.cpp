@@ -29,7 +29,7 @@ Deformation at(double strain) {
 
 std::shared_ptr<const Material<3>> material(double drag) {
   MaterialDescription description = describe(1e-11);
-  description.solver.viscosity.time = drag;
+  description.solver.viscosity.number = drag;
   return make_material<3>(description);
 }
 
@@ -72,11 +72,11 @@ void expect_same(const Pair& pair) {
 }
 
 TEST(iterated_spheres, have_the_stress_and_tangent_that_factors_give) {
-  for (const double drag : {0.0, 100.0}) expect_same(both(drag, std::size_t{1}));
+  for (const double drag : {0.0, 1e-3}) expect_same(both(drag, std::size_t{1}));
 }
 
 TEST(iterated_spheres, are_solved_by_factors_where_the_products_do_not_suffice) {
-  for (const double drag : {0.0, 100.0}) expect_same(both(drag, std::size_t{1}, 8));
+  for (const double drag : {0.0, 1e-3}) expect_same(both(drag, std::size_t{1}, 8));
 }
 
 TEST(iterated_spheres, tangent_matches_central_differences) {

@@ -171,7 +171,7 @@ std::string much_drag_text(const CsvTable& table) {
   if (above == 0) return {};
   return fmt::format(
       "\n  unbalanced up to {:.2g} [-], above {:g} in {} steps: drag carries part of the load; a "
-      "larger solver.viscous_time lowers it",
+      "smaller solver.viscous_number lowers it",
       *std::max_element(values.begin(), values.end()), much_drag, above);
 }
 

@@ -125,7 +125,7 @@ int dimension_of(const MaterialSource& source) {
 }
 
 bool has_drag(const MaterialSource& source) {
-  return unfold(source).changes["solver"]["viscous_time"].value_or(0.0) > 0;
+  return unfold(source).changes["solver"]["viscous_number"].value_or(0.0) > 0;
 }
 
 Material make_material(const MaterialSource& source, int dimension) {

@@ -119,21 +119,18 @@ constexpr KeyText texts[] = {
      "prescribed stress"},
     {"solver.increment_limit", "-",
      "of the strain increment times kn / (p t), above which an increment is made in parts; with "
-     "`viscous_time` only where `viscous_steps` fail"},
+     "`viscous_number` only where `viscous_steps` fail"},
     {"solver.contacts_lost", "",
      "\"stress_free\": where no contact carries or all forces fade, P = 0 is an answer, and so is "
      "its tangent"},
-    {"solver.viscous_time", "-",
-     "a law without jumps: each increment lasts so many relaxation times of a contact, and "
-     "fluctuations have mass; 100 is usual, 30 sturdier; 0: for ever, which is equilibrium"},
-    {"solver.viscous_inertia", "-",
-     "share of masses with `viscous_time`; the rest is a plain drag"},
-    {"solver.viscous_increment", "of the host",
-     "host time of an increment that lasts `viscous_time`; the host has to tell its time step "
-     "(`grainlaw_state_set_time_step`), or the first increment is refused; 0: all increments last "
-     "it, "
-     "however the host cuts them"},
-    {"solver.viscous_steps", "-", "parts of an increment with `viscous_time`"},
+    {"solver.viscous_number", "-",
+     "a law in time, without jumps: strain rate times memory, the strain over which drag remembers "
+     "how particles moved; 1e-3 is recommended; 0: equilibrium"},
+    {"solver.viscous_rate", "1 / time of the host",
+     "strain rate that `viscous_number` is meant at: the memory lasts viscous_number / "
+     "viscous_rate, and the host has to tell its time step (`grainlaw_state_set_time_step`), or "
+     "the first increment is refused; 0: the strain is the time"},
+    {"solver.viscous_steps", "-", "parts of an increment with `viscous_number`"},
     {"solver.published.damping", "-", "of \"published\": local damping"},
     {"solver.published.time_step_ratio", "-", "of \"published\": time step / critical one"},
     {"solver.published.energy_tolerance", "-",

@@ -61,9 +61,8 @@ constexpr ColumnText record_texts[] = {
     {"jumps_crossed",
      "jumps of the stress that were crossed: committed out of balance, then balanced"},
     {"unbalanced",
-     "with viscous_time alone: largest drag on a particle / mean contact force; of a mesh the "
-     "largest "
-     "of its points"},
+     "with viscous_number alone: largest drag on a particle / mean contact force; of a mesh the "
+     "largest of its points"},
 };
 
 constexpr ColumnText balance_texts[] = {

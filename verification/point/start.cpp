@@ -190,7 +190,7 @@ std::string load_advice(const PackingStart& start, int steps_done) {
          fmt::format(
              "; try more load steps{}, or displacement in place of a load that the body may not "
              "carry",
-             start.drag ? "" : ", solver.viscous_time = 100");
+             start.drag ? "" : ", solver.viscous_number = 1e-3");
 }
 
 std::string path_advice(const PackingStart& start, int steps_done, grainlaw_status status,
@@ -210,7 +210,8 @@ std::string path_advice(const PackingStart& start, int steps_done, grainlaw_stat
                      "; try {:.6g} steps or more instead of {}: each strains by {:.2g}, {:.2g} "
                      "times p/kn",
                      std::ceil(hard * segment.steps), segment.steps, strain, hard);
-  return why + (start.drag ? "; try more steps" : "; try more steps, or solver.viscous_time = 100");
+  return why +
+         (start.drag ? "; try more steps" : "; try more steps, or solver.viscous_number = 1e-3");
 }
 
 void warn(const std::string& name, const PackingStart& start) {

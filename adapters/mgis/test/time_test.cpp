@@ -66,7 +66,7 @@ TEST_F(mgis_time, is_asked_for_before_the_packing_deforms) {
     host.set_F(0, path[0]);
     const Manager::State before = host.s1;
     EXPECT_EQ(host.integrate(0), -1);
-    EXPECT_NE(host.message.find("viscous_increment"), std::string::npos) << host.message;
+    EXPECT_NE(host.message.find("viscous_rate"), std::string::npos) << host.message;
     EXPECT_EQ(host.rdt, 1);  // no smaller step helps
     EXPECT_EQ(host.s1.forces, before.forces);
     EXPECT_EQ(host.s1.internal, before.internal);

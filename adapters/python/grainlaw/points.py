@@ -138,7 +138,7 @@ class States:
 
     def set_time_step(self, step: float) -> None:
         """How long increments take from now on, in the host's unit, e.g. `LoadSteps.part`: a
-        material with solver.viscous_increment asks for it before it deforms. 0: they take no time,
+        material with solver.viscous_rate asks for it before it deforms. 0: they take no time,
         and F has to stay."""
         step = number("time step", step, bad_argument)
         if step < 0:

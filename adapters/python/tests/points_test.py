@@ -39,7 +39,7 @@ class Points(Case):
                 self.assertLess(np.linalg.norm(difference), 1e-3 * np.linalg.norm(A))
 
     def test_with_drag_the_stress_depends_on_the_time_that_an_increment_takes(self):
-        drag = "[solver]\nviscous_time = 100\nviscous_increment = 1\n"
+        drag = "[solver]\nviscous_number = 1e-3\nviscous_rate = 1e-3\n"
         with open(MATERIAL, encoding="utf-8") as file:
             states = grainlaw.States(grainlaw.Material.parse(file.read() + drag, DATA), 2)
         stresses = []
@@ -51,14 +51,14 @@ class Points(Case):
         self.assertGreater(difference, 1e-6 * np.linalg.norm(stresses[0]))
 
     def test_a_law_in_time_asks_for_it_before_it_deforms(self):
-        drag = "[solver]\nviscous_time = 100\nviscous_increment = 1\n"
+        drag = "[solver]\nviscous_number = 1e-3\nviscous_rate = 1e-3\n"
         with open(MATERIAL, encoding="utf-8") as file:
             states = grainlaw.States(grainlaw.Material.parse(file.read() + drag, DATA), 2)
         self.assertTrue(states.evaluate([np.eye(2)] * 2, Tangent.EXACT).ok)
         for told in (False, True):
             if told:
                 states.set_time_step(0)
-            self.assert_refused(Status.BAD_ARGUMENT, ["viscous_increment", "time step"],
+            self.assert_refused(Status.BAD_ARGUMENT, ["viscous_rate", "time step"],
                                 states.evaluate, [COMPRESSED] * 2)
         states.set_time_step(0.5)
         self.assertTrue(states.evaluate([COMPRESSED] * 2).ok)

@@ -9,7 +9,7 @@
 
 namespace verification {
 
-// Guess by repetition. Drag expects grains to continue (solver.viscous_inertia), and the committed
+// Guess by repetition. Drag expects particles to continue (solver.viscous_number), and the committed
 // tangent is that of an increment. Repeating the last displacement is then the better guess.
 class LastMove {
  public:
@@ -22,7 +22,7 @@ class LastMove {
   // The last displacement scaled to the present prescription; empty where that has another
   // direction.
   [[nodiscard]] Eigen::VectorXd once_more(const Eigen::VectorXd& prescribed) const {
-    constexpr double longest = 3;         // limit of the drag's expectation [-]
+    constexpr double longest = 3;         // limit of the repetition [-]
     constexpr double another_way = 1e-9;  // rounding of a direction [-]
     const double square = prescribed_.squaredNorm();
     if (!(square > 0)) return {};
