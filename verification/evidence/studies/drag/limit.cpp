@@ -6,6 +6,10 @@
 
 #include <array>
 #include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace verification::drag {
 namespace {
@@ -73,46 +77,87 @@ double difference(const std::vector<double>& a, const std::vector<double>& b) {
   return 100 * std::sqrt(squares / size);
 }
 
-void add_rows(Findings& findings, const std::string& packing, const std::string& path,
-              const std::vector<Answers>& answers) {
-  std::vector<Table::Cell> facts{packing, path};
-  std::vector<double> differences;
-  for (std::size_t k = 0; k + 1 < answers.size(); ++k) {
-    differences.push_back(difference(answers[k].q, answers[k + 1].q));
-    facts.emplace_back(differences.back());
+// What one packing gave along a path, or the root mean squares and means of several.
+struct Refined {
+  std::vector<double> apart;       // each step against half as large ones, then by a nudge [%]
+  std::vector<double> unbalanced;  // of each step [%]
+};
+
+Refined mean_of(const std::vector<Refined>& all) {
+  Refined mean = all.front();
+  const auto count = static_cast<double>(all.size());
+  for (std::size_t k = 0; k < mean.apart.size(); ++k) {
+    double squares = 0;
+    for (const Refined& one : all) squares += one.apart[k] * one.apart[k];
+    mean.apart[k] = std::sqrt(squares / count);
   }
-  for (const Answers& at : answers) facts.emplace_back(100 * at.unbalanced);
-  const double halvings = static_cast<double>(differences.size()) - 1;
-  const double order = std::log2(differences.front() / differences.back()) / halvings;
-  const double rise = answers.back().unbalanced / answers.front().unbalanced - 1;
-  findings.row(facts, {{order, least_order}, {rise, largest_rise}});
+  for (std::size_t k = 0; k < mean.unbalanced.size(); ++k) {
+    mean.unbalanced[k] = 0;
+    for (const Refined& one : all) mean.unbalanced[k] += one.unbalanced[k] / count;
+  }
+  return mean;
+}
+
+void add_row(Findings& findings, const std::string& packing, const std::string& path,
+             const Refined& found) {
+  std::vector<Table::Cell> facts{packing, path};
+  for (const double apart : found.apart) facts.emplace_back(apart);
+  for (const double unbalanced : found.unbalanced) facts.emplace_back(unbalanced);
+  const double last = found.apart[refinements.size() - 2];
+  const double halvings = static_cast<double>(refinements.size()) - 2;
+  findings.row(facts, {{std::log2(found.apart.front() / last) / halvings, least_order},
+                       {found.unbalanced.back() / found.unbalanced.front() - 1, largest_rise}});
+}
+
+// `run(material, refinement)`: answers.
+template <class Run>
+Refined refined(Study& study, Packing packing, Run&& run) {
+  std::vector<Answers> answers;
+  const Material material = study.materials(packing, {});
+  for (const int refinement : refinements) answers.push_back(run(material, refinement));
+  packing.repeat = 1;
+  answers.push_back(run(study.materials(packing, {}), refinements.back()));
+  Refined found;
+  for (std::size_t k = 0; k + 1 < answers.size(); ++k) {
+    found.apart.push_back(difference(answers[k].q, answers[k + 1].q));
+    found.unbalanced.push_back(100 * answers[k].unbalanced);
+  }
+  return found;
 }
 
 void refine(Study& study) {
   std::vector<std::string> facts{"packing", "path"};
   for (std::size_t k = 0; k + 1 < refinements.size(); ++k)
     facts.push_back(fmt::format("apart_{:g}[%]", 100 * coarsest / refinements[k]));
+  facts.emplace_back("nudged[%]");
   for (const int refinement : refinements)
     facts.push_back(fmt::format("unbalanced_{:g}[%]", 100 * coarsest / refinement));
   Findings findings(study.options(), "limit",
                     "steps of the named size [%] against half as large ones: q apart, as root mean "
-                    "squares; its order; unbalanced force and its rise to the finest",
+                    "squares, and by a nudge of 1e-6 of the stiffness in the finest; its order; "
+                    "unbalanced force and its rise to the finest",
                     facts, {{"order[-]", true}, {"rise[-]"}});
-  std::vector<Packing> packings = discs(study.packings(5));
-  for (const Packing& packing : spheres(study.packings(2))) packings.push_back(packing);
-  for (const Packing& packing : packings) {
-    in_dimension(packing.dimension, [&](auto dimension) {
-      constexpr int D = dimension;
-      const Material material = study.materials(packing, {});
-      const auto each = [&](const std::string& name, auto&& run) {
-        std::vector<Answers> answers;
-        for (const int refinement : refinements) answers.push_back(run(refinement));
-        add_rows(findings, packing.name(), name, answers);
-      };
-      for (const Path& path : paths_of_strain())
-        each(path.name, [&](int fine) { return strain_path<D>(material, path, fine); });
-      each("drained", [&](int fine) { return drained_path<D>(material, fine); });
-    });
+  for (const std::vector<Packing>& packings :
+       {discs(study.packings(5)), spheres(study.packings(2))}) {
+    std::map<std::string, std::vector<Refined>> all;  // by paths
+    for (const Packing& packing : packings) {
+      in_dimension(packing.dimension, [&](auto dimension) {
+        constexpr int D = dimension;
+        const auto each = [&](const std::string& name, auto&& run) {
+          all[name].push_back(refined(study, packing, run));
+          add_row(findings, packing.name(), name, all[name].back());
+        };
+        for (const Path& path : paths_of_strain())
+          each(path.name, [&](const Material& material, int refinement) {
+            return strain_path<D>(material, path, refinement);
+          });
+        each("drained", drained_path<D>);
+      });
+    }
+    for (const auto& [name, found] : all)
+      add_row(findings,
+              fmt::format("{} {}", found.size(), packings[0].dimension == 2 ? "discs" : "spheres"),
+              name, mean_of(found));
   }
   findings.print();
 }

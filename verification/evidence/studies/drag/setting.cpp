@@ -16,7 +16,7 @@ double mean_radius(int dimension) { return 0.5 * (smallest_radius() + largest_ra
 
 std::string contact_text(const Packing& packing) {
   return fmt::format("[contact]\nlaw = \"frictional\"\nyoung = {}\nratio = 0.8\nfriction = {}\n",
-                     packing.young, packing.friction);
+                     packing.young * nudged(packing.repeat), packing.friction);
 }
 
 Material parse(const std::string& text) { return Material::parse(text, "."); }

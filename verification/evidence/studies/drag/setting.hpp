@@ -20,6 +20,7 @@ struct Packing {
   double young = 6e8;                    // [Pa]
   double friction = 0.5463024898437905;  // [-]
   std::string file = {};  // prefix in tests/data instead of a generated packing: "rve400"
+  int repeat = 0;         // its contacts nudged() that many times
 
   [[nodiscard]] std::string name() const;
 };

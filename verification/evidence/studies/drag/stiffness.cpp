@@ -27,13 +27,13 @@ const std::vector<Approach>& approaches() {
   return list;
 }
 
-constexpr double turning_point = 0.01;
+constexpr std::array turns{0.005, 0.01, 0.015};  // strain
 
 template <int D>
-Host<D> lead_to_turn(const Material& material, const std::vector<double>& parts) {
+Host<D> lead_to_turn(const Material& material, const std::vector<double>& parts, double turn) {
   constexpr double step = 1e-3;
   Host<D> host(material);
-  for (int k = 0; k < static_cast<int>(std::lround(turning_point / step)); ++k) {
+  for (int k = 0; k < static_cast<int>(std::lround(turn / step)); ++k) {
     double done = 0;
     for (const double part : parts) {
       done += part;
@@ -51,81 +51,127 @@ double secant(const Host<D>& from, const TensorOf<D>& to, double strain) {
   return (from.q() - host.q()) / strain;
 }
 
+// Over those of equilibrium, for each reversal: from the end of its own path, and from the packing
+// that the law is at.
+using Ratios = std::array<double, reversals.size()>;
+struct Reversal {
+  Ratios own, same;
+  double unbalanced;  // at the turn [%]
+};
+
 template <int D>
-void reverse(Study& study, Findings& findings, const Packing& packing) {
-  const Host<D> rest = lead_to_turn<D>(study.materials(packing, equilibrium), {1});
-  for (const Approach& approach : approaches()) {
-    const Host<D> law = lead_to_turn<D>(study.materials(packing, {}), approach.parts);
-    const Host<D> same(study.materials.at_rest(law.state, packing));
-    const auto compare = [&](const char* name, const Host<D>& other, const TensorOf<D>& origin) {
-      std::vector<Table::Cell> facts{packing.name(), approach.name, name};
-      std::vector<double> apart;
-      for (const double strain : reversals) {
-        const TensorOf<D> back = isochoric<D>(turning_point - strain);
-        const TensorOf<D> there = back * origin.inverse();
-        const double ratio = secant<D>(law, back, strain) / secant<D>(other, there, strain);
-        facts.emplace_back(ratio);
-        apart.push_back(100 * std::abs(ratio - 1));
-      }
-      findings.row(facts, {{largest(apart), largest_apart}});
-    };
-    compare("its own path", rest, TensorOf<D>::Identity());
-    compare("this packing", same, law.deformation);
+Reversal reverse(Study& study, const Packing& packing, const Host<D>& law, const Host<D>& rest,
+                 double turn) {
+  const Host<D> same(study.materials.at_rest(law.state, packing));
+  const TensorOf<D> origin = law.deformation.inverse();
+  Reversal result{{}, {}, 100 * law.report.unbalanced};
+  for (std::size_t k = 0; k < reversals.size(); ++k) {
+    const TensorOf<D> back = isochoric<D>(turn - reversals[k]);
+    const double own = secant<D>(law, back, reversals[k]);
+    result.own[k] = own / secant<D>(rest, back, reversals[k]);
+    result.same[k] = own / secant<D>(same, back * origin, reversals[k]);
   }
+  return result;
+}
+
+void add_row(Findings& findings, const std::string& packing, const std::string& steps,
+             const char* other, const Ratios& ratios, double unbalanced) {
+  std::vector<Table::Cell> facts{packing, steps, other, unbalanced};
+  std::vector<double> apart;
+  for (const double ratio : ratios) {
+    facts.emplace_back(ratio);
+    apart.push_back(100 * std::abs(ratio - 1));
+  }
+  findings.row(facts, {{largest(apart), largest_apart}});
+}
+
+Ratios mean_of(const std::vector<Reversal>& all, Ratios Reversal::*which) {
+  Ratios mean{};
+  for (const Reversal& one : all)
+    for (std::size_t k = 0; k < mean.size(); ++k)
+      mean[k] += (one.*which)[k] / static_cast<double>(all.size());
+  return mean;
 }
 
 void reverse_all(Study& study) {
-  std::vector<std::string> facts{"packing", "steps", "equilibrium_of"};
+  std::vector<std::string> facts{"packing", "steps", "equilibrium_of", "unbalanced[%]"};
   for (const double strain : reversals) facts.push_back(fmt::format("{:g}[-]", strain));
   Findings findings(study.options(), "reversal",
-                    "secant stiffness after a reversal at 1 % of isochoric strain over that of "
-                    "equilibrium, from its own path or from the packing that the law has there",
+                    "secant stiffness after a reversal of isochoric strain over that of "
+                    "equilibrium, from the end of its own path or from the packing that the law is "
+                    "at; unbalanced force at the turn",
                     facts, {{"apart[%]"}});
-  std::vector<Packing> packings = discs(study.packings(3));
-  for (const Packing& packing : spheres(study.packings(2))) packings.push_back(packing);
-  for (const Packing& packing : packings)
-    in_dimension(packing.dimension, [&](auto d) { reverse<d>(study, findings, packing); });
+  for (const std::vector<Packing>& packings :
+       {discs(study.packings(3)), spheres(study.packings(2))}) {
+    for (const Approach& approach : approaches()) {
+      std::vector<Reversal> all;
+      for (const Packing& packing : packings) {
+        for (const double turn : turns) {
+          all.push_back(in_dimension(packing.dimension, [&](auto d) {
+            const auto law = lead_to_turn<d>(study.materials(packing, {}), approach.parts, turn);
+            const auto rest = lead_to_turn<d>(study.materials(packing, equilibrium), {1}, turn);
+            return reverse<d>(study, packing, law, rest, turn);
+          }));
+          const std::string name = fmt::format("{}, at {:g} %", packing.name(), 100 * turn);
+          add_row(findings, name, approach.name, "its path", all.back().own, all.back().unbalanced);
+          add_row(findings, name, approach.name, "this packing", all.back().same,
+                  all.back().unbalanced);
+        }
+      }
+      std::vector<double> unbalanced;
+      for (const Reversal& one : all) unbalanced.push_back(one.unbalanced);
+      const std::string name = fmt::format("mean of {} {}", all.size(),
+                                           packings[0].dimension == 2 ? "discs" : "spheres");
+      add_row(findings, name, approach.name, "its path", mean_of(all, &Reversal::own),
+              average(unbalanced));
+      add_row(findings, name, approach.name, "this packing", mean_of(all, &Reversal::same),
+              average(unbalanced));
+    }
+  }
   findings.print();
 }
 
-// The second cycle between strains + and - amplitude.
+// A cycle between strains + and - amplitude, after the first loading.
 struct Cycle {
   double stiffness = 0;  // shear modulus, secant from end to end [Pa]
   double work = 0;       // area of the loop [Pa]
   double damping = 0;    // work / (4 pi x energy of the secant) [-]
 };
 
+// The mean of the loop from + to + and that from - to -, so that a stress that drifts cancels.
 template <int D>
 Cycle cycle(const Material& material, double amplitude) {
   constexpr int fewest = 8;
   constexpr double longest = 1e-3;
   const int quarter = std::max(fewest, static_cast<int>(std::lround(amplitude / longest)));
+  const double step = amplitude / quarter;
   Host<D> host(material);
   Cycle result;
-  double last = 0, before = host.q(), above = 0;
-  const double step = amplitude / quarter;
-  // 0 -> 1 -> -1 -> 1: the last two parts are the cycle.
-  for (int k = 1; k <= 5 * quarter; ++k) {
-    const int place = k <= quarter ? k : k <= 3 * quarter ? 2 * quarter - k : k - 4 * quarter;
-    const double strain = step * place;
+  double last = 0, before = host.q(), top = 0, bottom = 0;
+  for (int k = 1; k <= 7 * quarter; ++k) {
+    // 0 -> 1 -> -1 -> 1 -> -1
+    const int way = std::abs((k + quarter) % (4 * quarter) - 2 * quarter);
+    const double strain = step * (quarter - way);
     if (!host.lead(isochoric<D>(strain), step / longest)) return {told, told, told};
-    if (k > quarter) result.work += 0.5 * (before + host.q()) * (strain - last);
-    if (k == 3 * quarter) above = -host.q();
+    const double work = 0.5 * (before + host.q()) * (strain - last);
+    if (k > quarter && k <= 5 * quarter) result.work += 0.5 * work;
+    if (k > 3 * quarter) result.work += 0.5 * work;
+    if (k == 3 * quarter) bottom = host.q();
+    if (k == 5 * quarter) top = host.q();
     last = strain;
     before = host.q();
   }
-  above += host.q();
   // q = 4 G e of discs, 3 G e of spheres.
-  result.stiffness = above / (2 * amplitude) / (D == 2 ? 4 : 3);
-  result.damping = result.work / (4 * std::numbers::pi * 0.25 * above * amplitude);
+  result.stiffness = (top - bottom) / (2 * amplitude) / (D == 2 ? 4 : 3);
+  result.damping = result.work / (std::numbers::pi * (top - bottom) * amplitude);
   return result;
 }
 
 void cycle_all(Study& study) {
   Findings findings(
       study.options(), "cycles",
-      "isochoric cycles about F = I: shear modulus and damping of the second half and first "
-      "return; eight steps a quarter, at most 0.1 % each",
+      "isochoric cycles about F = I: secant shear modulus, damping and work after the first "
+      "loading; eight steps a quarter, at most 0.1 % each",
       {"packing", "amplitude", "modulus_over_p[-]", "equilibrium[-]", "damping[-]",
        "equilibrium_damping[-]", "work_over_equilibrium[-]"},
       {{"modulus_apart[%]"}});

@@ -91,6 +91,41 @@ void compare_curves(Study& study) {
   findings.print();
 }
 
+// The viscous number beside YADE's inertial number: stress to 1 % and its peak, over YADE's slowest.
+void compare_rates(Study& study) {
+  const Packing packing{.file = "rve400"};
+  const auto curve = [&](const char* rate) {
+    return read_csv(study.options().scene(fmt::format("reference/yade_biax400_I{}.csv", rate)));
+  };
+  const CsvTable slowest = curve("1e-5");
+  const double slowest_peak = largest(slowest["axial_stress"]);
+  Findings findings(study.options(), "yade_rates",
+                    "drained to 3 %, rve400: the viscous number of steps of 0.1 %, and YADE's "
+                    "inertial number, over YADE at 1e-5",
+                    {"law", "number", "to_1[%]", "peak[%]", "unbalanced[%]"}, {});
+  const auto add = [&](const char* law, const std::string& number, const Drained& path) {
+    findings.row({law, number, early_over(path, slowest),
+                  100 * (largest(path.stress) / slowest_peak - 1), 100 * average(path.unbalanced)},
+                 {});
+  };
+  for (const char* rate : {"1e-3", "3e-4", "1e-4"}) {
+    const CsvTable yade = curve(rate);
+    Drained path;
+    for (int k = 1; k <= 30; ++k) {
+      path.strain.push_back(1e-3 * k);
+      path.stress.push_back(
+          interpolate(yade["axial_strain"], yade["axial_stress"], path.strain.back()));
+    }
+    add("YADE", rate, path);
+  }
+  for (const double share : {0.1, 0.3, 1.0, 3.0, 10.0}) {
+    const Material material = study.materials(packing, {.share = share});
+    add("in time", fmt::format("{:g}", share * study.materials.number()),
+        drained<2>(material, 0.03, 30, {}));
+  }
+  findings.print();
+}
+
 // Eight packings of one recipe, beside YADE's eight (verification/scenes/reference/README.md).
 void compare_ensembles(Study& study) {
   constexpr double yade_packings = 8;
@@ -144,6 +179,7 @@ void compare_ensembles(Study& study) {
 }  // namespace
 
 void compare_with_yade(Study& study) {
+  compare_rates(study);
   compare_curves(study);
   compare_ensembles(study);
 }
