@@ -1,0 +1,180 @@
+#include "evidence/studies/drag/findings.hpp"
+#include "evidence/studies/drag/host.hpp"
+#include "evidence/studies/drag/sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <random>
+
+namespace verification::drag {
+namespace {
+
+constexpr std::array<int, 5> places{28, 36, 44, 52, 60};  // steps of 0.1 %, drained
+constexpr int packings = 4;
+constexpr int points = 100;
+constexpr double length = 2e-3;         // of a line, as a norm of the change of F
+constexpr double narrow = 1e-9;         // a change within that is a jump
+constexpr double smallest_jump = 1e-4;  // of p
+constexpr double many_medians = 8;
+constexpr double most_at_300 = 1;
+constexpr double largest_jump = 0.01;  // of p
+
+struct Lines {
+  int lines = 0, jumps = 0, failed = 0;
+  double worst = 0;                          // [p]
+  int starts = 0, same = 0, told_apart = 0;  // of P from two starts, where it starts from trials
+  int ended = 0;                             // paths that reached their end, two a packing
+};
+
+template <int D>
+std::optional<TensorOf<D>> stress_at(State& state, const TensorOf<D>& F) {
+  const EvaluationOf<D> found = evaluate_of<D>(state, F, 0);
+  if (found.status != GRAINLAW_OK) return std::nullopt;
+  return found.stress;
+}
+
+// Narrows an interval down to where P changes most; the change left there, 0 once it is small [p].
+template <int D>
+double jump_within(State& state, TensorOf<D> from, TensorOf<D> to, TensorOf<D> P, TensorOf<D> Q) {
+  while ((Q - P).norm() > smallest_jump * pressure) {
+    if ((to - from).norm() < narrow) return (Q - P).norm() / pressure;
+    const TensorOf<D> middle = 0.5 * (from + to);
+    const auto there = stress_at<D>(state, middle);
+    if (!there) return told;
+    if ((*there - P).norm() > (Q - *there).norm()) {
+      to = middle;
+      Q = *there;
+    } else {
+      from = middle;
+      P = *there;
+    }
+  }
+  return 0;
+}
+
+// Intervals whose change is no mean of their neighbours' are looked at closely. A jump is above
+// many medians of the line too: its interval is 20000 times as narrow.
+template <int D>
+void walk_line(Lines& lines, State& state, const TensorOf<D>& from, const TensorOf<D>& direction) {
+  ++lines.lines;
+  std::vector<TensorOf<D>> F, P;
+  for (int k = 0; k <= points; ++k) {
+    const TensorOf<D> place = from + length * k / points * direction;
+    const auto found = stress_at<D>(state, place);
+    if (!found) {
+      ++lines.failed;
+      continue;
+    }
+    F.push_back(place);
+    P.push_back(*found);
+  }
+  std::vector<double> changes;
+  for (std::size_t k = 0; k + 1 < P.size(); ++k) changes.push_back((P[k + 1] - P[k]).norm());
+  const double usual = median(changes) * narrow * points / length;
+  for (std::size_t k = 0; k + 1 < P.size(); ++k) {
+    const TensorOf<D> change = P[k + 1] - P[k];
+    TensorOf<D> neighbours = TensorOf<D>::Zero();
+    int count = 0;
+    if (k > 0) {
+      neighbours += P[k] - P[k - 1];
+      ++count;
+    }
+    if (k + 2 < P.size()) {
+      neighbours += P[k + 2] - P[k + 1];
+      ++count;
+    }
+    if ((change - neighbours / std::max(count, 1)).norm() < smallest_jump * pressure) continue;
+    const double jump = jump_within<D>(state, F[k], F[k + 1], P[k], P[k + 1]);
+    if (std::isnan(jump)) ++lines.failed;
+    if (!(jump * pressure > many_medians * usual)) continue;
+    ++lines.jumps;
+    lines.worst = std::max(lines.worst, jump);
+  }
+}
+
+// P of the next increment from the committed state, and after another trial.
+template <int D>
+void start_twice(Lines& lines, const State& committed, const TensorOf<D>& from,
+                 const TensorOf<D>& to) {
+  constexpr double way = 0.7, same = 1e-8;
+  State cold(committed), warm(committed);
+  const TensorOf<D> between = from + way * (to - from);
+  if (!stress_at<D>(warm, between)) return;
+  const EvaluationOf<D> second = evaluate_of<D>(warm, to, 0);
+  const EvaluationOf<D> first = evaluate_of<D>(cold, to, 0);
+  if (first.status != GRAINLAW_OK || second.status != GRAINLAW_OK) return;
+  ++lines.starts;
+  if ((first.stress - second.stress).norm() <= same * first.stress.norm()) {
+    ++lines.same;
+  } else if (second.report.message[0] != 0) {
+    ++lines.told_apart;
+  }
+}
+
+template <int D>
+void look_along(Lines& lines, Study& study, const Packing& packing) {
+  constexpr double step_size = 1e-3;
+  std::mt19937 random(static_cast<unsigned>(packing.seed));
+  std::normal_distribution<double> normal;
+  const auto is_place = [](const PointStepOf<D>& step) {
+    return std::find(places.begin(), places.end(), step.record.step) != places.end();
+  };
+  const auto follow = [&](bool from_trial, const PointObserverOf<D>& observe) {
+    const Drained path = drained<D>(study.materials(packing, {.from_trial = from_trial}),
+                                    step_size * places.back(), places.back(), {}, observe);
+    lines.ended += path.failure.empty() ? 1 : 0;
+  };
+  follow(false, [&](const PointStepOf<D>& step) {
+    if (!is_place(step)) return;
+    const TensorOf<D> from = step.record.deformation;
+    const TensorOf<D> onward = from - step.committed_deformation;
+    State state(step.state);
+    state.commit();
+    TensorOf<D> any;
+    for (int k = 0; k < D * D; ++k) any(k) = normal(random);
+    any -= any.trace() / D * TensorOf<D>::Identity();
+    for (const TensorOf<D>& direction : {onward, any})
+      walk_line<D>(lines, state, from, direction / direction.norm());
+  });
+  follow(true, [&](const PointStepOf<D>& step) {
+    if (is_place(step))
+      start_twice<D>(lines, step.state, step.committed_deformation, step.record.deformation);
+  });
+}
+
+}  // namespace
+
+void count_jumps(Study& study) {
+  Findings findings(
+      study.options(), "jumps",
+      "forty lines of 100 points within 0.2 %, onward and anywhere, from five states of each "
+      "packing drained to 6 %: changes of P above 1e-4 p within 1e-9 of strain",
+      {"packings", "stiffness", "lines[-]", "failed[-]", "starts[-]", "same_start[-]",
+       "told_apart[-]", "ended[-]"},
+      {{"jumps[-]"}, {"worst[p]"}, {"other_start[-]"}});
+  for (const int dimension : {2, 3}) {
+    for (const double stiffness : {300.0, 3e3, 3e4}) {
+      Lines lines;
+      const int count = study.packings(packings);
+      for (Packing packing : dimension == 2 ? discs(count, 200) : spheres(count, 150)) {
+        packing.young = young_of(dimension, stiffness);
+        in_dimension(dimension, [&](auto d) { look_along<d>(lines, study, packing); });
+      }
+      findings.row({fmt::format("{} of {}", count, dimension == 2 ? "200 discs" : "150 spheres"),
+                    fmt::format("{:g}", stiffness), static_cast<double>(lines.lines),
+                    static_cast<double>(lines.failed), static_cast<double>(lines.starts),
+                    static_cast<double>(lines.same), static_cast<double>(lines.told_apart),
+                    static_cast<double>(lines.ended)},
+                   {{static_cast<double>(lines.jumps), stiffness < 1e3 ? most_at_300 : told},
+                    {lines.worst, largest_jump},
+                    {static_cast<double>(lines.starts - lines.same - lines.told_apart), 0}});
+    }
+  }
+  findings.print();
+}
+
+}  // namespace verification::drag
