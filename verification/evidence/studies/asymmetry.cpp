@@ -18,7 +18,7 @@ struct Packing {
 };
 
 MaterialSource with_drag(MaterialSource source) {
-  change(source, "solver", "viscous_time", 100.0);
+  change(source, "solver", "viscous_number", 1e-3);
   return source;
 }
 
@@ -89,7 +89,7 @@ void study_asymmetry(const StudyOptions& options) {
       {"60 spheres", 3, generated(3, 1e8)},
   };
   Table table(
-      "viscous_time = 100, compressed and sheared by 2 %, half of it taken back: the largest "
+      "viscous_number = 1e-3, compressed and sheared by 2 %, half of it taken back: the largest "
       "|sigma_ij - sigma_ji| / |sigma|, unbalanced force, and ratio of the two",
       {"packing", "increment[-]", "steps", "asymmetry[-]", "unbalanced[-]",
        "asymmetry/unbalanced[-]"});

@@ -17,7 +17,7 @@
 namespace verification {
 namespace {
 
-constexpr double load_step = 1e-3;  // strain that takes `viscous_time` [-]
+constexpr double load_step = 1e-3;  // coarsest increment [-]
 constexpr std::array<int, 4> parts_of_step{1, 2, 4, 8};
 
 struct Law {
@@ -81,8 +81,7 @@ class Walker {
   }
 
   // Commits F; false where there is no answer.
-  bool go(const Tensor& to, double time) {
-    state_.set_time_step(time);
+  bool go(const Tensor& to) {
     const Evaluation at = evaluate(state_, to, 0);
     if (at.status != GRAINLAW_OK) return false;
     const double work = 0.5 * volume_ * (stress_ + at.stress).cwiseProduct(to - here_).sum();
@@ -96,16 +95,15 @@ class Walker {
   }
 
   // F11 such that P11 stays.
-  bool compress(double axial, double time) {
+  bool compress(double axial) {
     constexpr int most_iterations = 20;
     Tensor next = here_;
     next(1, 1) = 1 - axial;
-    state_.set_time_step(time);
     for (int k = 0; k < most_iterations; ++k) {
       const Evaluation at = evaluate(state_, next, GRAINLAW_WANT_TANGENT_EXACT);
       if (at.status != GRAINLAW_OK) return false;
       const double missing = at.stress(0, 0) + pressure_;
-      if (std::abs(missing) < 1e-8 * pressure_) return go(next, time);
+      if (std::abs(missing) < 1e-8 * pressure_) return go(next);
       next(0, 0) -= missing / at.tangent(0, 0);
     }
     return false;
@@ -132,7 +130,7 @@ struct Run {
   Ledger ledger;
 };
 
-void walk(const StudyOptions& options, Run& run, double time, int count) {
+void walk(const StudyOptions& options, Run& run, double number, int count) {
   constexpr double drained_to = 0.03, shear = 5e-3;
   MaterialSource source;
   source.file = options.scene("pack400.toml");
@@ -140,38 +138,34 @@ void walk(const StudyOptions& options, Run& run, double time, int count) {
   laws()[run.law].apply(source);
   change(source, "packing", "count", static_cast<long>(count));
   change(source, "solver", "tolerance", 1e-11);
-  if (time > 0) {
-    change(source, "solver", "viscous_time", time);
-    change(source, "solver", "viscous_increment", 1.0);
-  }
-  const double time_step = 1.0 / run.parts;
+  if (number > 0) change(source, "solver", "viscous_number", number);
   Walker walker(make_material(source));
   const double strain = load_step / run.parts;
   const int way = static_cast<int>(std::lround((run.cycle ? shear : drained_to) / strain));
   bool goes = true;
   for (int n = 1; goes && n <= (run.cycle ? 4 * way : way); ++n) {
     if (!run.cycle) {
-      goes = walker.compress(n * strain, time_step);
+      goes = walker.compress(n * strain);
       continue;
     }
     const int at = n <= way ? n : n <= 3 * way ? 2 * way - n : n - 4 * way;
     Tensor F = Tensor::Identity();
     F(0, 1) = at * strain;
-    goes = walker.go(F, time_step);
+    goes = walker.go(F);
   }
   run.ledger = walker.ledger();
   if (!goes) run.ledger.failure = "no answer";
 }
 
-void run_study(const StudyOptions& options, double time, int count, int threads) {
+void run_study(const StudyOptions& options, double number, int count, int threads) {
   std::vector<Run> runs;
   for (std::size_t law = 0; law < laws().size(); ++law)
     for (const bool cycle : {false, true})
       for (const int parts : parts_of_step) runs.push_back({law, cycle, parts, {}});
-  run_jobs(runs.size(), threads, [&](std::size_t k) { walk(options, runs[k], time, count); });
-  Table table(fmt::format("energy over the work done, {} discs, viscous_time {:g} for an increment "
-                          "of {:g}; what the remainder tends to by its last two",
-                          count, time, load_step),
+  run_jobs(runs.size(), threads, [&](std::size_t k) { walk(options, runs[k], number, count); });
+  Table table(fmt::format("energy over the work done, {} discs, viscous_number {:g}; what the "
+                          "remainder tends to by its last two",
+                          count, number),
               {"law", "path", "increment[-]", "stored[-]", "friction_and_bonds[-]", "drag[-]",
                "remainder[-]", "tends_to[-]"});
   const Run* last = nullptr;
@@ -193,13 +187,13 @@ void run_study(const StudyOptions& options, double time, int count, int threads)
 
 void add_energy_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options) {
   struct Arguments {
-    double time = 100;
+    double number = 1e-3;
     int count = 100;
     int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = study.add_subcommand("energy", "balance of energy with drag, by increments");
-  command->add_option("--time", arguments->time, "solver.viscous_time; 0: equilibrium [-]")
+  command->add_option("--number", arguments->number, "solver.viscous_number; 0: equilibrium [-]")
       ->check(at_least(0))
       ->capture_default_str();
   command->add_option("--count", arguments->count, "discs of the packing [-]")
@@ -209,7 +203,7 @@ void add_energy_study(CLI::App& study, const std::shared_ptr<StudyOptions>& opti
       ->check(at_least(1))
       ->capture_default_str();
   command->callback([arguments, options] {
-    run_study(*options, arguments->time, arguments->count, arguments->threads);
+    run_study(*options, arguments->number, arguments->count, arguments->threads);
   });
 }
 

@@ -51,7 +51,7 @@ std::vector<Increment> isotropic_compression(int increments) {
 
 // A packing of `count` discs compacted without friction, so that it suits every law; its files.
 MaterialSource base_material(const StudyOptions& options, int count, double tolerance,
-                             double viscous_time) {
+                             double viscous_number) {
   MaterialSource recipe;
   recipe.file = options.scene("pack400.toml");
   recipe.base = recipe.file.parent_path();
@@ -73,7 +73,7 @@ MaterialSource base_material(const StudyOptions& options, int count, double tole
   change(source, "contact", "ratio", 0.8);
   change(source, "contact", "friction", std::tan(0.5));
   change(source, "solver", "tolerance", tolerance);
-  if (viscous_time > 0) change(source, "solver", "viscous_time", viscous_time);
+  if (viscous_number > 0) change(source, "solver", "viscous_number", viscous_number);
   return source;
 }
 
@@ -132,10 +132,10 @@ void save_and_load(const State& state) {
 }
 
 std::vector<Feature> features(const StudyOptions& options, int count, double tolerance,
-                              double viscous_time) {
+                              double viscous_number) {
   constexpr int increments = 10;
   const auto path = compression(increments, 1);
-  const MaterialSource base = base_material(options, count, tolerance, viscous_time);
+  const MaterialSource base = base_material(options, count, tolerance, viscous_number);
   const auto smooth = changed(base, "contact", "friction", 0.0);
   const auto locked = changed(base, "contact", "rotation", false);
   const auto frame = changed(base, "boundary", "type", "frame-p");
@@ -200,7 +200,7 @@ std::array<Cost, 2> costs(const Feature& feature) {
   return {with.cost(), without.cost()};
 }
 
-void run_study(const StudyOptions& options, int count, double tolerance, double viscous_time) {
+void run_study(const StudyOptions& options, int count, double tolerance, double viscous_number) {
   Table time(
       fmt::format("cpu time per evaluation, {} discs, increments of 0.1 %, tolerance {:.0e} "
                   "[-], one thread; calls are counted with the evaluation they follow",
@@ -213,7 +213,7 @@ void run_study(const StudyOptions& options, int count, double tolerance, double 
                 "thread_without[B]", "material_with[B]", "material_without[B]"});
   Progress progress("features");
   double most = 0;
-  const auto all = features(options, count, tolerance, viscous_time);
+  const auto all = features(options, count, tolerance, viscous_number);
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Feature& feature = all[k];
     progress.update(static_cast<double>(k) / static_cast<double>(all.size()), feature.name);
@@ -242,7 +242,7 @@ void add_features_study(CLI::App& study, const std::shared_ptr<StudyOptions>& op
   struct Arguments {
     int count = 400;
     double tolerance = 1e-6;
-    double viscous_time = 0;
+    double viscous_number = 0;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
@@ -252,10 +252,10 @@ void add_features_study(CLI::App& study, const std::shared_ptr<StudyOptions>& op
       ->capture_default_str();
   command->add_option("--tolerance", arguments->tolerance, "of the equilibria [-]")
       ->capture_default_str();
-  command->add_option("--viscous-time", arguments->viscous_time, "of both; 0: equilibria [-]")
+  command->add_option("--viscous-number", arguments->viscous_number, "of both; 0: equilibria [-]")
       ->capture_default_str();
   command->callback([arguments, options] {
-    run_study(*options, arguments->count, arguments->tolerance, arguments->viscous_time);
+    run_study(*options, arguments->count, arguments->tolerance, arguments->viscous_number);
   });
 }
 

@@ -67,27 +67,27 @@ Cost cost_of(const grainlaw::Material& material, int increments) {
 }  // namespace
 
 void measure_cost(const StudyOptions& options, const std::vector<int>& counts, int increments) {
-  constexpr std::array<double, 2> times{0, 100};
+  constexpr std::array<double, 2> numbers{0, 1e-3};
   Table table(fmt::format("one evaluation of a 0.1 % increment, the first {} of triaxial "
                           "compression, tolerance 1e-08 [-], one thread; power: of the number, "
                           "against the fewest",
                           increments),
-              {"spheres", "viscous_time[-]", "cpu[ms]", "cpu_with_tangent[ms]", "power[-]",
+              {"spheres", "viscous_number[-]", "cpu[ms]", "cpu_with_tangent[ms]", "power[-]",
                "relaxation_steps[-]", "newton_steps[-]", "failed[-]", "state[B/sphere]"});
   Progress progress("spheres");
-  std::array<double, times.size()> least{};  // of the fewest [ms]
+  std::array<double, numbers.size()> least{};  // of the fewest [ms]
   for (std::size_t c = 0; c < counts.size(); ++c) {
-    for (std::size_t t = 0; t < times.size(); ++t) {
-      progress.update(static_cast<double>(times.size() * c + t) /
-                          static_cast<double>(times.size() * counts.size()),
+    for (std::size_t t = 0; t < numbers.size(); ++t) {
+      progress.update(static_cast<double>(numbers.size() * c + t) /
+                          static_cast<double>(numbers.size() * counts.size()),
                       fmt::format("{} spheres", counts[c]));
-      const Cost cost = cost_of(packed(counts[c], times[t], 1e-8), increments);
+      const Cost cost = cost_of(packed(counts[c], numbers[t], 1e-8), increments);
       const double exact = average(cost.exact);
       if (c == 0) least[t] = exact;
       const double power = c == 0 ? 0
                                   : std::log(exact / least[t]) /
                                         std::log(static_cast<double>(counts[c]) / counts[0]);
-      table.row({fmt::format("{}", counts[c]), fmt::format("{:g}", times[t]), average(cost.plain),
+      table.row({fmt::format("{}", counts[c]), fmt::format("{:g}", numbers[t]), average(cost.plain),
                  exact, power, average(cost.steps), average(cost.factorisations),
                  static_cast<double>(cost.failed), cost.state / counts[c]});
     }

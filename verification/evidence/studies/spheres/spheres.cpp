@@ -1,5 +1,5 @@
 // `grainlaw_evidence spheres`: how exact the tangents of spheres are, and what an increment costs over its error
-// and over their number, at equilibrium and without jumps (solver.viscous_time).
+// and over their number, at equilibrium and without jumps (solver.viscous_number).
 
 #include "evidence/studies/spheres/spheres.hpp"
 
@@ -20,7 +20,7 @@ constexpr double lateral_share = 0.4;  // of the axial strain, near constant str
 
 }  // namespace
 
-grainlaw::Material packed(int count, double viscous_time, double tolerance) {
+grainlaw::Material packed(int count, double viscous_number, double tolerance) {
   return grainlaw::Material::parse(fmt::format(R"(dimension = 3
 [packing]
 generator = "compaction"
@@ -35,9 +35,9 @@ ratio = 0.8
 friction = 0.5463
 [solver]
 tolerance = {}
-viscous_time = {}
+viscous_number = {}
 )",
-                                               count, tolerance, viscous_time),
+                                               count, tolerance, viscous_number),
                                    ".");
 }
 

@@ -16,7 +16,7 @@ using Tangent3 = std::array<double, 81>;
 constexpr double increment = 0.001;
 
 // Spheres compacted here, with the frictional law of YADE's 500 spheres. Throws grainlaw::Error.
-grainlaw::Material packed(int count, double viscous_time, double tolerance);
+grainlaw::Material packed(int count, double viscous_number, double tolerance);
 
 // After so many increments of triaxial compression, or of simple shear.
 Tensor3 deformation_after(int increments, bool shear = false);

@@ -110,7 +110,7 @@ Material PackingStore::from_files(const std::string& name, const Contact& contac
   change(source, "packing", "particles", name + "_particles.csv");
   change(source, "packing", "cell", name + "_cell.csv");
   if (with_forces) change(source, "packing", "contacts", name + "_contacts.csv");
-  if (viscous_time_ > 0) change(source, "solver", "viscous_time", viscous_time_);
+  if (viscous_number_ > 0) change(source, "solver", "viscous_number", viscous_number_);
   return make_material(source);
 }
 

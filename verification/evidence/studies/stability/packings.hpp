@@ -49,9 +49,9 @@ struct Units {
 
 class PackingStore {
  public:
-  // viscous_time: solver.viscous_time of the materials; 0: equilibria.
-  explicit PackingStore(std::filesystem::path directory, double viscous_time = 0)
-      : directory_(std::move(directory)), viscous_time_(viscous_time) {}
+  // viscous_number: solver.viscous_number of the materials; 0: equilibria.
+  explicit PackingStore(std::filesystem::path directory, double viscous_number = 0)
+      : directory_(std::move(directory)), viscous_number_(viscous_number) {}
 
   // From the packing's files, which are made when they are missing. `contact.young` is the recipe's.
   [[nodiscard]] Material generated(const Recipe& recipe, Contact contact) const;
@@ -72,7 +72,7 @@ class PackingStore {
                                     bool with_forces) const;
 
   std::filesystem::path directory_;
-  double viscous_time_;
+  double viscous_number_;
 };
 
 }  // namespace verification::stability

@@ -206,13 +206,13 @@ void summarise(const std::vector<Row>& rows) {
         fmt::format("stability: {} of {} cases are undefined", wrong, rows.size()));
 }
 
-void run_study(const StudyOptions& options, const std::string& only, double viscous_time) {
+void run_study(const StudyOptions& options, const std::string& only, double viscous_number) {
   const std::filesystem::path directory =
       std::filesystem::path(options.output) / "stability_packings";
   std::filesystem::remove_all(directory);
-  const PackingStore store(directory, viscous_time);
+  const PackingStore store(directory, viscous_number);
   MaterialSource yade = options.material(1e-6);
-  if (viscous_time > 0) change(yade, "solver", "viscous_time", viscous_time);
+  if (viscous_number > 0) change(yade, "solver", "viscous_number", viscous_number);
   Cases cases;
   add_contact_cases(store, cases);
   add_path_cases(store, yade, cases);
@@ -222,7 +222,7 @@ void run_study(const StudyOptions& options, const std::string& only, double visc
   for (std::size_t k = 0; k < cases.size(); ++k) {
     Case& one = cases[k];
     const bool by_equilibrium = one.group == "closed form" || one.group == "dilution and back";
-    one.judged = viscous_time == 0 || !by_equilibrium;
+    one.judged = viscous_number == 0 || !by_equilibrium;
     if (!(one.group + ": " + one.setting).starts_with(only)) continue;
     progress.update(static_cast<double>(k) / static_cast<double>(cases.size()), one.group);
     rows.push_back(run_alone(one));
@@ -235,11 +235,13 @@ void run_study(const StudyOptions& options, const std::string& only, double visc
 
 void add_stability_study(CLI::App& study, const std::shared_ptr<StudyOptions>& options) {
   auto only = std::make_shared<std::string>();
-  auto viscous_time = std::make_shared<double>(0);
+  auto viscous_number = std::make_shared<double>(0);
   CLI::App* command = study.add_subcommand("stability", "extreme cases and how they end");
   command->add_option("--only", *only, "cases whose \"case: setting\" begins like this");
-  command->add_option("--viscous-time", *viscous_time, "solver.viscous_time; 0: equilibria [-]");
-  command->callback([only, viscous_time, options] { run_study(*options, *only, *viscous_time); });
+  command->add_option("--viscous-number", *viscous_number,
+                      "solver.viscous_number; 0: equilibria [-]");
+  command->callback(
+      [only, viscous_number, options] { run_study(*options, *only, *viscous_number); });
 }
 
 }  // namespace verification

@@ -48,7 +48,7 @@ struct Walk {
   double total_work = 0;         // sum of its absolute values [J]
   double stored = 0;             // change of elastic energy [J]
   double dissipated = 0;         // by friction [J]
-  double dragged = 0;            // with solver.viscous_time: by drag [J]
+  double dragged = 0;            // with solver.viscous_number: by drag [J]
   double released = 0;           // in jumps from one equilibrium to another [J]
   bool worked = false;           // more than a rotation does by rounding
   double least_dissipation = 0;  // of one step [J]
