@@ -77,6 +77,7 @@ DragStart<D> start_drag(const Request<D>& request, int parts, Increment<D>& incr
   // Strain rate against its mean, -1 at a full reversal.
   const double slowest = tuned::slowest_drag_rate * viscosity.number;
   const double square = inner<D>(mean, mean) + slowest * slowest;
+  if (!(square > 0)) return how;
   const double along = inner<D>(strain, mean) / duration;
   const double turned = std::clamp(-along / square, 0.0, 1.0);
   // A packing whose forces fade needs all of its drag.

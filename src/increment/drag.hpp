@@ -1,9 +1,9 @@
 // Drag on the fluctuations by a spring, a dashpot and a mass in series. A part of an increment solves
 // their equations exactly for a constant velocity of the fluctuations.
-//   r(z) = f = W (z - z*),  W = k exp(-h),  z* = G (x + h u - (1 - h) f_0 / k)   @formula viscous
+//   r(z) = f = W (z - z*),  W = k exp(-h),  z* = G (x + t u - (1 - h) f_0 / k)   @formula viscous
 // x: positions at the start of the part [m]. u: velocity of the masses there [m per memory]. f_0:
-// drag there [N]. G: deformation of the part. h: its duration [memories]. k: stiffness of the
-// springs [N/m]. Rotations likewise, without G. Rearrangements, which are jumps between equilibria,
+// drag there [N]. G: deformation of the part. h: its duration, t: h, bounded [memories]. k: stiffness of
+// the springs [N/m]. Rotations likewise, without G. Rearrangements, which are jumps between equilibria,
 // then take time.
 #pragma once
 

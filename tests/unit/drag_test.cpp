@@ -230,6 +230,8 @@ TEST(drag, fades_with_its_number) {
     last_unbalanced = found.report.unbalanced;
   }
   EXPECT_LT(last, 1e-6);
+  State least(make_material(with_drag(describe(small_packing(), rough_law()), 1e-300)));
+  EXPECT_LT(relative_difference(evaluate(least, F).stress, equilibrium), 1e-6);
 }
 
 // Parts are steps of the same law: what they end in differs by the strain rate's mean alone.
