@@ -106,7 +106,8 @@ void WaveMotion::keep_list() {
     largest = std::max(largest, dx * dx + dy * dy);
   }
   if (!std::isfinite(largest))
-    throw Error(GRAINLAW_NOT_CONVERGED, "a particle has left all bounds; try a smaller pulse.amplitude");
+    throw Error(GRAINLAW_NOT_CONVERGED,
+                "a particle has left all bounds; try a smaller pulse.amplitude");
   if (4 * largest <= gap_ * gap_) return;
   // The new list's contacts start with the present history.
   history_.clear();
