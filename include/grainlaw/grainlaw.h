@@ -107,6 +107,12 @@ GRAINLAW_API grainlaw_status grainlaw_material_parse(const char* toml_text,
                                                      grainlaw_material** out, char* message,
                                                      size_t message_size);
 
+/* Keys that material files may have, in the order of reading, as zero-terminated text. A line for
+ * each: its path, what is expected and its default, parted by tabs. text NULL: set *size to the
+ * bytes needed. Otherwise *size is the capacity on entry, the bytes written on return. Errors:
+ * NULL_POINTER, BUFFER_TOO_SMALL, OUT_OF_MEMORY. */
+GRAINLAW_API grainlaw_status grainlaw_material_keys(char* text, size_t* size);
+
 /* Dimension 2 or 3; 0 for a null or dead handle. */
 GRAINLAW_API int grainlaw_material_dimension(const grainlaw_material*);
 

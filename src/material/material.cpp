@@ -8,6 +8,7 @@
 #include "homogenise/stress.hpp"
 #include "material/given_contacts.hpp"
 #include "material/initial_stress.hpp"
+#include "material/start_advice.hpp"
 #include "packing/geometry.hpp"
 #include "packing/row_order.hpp"
 
@@ -94,31 +95,6 @@ double force_as_given(const Problem<D>& problem, const Configuration<D>& given,
   workspace.increment.begin(problem, given, identity<D>());
   workspace.increment.refresh_masses();
   return workspace.increment.scale().mean_force();
-}
-
-// Describes a packing without an equilibrium and what to check first.
-template <int D>
-std::string advice(const Increment<D>& increment) {
-  constexpr double soft = 30, stiff = 1e7;  // kn / p outside are hardly meant
-  const Packing& packing = *increment.problem().packing;
-  const double r = mean_radius(packing.radius);
-  const double kn = increment.problem().law->stiffness(r, r);
-  const auto stress = piola_stress(increment);
-  const double pressure = -1.0 / D * trace<D>(stress);
-  const double ratio = kn / (pressure * depth<D>(packing));
-  std::string text = fmt::format("mean pressure {:.3g} Pa, kn {:.3g} N/m", pressure, kn);
-  if (!(pressure > 0)) return text + ": it does not bear; expected a denser packing";
-  text += fmt::format(", kn/p {:.3g}", ratio);
-  if (ratio < soft) return text + ", soft: expected stiffer contacts or smaller overlaps";
-  if (ratio > stiff) return text + ", stiff: expected softer contacts or a packing under more load";
-  return text + "; expected a packing made with these contacts and friction, and its contacts file";
-}
-
-std::string made_with_more_friction(const MaterialDescription& description) {
-  const auto& generator = description.generator;
-  if (!generator || !(generator->friction > description.law.friction)) return {};
-  return fmt::format("; made with packing.friction = {}, which contact.friction = {} may not hold",
-                     generator->friction, description.law.friction);
 }
 
 template <int D>
@@ -269,15 +245,15 @@ std::shared_ptr<const Material<D>> make_material(MaterialDescription description
     throw Error(outcome.status,
                 fmt::format("contacts carry no more at F = I than rounding makes of "
                             "them; {}",
-                            advice(workspace.increment) + made_with_more_friction(description)));
+                            start_advice(workspace.increment, description)));
   }
   if (outcome.status != GRAINLAW_OK) {
-    throw Error(outcome.status,
-                fmt::format("the packing found no equilibrium at F = I: residual "
-                            "{:.3g} after {} relaxation steps, expected {:.3g}; {}",
-                            workspace.increment.residual_norm(),
-                            workspace.increment.cost.relaxation_steps, request.tolerance,
-                            advice(workspace.increment) + made_with_more_friction(description)));
+    throw Error(
+        outcome.status,
+        fmt::format("the packing found no equilibrium at F = I: residual "
+                    "{:.3g} after {} relaxation steps, expected {:.3g}; {}",
+                    workspace.increment.residual_norm(), workspace.increment.cost.relaxation_steps,
+                    request.tolerance, start_advice(workspace.increment, description)));
   }
   const auto stress = free ? Tensor<D>{} : piola_stress(workspace.increment);
   workspace.increment.advance_history();

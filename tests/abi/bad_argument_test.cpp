@@ -22,6 +22,7 @@ TEST(bad_pointer, null_is_refused_by_every_function) {
   refused(grainlaw_material_load(material_path.c_str(), nullptr, message, sizeof message), "out");
   refused(grainlaw_material_parse(nullptr, nullptr, &made, nullptr, 0), "parse text");
   refused(grainlaw_material_parse("", nullptr, nullptr, nullptr, 0), "parse out");
+  refused(grainlaw_material_keys(message, nullptr), "keys size");
   EXPECT_EQ(grainlaw_material_dimension(nullptr), 0);
   grainlaw_material_destroy(nullptr);
 

@@ -361,6 +361,20 @@ TEST(state, every_measure_can_be_asked) {
   EXPECT_EQ(state.measure(GRAINLAW_FABRIC).size(), 4U);
 }
 
+TEST(texts, keys_of_material_files_are_listed_with_expectation_and_default) {
+  std::size_t size = 0;
+  ASSERT_EQ(grainlaw_material_keys(nullptr, &size), GRAINLAW_OK);
+  std::string text(size, 'x');
+  std::size_t short_size = size - 1;
+  EXPECT_EQ(grainlaw_material_keys(text.data(), &short_size), GRAINLAW_BUFFER_TOO_SMALL);
+  EXPECT_EQ(text, std::string(size, 'x'));
+  ASSERT_EQ(grainlaw_material_keys(text.data(), &size), GRAINLAW_OK);
+  ASSERT_EQ(size, text.size());
+  EXPECT_EQ(text.back(), '\0');
+  EXPECT_EQ(text.find("dimension\tan integer >= 1\trequired\n"), 0U);
+  EXPECT_NE(text.find("\ncontact.friction\ta number >= 0\t"), std::string::npos);
+}
+
 TEST(texts, every_status_has_one) {
 #define GRAINLAW_X(name, value, text) EXPECT_STREQ(grainlaw_status_text(name), text);
   GRAINLAW_STATUS_LIST(GRAINLAW_X)

@@ -3,7 +3,7 @@ import os
 import re
 import unittest
 
-from command import LATTICE, Place
+from command import LATTICE, PERIODIC, WAVE, Place
 
 RANDOM = """
 dimension = 2
@@ -12,6 +12,8 @@ packing = { generator = "compaction", count = 30, radii = [4e-3, 9e-3], seed = 3
 contact = { law = "frictional", young = 6e8, ratio = 0.8, friction = 0.5 }
 """
 SOLVER = "solver = { tolerance = 1e-6 }\n"
+TOUCHING = LATTICE.replace("pressure = 1e5", "overlap = 0.0")
+STRESS_FREE = 'solver = { contacts_lost = "stress_free" }\n'
 
 
 def point(segment, scene="", material=RANDOM, solver=SOLVER):
@@ -50,6 +52,21 @@ young = 6e8
 ratio = 0.8
 friction = 0.5463
 """
+
+CELL = "H00,H01,H10,H11,thickness,rho\n{0},0,0,{0},0.1,2650\n"
+APART = "id,x,y,r\n0,0.01,0.01,0.004\n1,0.03,0.03,0.004\n"
+OWN = """
+dimension = 2
+packing = { particles = "apart.csv", cell = "small.csv" }
+contact = { law = "frictional", young = 6e8, ratio = 0.8, friction = 0.5 }
+"""
+DYNAMICS = "[dynamics]\ndensity = 2000\nduration = 0.2\ntime_step = 1e-2\n"
+RANDOM_WAVE = WAVE.format(repeat=3, duration=1e-4).replace(PERIODIC, "[material]" + RANDOM).replace("[0.02]", "[0.05]")
+
+
+def dynamics(conditions, steps, material=LATTICE, solver=""):
+    return solve(conditions, f'steps = {steps}\nsolver = "dynamics"\n', material, solver)
+
 
 # Command, scene, message, and what the cure puts in the place of what.
 CASES = {
@@ -99,7 +116,32 @@ CASES = {
     "a_cell_that_is_not_the_one_of_the_particles": (
         "pack", re.sub("contacts = .*\n", "", FILES).replace(
             f"{DATA}/rve400_cell.csv", "other.csv"),
-        "contacts carry no more at F = I than rounding makes of them", [("other.csv", f"{DATA}/rve400_cell.csv")]),
+        "particles fill .* of the cell; expected their own cell, in m", [("other.csv", f"{DATA}/rve400_cell.csv")]),
+    "discs_that_touch_and_bear_nothing": (
+        "point", point("steps = 1\nF22 = 0.9999\n", material=TOUCHING), "or a packing under more load",
+        [("overlap = 0.0", "pressure = 1e5")]),
+    "discs_that_do_not_touch": (
+        "pack", OWN, "the packing has no contacts at F = I; expected one that carries stress, or solver.contacts_lost",
+        [("contact =", 'solver = {{ contacts_lost = "stress_free" }}\ncontact =')]),
+    "a_frame_that_carries_no_uniform_stress": (
+        "point", point("steps = 2\nF22 = 0.9999\n", material=RANDOM + 'boundary = { type = "frame-t" }\n'),
+        "the packing carries no uniform stress at F = I", [("frame-t", "frame-p")]),
+    "a_frame_that_no_longer_carries_uniform_stress": (
+        "point", point("steps = 20\ndF22 = 0.05\n", "max_cuts = 2",
+                       re.sub(r"\[(packing|contact)\]", r"[material.\1]", FILES) + '[material.boundary]\ntype = "frame-t"\n',
+                       "[material.solver]\ntolerance = 1e-6\n"),
+        'no longer carries a uniform stress on its boundary; try boundary.type = "frame-p", or more particles',
+        [("frame-t", "frame-p"), ("steps = 20\ndF22 = 0.05", "steps = 20\ndF22 = 0.01")]),
+    "a_void_ratio_and_a_pressure_of_few_discs": (
+        "pack", RANDOM.replace("friction = 0.3", "void_ratio = 0.28").replace("count = 30", "count = 8"),
+        "void_ratio = 0.28 at 100000 Pa was not met, found .*; try another seed or more discs", [("count = 8", "count = 60")]),
+    "a_step_with_drag_that_is_too_large": (
+        "point", point("steps = 8\ndF22 = -0.4\nsigma11 = -100e3\n", "max_cuts = 0",
+                       solver="solver = { viscous_number = 1e-2, viscous_rate = 1e-3, tolerance = 1e-9 }\n"),
+        r"the stress control did not converge \(best residual .* \[-\]\); try more steps$", [("steps = 8", "steps = 200")]),
+    "numbers_that_overflow": (
+        "point", point("steps = 1\nF11 = 1e200\nF22 = 1e200\n", "max_cuts = 0"), "det F overflows",
+        [("1e200", "1.0001")]),
     "a_body_under_a_load_beyond_its_strength": (
         "solve", solve(PRESSED + '[[pressure]]\non = "top"\nvalue = 100e3\n[[traction]]\non = "top"\ncomponent = "y"\nvalue = -500e3\n',
                        material=RANDOM),
@@ -114,6 +156,35 @@ CASES = {
         "solve", solve(PRESSED + held("top", "y", -1e-3), 'steps = 1\nsolver = "relaxation"\n')
         + "[relaxation]\nmax_iterations = 2\nmax_cuts = 1\n",
         r"dynamic relaxation did not converge in 2 iterations", [("max_iterations = 2", "max_iterations = 20000")]),
+    "packings_that_bear_nothing_in_relaxation": (
+        "solve", solve(PRESSED + held("top", "y", -1e-3), 'steps = 1\nsolver = "relaxation"\n', TOUCHING, STRESS_FREE),
+        "the packings have no stiffness", [("overlap = 0.0", "pressure = 1e5")]),
+    "packings_that_bear_nothing_in_dynamics": (
+        "solve", dynamics(SMOOTH + held("top", "y", -1e-4), 2, TOUCHING, STRESS_FREE)
+        + DYNAMICS.replace("time_step = 1e-2\n", "").replace("0.2", "1e-3"),
+        "the packings have no stiffness at F = I, .*: give time_step", [("duration", "time_step = 1e-4\nduration")]),
+    "dynamics_whose_time_step_is_unstable": (
+        "solve", dynamics(PRESSED + held("top", "y", -1e-4), 10) + DYNAMICS,
+        r"the time step of .* s is unstable .*; leave out dynamics.time_step, or shorten it$", [("time_step = 1e-2\n", "")]),
+    "dynamics_whose_points_refuse": (
+        "solve", dynamics(SMOOTH + held("top", "y", -1e-3), 4) + DYNAMICS.replace("1e-2", "5e-3"),
+        r"step 1 failed at time .* s with a time step of .*; leave out dynamics.time_step, or shorten it$",
+        [("time_step = 5e-3\n", "")]),
+    "a_tolerance_below_that_of_points_that_start_from_trials": (
+        "solve", solve(PRESSED + held("top", "y", -1e-4), "steps = 1\n", LATTICE,
+                       'solver = { start = "trial", tolerance = 1e-6 }\n') + "[newton]\ntolerance = 1e-9\n",
+        "expected solver.tolerance of the material, 1e-06, or more; or a smaller one there",
+        [("tolerance = 1e-6", "tolerance = 1e-9")]),
+    "a_time_step_of_particles_that_is_unstable": (
+        "wave", RANDOM_WAVE.replace("time_step = 1e-6\nrows", "time_step = 1e-2\nrows"),
+        r"time_step: found .* s, expected at most (?P<most>\S+) s, beyond which", [("time_step = 1e-2", "time_step = {most}")]),
+    "particles_that_do_not_come_to_rest": (
+        "wave", RANDOM_WAVE.replace("time_step = 1e-6\nrows", "time_step = 1e-9\nrows"),
+        "the specimen did not come to rest before the wave: .*; try a longer time_step$",
+        [("time_step = 1e-9", "time_step = 1e-6")]),
+    "a_pulse_beyond_all_bounds": (
+        "wave", RANDOM_WAVE.replace("amplitude = 1e-6", "amplitude = 1e160"),
+        "a particle has left all bounds; try a smaller pulse.amplitude$", [("1e160", "1e-6")]),
     "every_displacement_prescribed": (
         "solve", solve("".join(held(side, c) for side in ("bottom", "top") for c in "yx")),
         "every displacement is prescribed: nothing to solve", [(held("top", "x"), SIDES)]),
@@ -126,13 +197,15 @@ CASES = {
 class Cures(unittest.TestCase):
     def setUp(self):
         self.place = Place()
-        self.place.write("other.csv", "H00,H01,H10,H11,thickness,rho\n400,0,0,400,0.1,2650\n")
+        self.place.write("other.csv", CELL.format(400))
+        self.place.write("small.csv", CELL.format(0.04))
+        self.place.write("apart.csv", APART)
         self.addCleanup(self.place.temporary.cleanup)
 
     def check(self, command, scene, message, cure):
         status, out, err = self.place.run(command, self.place.write("s.toml", scene), "--output", "out")
         self.assertNotEqual(status, 0, out)
-        found = re.search(message, err)
+        found = re.search(message, err, re.M)
         self.assertTrue(found, err)
         self.assertNotIn(found.group(), out, "told twice")
         for old, new in cure:

@@ -118,6 +118,14 @@ class Imports(unittest.TestCase):
         out = self.run_import(path, "--cell", CELL, "--thickness", "0.1", *CONTACT)
         self.assertAlmostEqual(printed(out, "mean pressure") / 1e5, 1, places=2)
 
+    def test_particles_that_do_not_press_get_the_cure_that_helps(self):
+        path = self.text("apart.txt", "#format x_y_z_r\n")
+        arguments = [path, "--thickness", "0.1", "--pressure", "2e5", *FRICTION]
+        wide = ",".join(str(1.01 * float(side)) for side in CELL.split(","))
+        told = self.run_import(*arguments, "--cell", wide, status=2)
+        self.assertIn("found particles that do not press on each other, expected overlaps; --young with a smaller --cell", told)
+        self.run_import(*arguments[:3], *CONTACT, "--cell", CELL)
+
     def test_a_pressure_tells_the_stiffness(self):
         path = self.text("pressed.txt", "#format x_y_z_r\n")
         out = self.run_import(path, "--cell", CELL, "--thickness", "0.1", "--pressure", "2e5", *FRICTION)

@@ -1,8 +1,8 @@
 // Waves through rows of discs: particles against closed forms, meshes against particles.
 
 #include "../data.hpp"
+#include "dynamics/motion.hpp"
 #include "material/material_file.hpp"
-#include "wave/motion.hpp"
 #include "wave/run.hpp"
 
 #include <fmt/format.h>
@@ -13,6 +13,9 @@
 #include <string>
 
 namespace verification {
+
+using grainlaw::core::WaveSpecimen;
+
 namespace {
 
 const std::string scenes = grainlaw::test::data_file("../../verification/scenes/liu2018_waves/");

@@ -135,12 +135,7 @@ class Run {
         finish(true);
       } catch (const std::exception&) {  // adds nothing to the reported error
       }
-      const std::string advice =
-          done_ < 0 ? why_at_start(start_, 0) +
-                          "; look at the loads that act from time 0 on, which load "
-                          "steps do not divide; pressure presses where it is above 0"
-                    : load_advice(start_, done_);
-      throw ComputationError(fmt::format("{}: {}{}", file_.string(), error.what(), advice));
+      throw ComputationError(fmt::format("{}: {}{}", file_.string(), error.what(), advice()));
     } catch (const Interrupted&) {
       finish();
       throw;
@@ -149,6 +144,20 @@ class Run {
   }
 
  private:
+  // What may help where a step failed.
+  [[nodiscard]] std::string advice() const {
+    if (scene_.solver.kind == SolverKind::dynamics)
+      return why_at_start(start_, done_) + (scene_.solver.dynamics.time_step > 0
+                                                ? "; leave out dynamics.time_step, or shorten it"
+                                                : "; try a lower dynamics.safety");
+    if (done_ < 0)
+      return why_at_start(start_, 0) +
+             "; look at the loads that act from time 0 on, which load steps do not divide; "
+             "pressure "
+             "presses where it is above 0";
+    return load_advice(start_, done_);
+  }
+
   // Ends the output; `failed`: in a step after the last complete one, whose cost counts.
   void finish(bool failed = false) {
     progress_.clear();

@@ -99,8 +99,8 @@ void run_path(const PointScene& scene, const std::filesystem::path& stem, PointE
     end.cpu = cpu_seconds() - start;
     end.status = GRAINLAW_NOT_CONVERGED;
     end.text = error.what();
-    fmt::print("{}: {:.2f} s of CPU\n  ended: {}\n", scene.name, end.cpu, end.text);
     if (!scene.may_end) throw;
+    fmt::print("{}: {:.2f} s of CPU\n  ended: {}\n", scene.name, end.cpu, end.text);
     return;
   }
   Written written(stem);

@@ -124,6 +124,7 @@ PackingStart measure_start(const grainlaw_state* state, const MaterialSource& so
   const std::vector<double> sigma = measure(state, GRAINLAW_CAUCHY_STRESS);
   const bool spheres = sigma.size() == 9;
   start.pressure = spheres ? -(sigma[0] + sigma[4] + sigma[8]) / 3 : -0.5 * (sigma[0] + sigma[3]);
+  start.pressure += 0.0;  // no -0
   start.dimension = spheres ? 3 : 2;
   start.void_ratio = measure_scalar(state, GRAINLAW_VOID_RATIO);
   const Snapshot snapshot = take_snapshot(state);

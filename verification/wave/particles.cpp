@@ -3,8 +3,7 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "base/error.hpp"
-#include "material/material_file.hpp"
-#include "wave/motion.hpp"
+#include "dynamics/motion.hpp"
 #include "wave/run.hpp"
 
 #include <fmt/format.h>
@@ -15,18 +14,37 @@
 #include <utility>
 
 namespace verification {
+
+using grainlaw::core::Error;
+using grainlaw::core::WaveEnergy;
+using grainlaw::core::WaveMotion;
+using grainlaw::core::WaveSpecimen;
+
 namespace {
+
+[[noreturn]] void fail(const Error& error, const std::string& text) {
+  if (error.status > 0) throw ComputationError(text);
+  throw InputError(text);
+}
+
+// Runs an action and translates errors of src/dynamics into errors of the program.
+template <class Action>
+decltype(auto) translated(Action&& action) {
+  try {
+    return action();
+  } catch (const Error& error) {
+    fail(error, error.what());
+  }
+}
 
 std::shared_ptr<const grainlaw::core::Material<2>> inner_material(const MaterialSource& source) {
   const MaterialText description = material_text(source);
   try {
-    return grainlaw::core::make_material<2>(
-        grainlaw::core::parse_material(description.text, description.base, description.origin));
-  } catch (const grainlaw::core::Error& error) {
-    const std::string text = fmt::format("{}: {} ({})", description.origin, error.what(),
-                                         grainlaw_status_text(error.status));
-    if (error.status > 0) throw ComputationError(text);
-    throw InputError(text);
+    return grainlaw::core::material_of_discs(description.text, description.base,
+                                             description.origin);
+  } catch (const Error& error) {
+    fail(error, fmt::format("{}: {} ({})", description.origin, error.what(),
+                            grainlaw_status_text(error.status)));
   }
 }
 
@@ -102,18 +120,20 @@ WaveDomain wave_domain(const WaveCase& one) {
   return {h[0] * static_cast<double>(one.repeat),
           h[3],
           material->packing.thickness,
-          mean_density(*material),
+          grainlaw::core::mean_density(*material),
           material->space.reference_volume,
           material->packing.size()};
 }
 
 WaveRun run_particles(const WaveCase& one) {
   const auto material = inner_material(one.material);
-  const WaveSpecimen specimen = repeat_along_x(*material, one.repeat);
+  const WaveSpecimen specimen =
+      translated([&] { return grainlaw::core::repeat_along_x(*material, one.repeat); });
   const Gauges gauges(specimen, one);
   const double slice = 4 * specimen.mean_radius();
-  WaveMotion motion(specimen, material->law, one.time_step);
-  motion.settle();
+  WaveMotion motion =
+      translated([&] { return WaveMotion(specimen, material->law, one.time_step); });
+  translated([&] { motion.settle(); });
   motion.damp({one.agitation_damping, slice});
   WaveRun run;
   run.name = "dns";
@@ -128,7 +148,7 @@ WaveRun run_particles(const WaveCase& one) {
     for (long step = 0; step <= steps; ++step) {
       if (step < steps) Interrupt::check();
       const double time = static_cast<double>(step) * one.time_step;
-      if (step > 0) motion.step(-one.pulse.at(time));
+      if (step > 0) translated([&] { motion.step(-one.pulse.at(time)); });
       run.steps = step;
       if (!clock.due(step)) continue;
       WaveRow row;

@@ -65,7 +65,7 @@ void lead_wave(WaveRun& run, Lead&& lead) {
   run.wall = cost.wall();
 }
 
-// Runs the particles (wave/motion.hpp), built from the material's representative volumes.
+// Runs the particles (dynamics/motion.hpp), built from the material's representative volumes.
 WaveRun run_particles(const WaveCase& one);
 
 // Data of the particles' specimen that a mesh needs.

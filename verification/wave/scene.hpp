@@ -32,7 +32,7 @@ struct WaveCase {
   std::vector<std::array<double, 2>> windows;  // of the stress on the top, from the right end [m]
   std::vector<int> divisions;                  // of the meshes along x
   double mesh_time_step = 0;     // of the finest mesh; others in proportion to their elements [s]
-  double agitation_damping = 0;  // rate, see WaveMotion [1/s]
+  double agitation_damping = 0;  // rate, see AgitationDamping [1/s]
   int threads = 0;               // of the meshes; 0: all processors
 };
 

@@ -123,16 +123,16 @@ class RelaxationSolver final : public Solver {
       now = balance(place, time);
       residuals.push_back(now.residual);
       if (now.residual <= options_.tolerance) break;
-      if (!std::isfinite(now.residual) || iteration == options_.max_iterations)
-        return {.reason =
-                    fmt::format("dynamic relaxation did not converge in {} iterations (relative "
-                                "residual {:.1e} [-])",
-                                iteration, now.residual)};
       if (first) {
         first_internal = now.internal;
         highest = highest_frequency(points_, dofs_, mass_);
         if (highest == 0) return {.reason = "the packings have no stiffness"};
       }
+      if (!std::isfinite(now.residual) || iteration == options_.max_iterations)
+        return {.reason =
+                    fmt::format("dynamic relaxation did not converge in {} iterations (relative "
+                                "residual {:.1e} [-])",
+                                iteration, now.residual)};
       // Rayleigh quotient (eq. 26) of the displacement since the start, without the supports'.
       const Eigen::VectorXd moved = place - origin;
       const double inertia = moved.dot(mass_.cwiseProduct(moved));

@@ -8,10 +8,12 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
-namespace verification {
+namespace grainlaw::core {
 
 // Bits of WaveSpecimen::held: supported directions of a particle.
 enum Held : unsigned char { support_x = 1, support_y = 2, support_rotation = 4 };
@@ -30,7 +32,7 @@ struct WaveSpecimen {
   std::vector<char> right;          // 1: on the right end
   std::vector<unsigned char> side;  // 1: on the bottom, 2: on the top
   // Initial contact histories, ordered by (i, j).
-  std::vector<grainlaw::core::ContactHistory<2>> contacts;
+  std::vector<ContactHistory<2>> contacts;
   std::vector<double> moments;  // empty for laws without moments
   std::vector<double> gaps;     // empty unless bonds span gaps
   bool shared = false;          // bottom and top are copies that move together
@@ -48,13 +50,17 @@ struct WaveSpecimen {
   }
 };
 
+// Makes a material of discs of the text of its file. Throws Error.
+std::shared_ptr<const Material<2>> material_of_discs(std::string_view text, const std::string& base,
+                                                     const std::string& origin);
+
 // Repeats the material's representative volume `tiles` times along x, in its equilibrium at F = I.
 // Sides of a frame are its own. Sides of a periodic cell are the discs within a radius of the
-// outermost centre, and the right end repeats the left one. Throws InputError for a cell that is
-// not rectangular.
-WaveSpecimen repeat_along_x(const grainlaw::core::Material<2>& material, std::size_t tiles);
+// outermost centre, and the right end repeats the left one. Throws Error (BAD_PACKING) for a
+// cell that is not rectangular.
+WaveSpecimen repeat_along_x(const Material<2>& material, std::size_t tiles);
 
 // Mass of the representative volume over its volume [kg/m3], eq. 4.2.
-double mean_density(const grainlaw::core::Material<2>& material);
+double mean_density(const Material<2>& material);
 
-}  // namespace verification
+}  // namespace grainlaw::core

@@ -1,7 +1,8 @@
-#include "wave/specimen.hpp"
+#include "dynamics/specimen.hpp"
 
-#include "app/library.hpp"
+#include "base/error.hpp"
 #include "frame/frame.hpp"
+#include "material/material_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,18 +12,15 @@
 #include <optional>
 #include <tuple>
 
-namespace verification {
+namespace grainlaw::core {
 namespace {
-
-using Configuration = grainlaw::core::Configuration<2>;
-using grainlaw::core::Packing;
 
 // Bits of the sides of a particle in the representative volume.
 enum Side : unsigned char { bottom = 1, top = 2, left = 4, right = 8 };
 
 std::vector<unsigned char> sides_of_frame(const Packing& packing) {
-  const grainlaw::core::Frame& frame = *packing.frame;
-  const auto place = grainlaw::core::corner_indices(frame);
+  const Frame& frame = *packing.frame;
+  const auto place = corner_indices(frame);
   constexpr std::array<unsigned char, 4> around{bottom, right, top, left};
   std::vector<unsigned char> side(packing.size(), 0);
   const std::size_t count = frame.boundary.size();
@@ -60,7 +58,7 @@ class Numbering {
   Numbering(const Packing& packing, const std::vector<unsigned char>& side, std::size_t tiles)
       : n_(packing.size()), tiles_(tiles), left_twin_(n_, none) {
     if (packing.frame) {
-      const grainlaw::core::Frame& frame = *packing.frame;
+      const Frame& frame = *packing.frame;
       std::map<std::tuple<int, int, int>, std::size_t> by_place;
       for (std::size_t p = 0; p < n_; ++p)
         by_place[{frame.source[p], frame.offset[p][0], frame.offset[p][1]}] = p;
@@ -97,7 +95,7 @@ class Numbering {
   std::vector<std::size_t> left_twin_, id_;
 };
 
-void place_particles(const grainlaw::core::Material<2>& material, const Numbering& numbering,
+void place_particles(const Material<2>& material, const Numbering& numbering,
                      const std::vector<unsigned char>& side, WaveSpecimen& specimen) {
   const Packing& packing = material.packing;
   const std::vector<double>& position = material.initial.coordinates;
@@ -136,7 +134,7 @@ void join_copies(const Packing& packing, const Numbering& numbering, WaveSpecime
   std::vector<int> original(specimen.size());
   std::iota(original.begin(), original.end(), 0);
   if (specimen.shared) {
-    const grainlaw::core::Frame& frame = *packing.frame;
+    const Frame& frame = *packing.frame;
     std::map<std::array<int, 2>, std::size_t> bottom_of;
     for (std::size_t p = 0; p < packing.size(); ++p)
       if (frame.offset[p][1] == 0) bottom_of[{frame.source[p], frame.offset[p][0]}] = p;
@@ -155,17 +153,17 @@ void join_copies(const Packing& packing, const Numbering& numbering, WaveSpecime
     specimen.node[p] = specimen.node[static_cast<std::size_t>(original[p])];
 }
 
-void place_contacts(const grainlaw::core::Material<2>& material, const Numbering& numbering,
+void place_contacts(const Material<2>& material, const Numbering& numbering,
                     WaveSpecimen& specimen) {
-  const Configuration& initial = material.initial;
+  const Configuration<2>& initial = material.initial;
   struct Contact {
-    grainlaw::core::ContactHistory<2> history;
+    ContactHistory<2> history;
     double moment, gap;
   };
   std::map<std::array<std::int32_t, 2>, Contact> found;
   for (std::size_t k = 0; k <= specimen.tiles; ++k)
     for (std::size_t c = 0; c < initial.contacts.size(); ++c) {
-      grainlaw::core::ContactHistory<2> contact = initial.contacts[c];
+      ContactHistory<2> contact = initial.contacts[c];
       const auto tile = static_cast<std::ptrdiff_t>(k);
       const bool across = !material.packing.frame && contact.shift[1] != 0;
       const std::size_t i = numbering.at(tile, static_cast<std::size_t>(contact.i));
@@ -201,19 +199,25 @@ double WaveSpecimen::mean_radius() const {
   return std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(size());
 }
 
-WaveSpecimen repeat_along_x(const grainlaw::core::Material<2>& material, std::size_t tiles) {
+std::shared_ptr<const Material<2>> material_of_discs(std::string_view text, const std::string& base,
+                                                     const std::string& origin) {
+  return make_material<2>(parse_material(text, base, origin));
+}
+
+WaveSpecimen repeat_along_x(const Material<2>& material, std::size_t tiles) {
   const Packing& packing = material.packing;
   const auto& h = packing.cell;
   const double scale = std::abs(h[0]) + std::abs(h[3]);
   if (std::abs(h[1]) + std::abs(h[2]) > 1e-9 * scale)
-    throw InputError("specimen: the cell of the representative volume is not rectangular");
+    throw Error(GRAINLAW_BAD_PACKING,
+                "specimen: the cell of the representative volume is not rectangular");
   WaveSpecimen specimen;
   specimen.tiles = tiles;
   specimen.length = h[0] * static_cast<double>(tiles);
   specimen.height = h[3];
   specimen.thickness = packing.thickness;
   specimen.shared = packing.frame && packing.frame->copies[1] &&
-                    material.space.options.weight == grainlaw::core::ContactWeight::copies;
+                    material.space.options.weight == ContactWeight::copies;
   const auto side = packing.frame ? sides_of_frame(packing)
                                   : sides_of_cell(packing, material.initial.coordinates);
   const Numbering numbering(packing, side, tiles);
@@ -223,8 +227,8 @@ WaveSpecimen repeat_along_x(const grainlaw::core::Material<2>& material, std::si
   return specimen;
 }
 
-double mean_density(const grainlaw::core::Material<2>& material) {
+double mean_density(const Material<2>& material) {
   return material.packing.density * material.space.solid_volume / material.space.reference_volume;
 }
 
-}  // namespace verification
+}  // namespace grainlaw::core

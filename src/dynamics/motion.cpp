@@ -1,6 +1,6 @@
-#include "wave/motion.hpp"
+#include "dynamics/motion.hpp"
 
-#include "app/library.hpp"
+#include "base/error.hpp"
 #include "contact/contact_forces.hpp"
 #include "contact/contact_point.hpp"
 
@@ -10,19 +10,17 @@
 #include <cmath>
 #include <numeric>
 
-namespace verification {
-
-using ContactHistory = grainlaw::core::ContactHistory<2>;
-using ForceRecord = grainlaw::core::ForceRecord<2>;
+namespace grainlaw::core {
 
 namespace {
+
+using Force = ForceRecord<2>;
 
 constexpr double gap_in_radii = 0.5;  // so wide that a passing wave seldom renews the list
 
 }  // namespace
 
-WaveMotion::WaveMotion(const WaveSpecimen& specimen, const grainlaw::core::ContactLaw& law,
-                       double time_step)
+WaveMotion::WaveMotion(const WaveSpecimen& specimen, const ContactLaw& law, double time_step)
     : specimen_(&specimen),
       law_(law),
       time_step_(time_step),
@@ -57,10 +55,10 @@ WaveMotion::WaveMotion(const WaveSpecimen& specimen, const grainlaw::core::Conta
   find_forces();
   find_largest_time_step();
   if (time_step > largest_time_step_)
-    throw InputError(
-        fmt::format("time_step: found {:.3g} s, expected at most {:.3g} s, beyond which "
-                    "the particles' motion may be unstable",
-                    time_step, largest_time_step_));
+    throw Error(GRAINLAW_BAD_ARGUMENT,
+                fmt::format("time_step: found {:.3g} s, expected at most {:.3g} s, beyond which "
+                            "the particles' motion may be unstable",
+                            time_step, largest_time_step_));
 }
 
 std::vector<double> WaveMotion::coordinates() const {
@@ -84,8 +82,8 @@ void WaveMotion::list_contacts() {
       return std::tie(a.i, a.j) < std::tie(b.i, b.j);
     };
     const auto found = pairs_.size();
-    for (const ContactHistory& contact : history_) {
-      const grainlaw::core::NeighbourPair<2> pair{contact.i, contact.j, {}};
+    for (const ContactHistory<2>& contact : history_) {
+      const NeighbourPair<2> pair{contact.i, contact.j, {}};
       const auto end = pairs_.begin() + static_cast<std::ptrdiff_t>(found);
       if (contact.bonded && !std::binary_search(pairs_.begin(), end, pair, before))
         pairs_.push_back(pair);
@@ -97,9 +95,8 @@ void WaveMotion::list_contacts() {
     for (const auto& pair : pairs_)
       weights_.push_back(
           specimen_->weight(static_cast<std::size_t>(pair.i), static_cast<std::size_t>(pair.j)));
-  grainlaw::core::build_contacts<2>(pairs_, weights_, specimen_->radius, specimen_->node,
-                                    specimen_->nodes, law_, {}, {z, {}, history_, moments_, gaps_},
-                                    list_);
+  build_contacts<2>(pairs_, weights_, specimen_->radius, specimen_->node, specimen_->nodes, law_,
+                    {}, {z, {}, history_, moments_, gaps_}, list_);
 }
 
 void WaveMotion::keep_list() {
@@ -108,7 +105,9 @@ void WaveMotion::keep_list() {
     const double dx = particles_[p].x - listed_[p][0], dy = particles_[p].y - listed_[p][1];
     largest = std::max(largest, dx * dx + dy * dy);
   }
-  if (!std::isfinite(largest)) throw ComputationError("a particle has left all bounds");
+  if (!std::isfinite(largest))
+    throw Error(GRAINLAW_NOT_CONVERGED,
+                "a particle has left all bounds; try a smaller pulse.amplitude");
   if (4 * largest <= gap_ * gap_) return;
   // The new list's contacts start with the present history.
   history_.clear();
@@ -129,17 +128,17 @@ void WaveMotion::keep_list() {
 }
 
 void WaveMotion::find_forces() {
-  dissipated_ += grainlaw::core::advance_contacts<2>(particles_, law_, list_, forces_);
+  dissipated_ += advance_contacts<2>(particles_, law_, list_, forces_);
   if (law_.bonds()) break_bonds();
 }
 
 // Breaks bonds beyond their capacity at the present positions, and computes the forces again.
 void WaveMotion::break_bonds() {
-  const grainlaw::core::Bond& bond = law_.bond;
+  const Bond& bond = law_.bond;
   std::vector<std::size_t> broken;
   for (std::size_t c = 0; c < list_.size(); ++c) {
     if (!list_.bonded(c)) continue;
-    const ForceRecord& f = list_.forces[c];
+    const Force& f = list_.forces[c];
     const double fn = f.x * list_.start_normal[0][c] + f.y * list_.start_normal[1][c];
     double share =
         -fn / bond.normal_strength + std::abs(list_.start_force[0][c]) / bond.tangential_strength;
@@ -149,7 +148,7 @@ void WaveMotion::break_bonds() {
   }
   if (broken.empty()) return;
   const std::vector<double> z = coordinates();
-  const double before = grainlaw::core::stored_energy(list_, z, particles_.size(), law_);
+  const double before = stored_energy(list_, z, particles_.size(), law_);
   for (const std::size_t c : broken) {
     list_.bond_capacity[c] = 0;
     list_.rest[c] = list_.reach[c];
@@ -160,8 +159,8 @@ void WaveMotion::break_bonds() {
       if (list_.bending_stiffness[c] == 0) list_.start_moment[0][c] = 0;
     }
   }
-  grainlaw::core::advance_contacts<2>(particles_, law_, list_, forces_);
-  dissipated_ += before - grainlaw::core::stored_energy(list_, z, particles_.size(), law_);
+  advance_contacts<2>(particles_, law_, list_, forces_);
+  dissipated_ += before - stored_energy(list_, z, particles_.size(), law_);
 }
 
 void WaveMotion::settle() {
@@ -173,8 +172,8 @@ void WaveMotion::settle() {
   for (long step = 0; step < most_steps; ++step) {
     largest = 0;
     for (std::size_t q = 0; q < velocity_.size(); ++q) {
-      const ForceRecord &f = forces_[q], &w = inverse_mass_[q];
-      ForceRecord& v = velocity_[q];
+      const Force &f = forces_[q], &w = inverse_mass_[q];
+      Force& v = velocity_[q];
       // Zeroes the velocity of what moves against its force.
       const auto move = [&](double& velocity, double force, double by_mass) {
         if (by_mass == 0) return;
@@ -191,12 +190,13 @@ void WaveMotion::settle() {
     find_forces();
   }
   if (largest > rest)
-    throw ComputationError(
+    throw Error(
+        GRAINLAW_NOT_CONVERGED,
         fmt::format("the specimen did not come to rest before the wave: an unbalanced force of "
-                    "{:.3g} N is left "
-                    "after {} steps, expected at most {:.3g} N",
+                    "{:.3g} N is left after {} steps, expected at most {:.3g} N; try a longer "
+                    "time_step",
                     largest, most_steps, rest));
-  std::fill(velocity_.begin(), velocity_.end(), ForceRecord{});
+  std::fill(velocity_.begin(), velocity_.end(), Force{});
   for (std::size_t p = 0; p < particles_.size(); ++p) rest_[p] = particles_[p].x;
   dissipated_ = 0;
 }
@@ -204,8 +204,8 @@ void WaveMotion::settle() {
 void WaveMotion::step(double end_displacement) {
   const double dt = time_step_;
   for (std::size_t q = 0; q < velocity_.size(); ++q) {
-    ForceRecord& v = velocity_[q];
-    const ForceRecord &f = forces_[q], &w = inverse_mass_[q];
+    Force& v = velocity_[q];
+    const Force &f = forces_[q], &w = inverse_mass_[q];
     v.x += dt * w.x * f.x;
     v.y += dt * w.y * f.y;
     v.roll += dt * w.roll * f.roll;
@@ -227,7 +227,7 @@ void WaveMotion::step(double end_displacement) {
 
 void WaveMotion::move_particles() {
   for (std::size_t p = 0; p < particles_.size(); ++p) {
-    const ForceRecord& v = velocity_[node(p)];
+    const Force& v = velocity_[node(p)];
     particles_[p].x += time_step_ * v.x;
     particles_[p].y += time_step_ * v.y;
     particles_[p].roll += time_step_ * v.roll;
@@ -254,7 +254,7 @@ std::vector<double> WaveMotion::vertical_forces() const {
 int WaveMotion::touching() const {
   int count = 0;
   for (std::size_t c = 0; c < list_.size(); ++c) {
-    const ForceRecord& f = list_.forces[c];
+    const Force& f = list_.forces[c];
     if (f.x != 0 || f.y != 0) ++count;
   }
   return count;
@@ -284,4 +284,4 @@ void WaveMotion::find_largest_time_step() {
   largest_time_step_ = 2 / std::sqrt(square);
 }
 
-}  // namespace verification
+}  // namespace grainlaw::core

@@ -1,12 +1,12 @@
 // Energies of moving particles, and the part of the cross-sections' mean motion.
 
 #include "contact/contact_point.hpp"
-#include "wave/motion.hpp"
+#include "dynamics/motion.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace verification {
+namespace grainlaw::core {
 
 // Assigns nodes to cross-sections by their position at rest, which keeps them there.
 void WaveMotion::find_slices(double width, Slices& slices) const {
@@ -63,7 +63,7 @@ WaveEnergy WaveMotion::energy(double slice) const {
   WaveEnergy energy;
   energy.work = work_;
   energy.dissipated = dissipated_;
-  energy.stored = grainlaw::core::stored_energy(list_, coordinates(), particles_.size(), law_);
+  energy.stored = stored_energy(list_, coordinates(), particles_.size(), law_);
   for (std::size_t q = 0; q < mass_.size(); ++q) {
     // The product of velocities half a step before and after the positions is conserved.
     const auto& v = velocity_[q];
@@ -84,4 +84,4 @@ WaveEnergy WaveMotion::energy(double slice) const {
   return energy;
 }
 
-}  // namespace verification
+}  // namespace grainlaw::core

@@ -3,15 +3,15 @@
 #pragma once
 
 #include "contact/contact_list.hpp"
+#include "dynamics/specimen.hpp"
 #include "packing/neighbours.hpp"
-#include "wave/specimen.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-namespace verification {
+namespace grainlaw::core {
 
 // Energies of the specimen: work + stored at the start = kinetic + stored + dissipated.
 struct WaveEnergy {
@@ -34,15 +34,15 @@ struct AgitationDamping {
 // step behind.
 class WaveMotion {
  public:
-  // Throws InputError when the time step [s] exceeds the limit of stability.
-  WaveMotion(const WaveSpecimen& specimen, const grainlaw::core::ContactLaw& law, double time_step);
+  // Throws Error (BAD_ARGUMENT) when the time step [s] exceeds the limit of stability.
+  WaveMotion(const WaveSpecimen& specimen, const ContactLaw& law, double time_step);
 
   // Advances one time step, after which the right end has this displacement [m]. Throws
-  // ComputationError for a position that is not finite.
+  // Error (NOT_CONVERGED) for a position that is not finite.
   void step(double end_displacement);
 
   // Relaxes forces that the supports left unbalanced, before the first step. Throws
-  // ComputationError when that takes too long.
+  // Error (NOT_CONVERGED) when that takes too long.
   void settle();
   void damp(const AgitationDamping& damping) { damping_ = damping; }
 
@@ -80,28 +80,28 @@ class WaveMotion {
   [[nodiscard]] std::vector<double> coordinates() const;
 
   const WaveSpecimen* specimen_;
-  grainlaw::core::ContactLaw law_;
+  ContactLaw law_;
   double time_step_;
   AgitationDamping damping_;
   Slices slices_;  // cross-sections of the damping
   double gap_;     // largest gap of listed neighbours [m]
   double end_ = 0;
   double work_ = 0, dissipated_ = 0, largest_time_step_ = 0;
-  std::vector<grainlaw::core::ParticleRecord<2>> particles_;
+  std::vector<ParticleRecord<2>> particles_;
   // Forces, velocities and inverse masses of nodes; `roll` is R theta.
-  std::vector<grainlaw::core::ForceRecord<2>> forces_, velocity_, inverse_mass_;
+  std::vector<ForceRecord<2>> forces_, velocity_, inverse_mass_;
   std::vector<double> mass_;              // of the nodes [kg]
   std::vector<std::size_t> particle_of_;  // one particle of each node
   std::vector<std::array<double, 2>> listed_;
   std::vector<double> rest_;  // x at rest, before the wave [m]
   std::vector<std::size_t> right_;
   // Contact history from which the next list starts.
-  std::vector<grainlaw::core::ContactHistory<2>> history_;
+  std::vector<ContactHistory<2>> history_;
   std::vector<double> moments_, gaps_;
-  grainlaw::core::NeighbourSearch<2> search_;
-  std::vector<grainlaw::core::NeighbourPair<2>> pairs_;
+  NeighbourSearch<2> search_;
+  std::vector<NeighbourPair<2>> pairs_;
   std::vector<double> weights_;
-  grainlaw::core::ContactList<2> list_;
+  ContactList<2> list_;
 };
 
-}  // namespace verification
+}  // namespace grainlaw::core
