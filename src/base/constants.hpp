@@ -202,9 +202,9 @@ GRAINLAW_TUNED(int, most_products, 400);
 
 // Stiffness of the springs over the mean contact force per radius [-]. @formula viscous; chosen.
 template <int D>
-GRAINLAW_TUNED(double, drag_stiffness, (D == 2 ? 1.0 : 3.0));
+GRAINLAW_TUNED(double, drag_stiffness, (D == 2 ? 1.0 : 2.0));
 // Share of a contact's stiffness that the springs have without forces [-]; chosen.
-GRAINLAW_TUNED(double, drag_floor, 1e-3);
+GRAINLAW_TUNED(double, drag_floor, 5e-4);
 // Share of their stiffness that the springs have where the strain turns back [-]; chosen.
 GRAINLAW_TUNED(double, drag_of_reversal, 0.1);
 // Mean strain rate over the viscous number below which nothing turns back [-]; chosen.

@@ -36,6 +36,44 @@ Tensor<D> by_deformation(const Request<D>& request, const Tensor<D>& by_strain) 
   return result;
 }
 
+// Strain of an increment and the mean strain rate before it.
+template <int D>
+struct Straining {
+  Tensor<D> strain, mean;
+  double size = 0;      // of the strain
+  double duration = 0;  // [memories]
+  bool timed = false;   // by the host
+};
+
+// Share of stiffness and of rates that drag keeps, which is 1 where the strain rate does not reverse,
+// and the derivative of its logarithm by the strain.
+template <int D>
+struct Reversal {
+  double share = 1;
+  Tensor<D> log_by_strain{};
+};
+
+// `kept`: share at a full reversal. `slowest`: rate below which the mean counts for little
+// [1 / memory].
+template <int D>
+Reversal<D> reversal_of(const Straining<D>& at, double kept, double slowest) {
+  Reversal<D> result;
+  const double square = inner<D>(at.mean, at.mean) + slowest * slowest;
+  if (!(square > 0)) return result;
+  const double along = inner<D>(at.strain, at.mean) / at.duration;
+  const double reversed = std::clamp(-along / square, 0.0, 1.0);
+  result.share = 1 - (1 - kept) * reversed * reversed * (3 - 2 * reversed);
+  if (reversed == 0 || reversed == 1) return result;
+  const double slope = (1 - kept) * 6 * reversed * (1 - reversed) / (result.share * square);
+  for (std::size_t k = 0; k < squared<D>; ++k) {
+    result.log_by_strain[k] = slope * at.mean[k] / at.duration;
+    if (!at.timed) {
+      result.log_by_strain[k] -= slope * along * 0.5 * at.strain[k] / (at.size * at.size);
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 template <int D>
@@ -44,54 +82,44 @@ DragStart<D> start_drag(const Request<D>& request, int parts, Increment<D>& incr
   const auto& stress = request.from->stress;
   increment.find_first_drag(
       std::any_of(stress.begin(), stress.end(), [](double p) { return p != 0; }));
-  const Viscosity& viscosity = request.options->viscosity;
-  Tensor<D> strain =
-      symmetric<D>(product<D>(request.deformation, inverse<D>(request.from->deformation)));
-  for (std::size_t k = 0; k < D; ++k) strain[(D + 1) * k] -= 1;
-  const double size = std::sqrt(0.5 * inner<D>(strain, strain));
-  const bool timed = request.duration != by_strain;
-  const double duration = timed ? request.duration : size / viscosity.number;
+  const double number = request.options->viscosity.number;
+  Straining<D> at;
+  at.strain = symmetric<D>(product<D>(request.deformation, inverse<D>(request.from->deformation)));
+  for (std::size_t k = 0; k < D; ++k) at.strain[(D + 1) * k] -= 1;
+  at.mean = request.from->strain_rate;
+  at.size = std::sqrt(0.5 * inner<D>(at.strain, at.strain));
+  at.timed = request.duration != by_strain;
+  at.duration = at.timed ? request.duration : at.size / number;
 
+  // A packing whose forces fade needs all of its drag.
+  const double kept = may_fade(request, increment) ? 1 : tuned::drag_of_reversal;
+  Reversal<D> reversal;
+  if (at.duration > 0 && at.size > 0) {
+    reversal = reversal_of<D>(at, kept, tuned::slowest_drag_rate * number);
+  }
   DragStart<D> how;
-  how.duration = std::min(duration / parts, tuned::longest_drag);
+  const double radius = 0.5 * increment.motion().mean_branch();
+  how.stiffness = reversal.share * tuned::drag_stiffness<D> *
+                  (increment.scale().mean_force() / radius +
+                   tuned::drag_floor * request.problem->law->stiffness(radius, radius));
+  how.duration = std::min(reversal.share * at.duration / parts, tuned::longest_drag);
   const double bend = std::tanh(how.duration / tuned::longest_follow);
   how.follow = tuned::longest_follow * bend;
   how.follow_by_duration = 1 - bend * bend;
   for (std::size_t k = 0; k < how.turn.size(); ++k) how.turn[k] = request.turn[k] / parts;
-  const Tensor<D>& mean = request.from->strain_rate;
   for (std::size_t k = 0; k < squared<D>; ++k) {
-    how.strain_rate[k] = (mean[k] + strain[k]) / (1 + duration);
+    how.strain_rate[k] = (at.mean[k] + at.strain[k]) / (1 + at.duration);
   }
-  const bool fading = may_fade(request, increment);
-  const double radius = 0.5 * increment.motion().mean_branch();
-  how.stiffness = tuned::drag_stiffness<D> *
-                  (increment.scale().mean_force() / radius +
-                   tuned::drag_floor * request.problem->law->stiffness(radius, radius));
-  if (!(duration > 0) || !(size > 0)) return how;
+  if (!(at.duration > 0) || !(at.size > 0)) return how;
 
-  if (!timed && how.duration < tuned::longest_drag) {
-    Tensor<D> by_strain = strain;
-    for (double& value : by_strain) value *= 0.5 / (size * viscosity.number * parts);
-    how.duration_by_F = by_deformation<D>(request, by_strain);
-  }
-  // Strain rate against its mean, -1 at a full reversal.
-  const double slowest = tuned::slowest_drag_rate * viscosity.number;
-  const double square = inner<D>(mean, mean) + slowest * slowest;
-  if (!(square > 0)) return how;
-  const double along = inner<D>(strain, mean) / duration;
-  const double turned = std::clamp(-along / square, 0.0, 1.0);
-  // A packing whose forces fade needs all of its drag.
-  const double drop = fading ? 0 : 1 - tuned::drag_of_reversal;
-  const double share = 1 - drop * turned * turned * (3 - 2 * turned);
-  how.stiffness *= share;
-  if (turned == 0 || turned == 1) return how;
-  const double slope = drop * 6 * turned * (1 - turned) / (share * square);
-  Tensor<D> by_strain;
+  how.log_stiffness_by_F = by_deformation<D>(request, reversal.log_by_strain);
+  if (how.duration == tuned::longest_drag) return how;
+  Tensor<D> duration_by_strain = reversal.log_by_strain;
   for (std::size_t k = 0; k < squared<D>; ++k) {
-    by_strain[k] = slope * mean[k] / duration;
-    if (!timed) by_strain[k] -= slope * along * 0.5 * strain[k] / (size * size);
+    if (!at.timed) duration_by_strain[k] += 0.5 * at.strain[k] / (at.size * at.size);
+    duration_by_strain[k] *= how.duration;
   }
-  how.log_stiffness_by_F = by_deformation<D>(request, by_strain);
+  how.duration_by_F = by_deformation<D>(request, duration_by_strain);
   return how;
 }
 
