@@ -92,7 +92,9 @@ DragStart<D> start_drag(const Request<D>& request, int parts, Increment<D>& incr
   at.duration = at.timed ? request.duration : at.size / number;
 
   // A packing whose forces fade needs all of its drag.
-  const double kept = may_fade(request, increment) ? 1 : tuned::drag_of_reversal;
+  const bool fading = may_fade(request, increment);
+  const double kept = fading ? 1 : tuned::drag_of_reversal;
+  const double floor = fading ? tuned::fading_drag_floor : tuned::drag_floor;
   Reversal<D> reversal;
   if (at.duration > 0 && at.size > 0) {
     reversal = reversal_of<D>(at, kept, tuned::slowest_drag_rate * number);
@@ -101,7 +103,7 @@ DragStart<D> start_drag(const Request<D>& request, int parts, Increment<D>& incr
   const double radius = 0.5 * increment.motion().mean_branch();
   how.stiffness = reversal.share * tuned::drag_stiffness<D> *
                   (increment.scale().mean_force() / radius +
-                   tuned::drag_floor * request.problem->law->stiffness(radius, radius));
+                   floor * request.problem->law->stiffness(radius, radius));
   how.duration = std::min(reversal.share * at.duration / parts, tuned::longest_drag);
   const double bend = std::tanh(how.duration / tuned::longest_follow);
   how.follow = tuned::longest_follow * bend;
