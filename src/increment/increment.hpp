@@ -89,7 +89,7 @@ class Increment {
   // The answer then does not depend on what equilibrium leaves open.
   void continue_history();
   // Finds the directions in which contacts or the boundary support a node, as fixed_bit() of each.
-  void find_supported(std::vector<unsigned char>& held) const;
+  void find_supported(std::vector<unsigned char>& supported) const;
 
   // Computes the drag and the force scale at the start of an increment, before its first part
   // begins. Without stress there is no drag.
@@ -181,7 +181,7 @@ class Increment {
   Losses losses_;
   std::vector<ForceRecord<D>> forces_;
   std::vector<double> residual_;
-  std::vector<unsigned char> held_;  // supported directions of nodes, as found last
+  std::vector<unsigned char> supported_;  // supported directions of nodes, as found last
   bool released_ = false;
   struct Nothing {};
   [[no_unique_address]] std::conditional_t<D == 3, TwoContactSpheres, Nothing> two_contact_spheres_;

@@ -62,22 +62,23 @@ void Increment<D>::advance_history() {
 template <int D>
 void Increment<D>::continue_history() {
   advance_contacts_and_history();
-  find_supported(held_);
-  motion_.start_here(held_);
+  find_supported(supported_);
+  motion_.start_here(supported_);
   build_list();
 }
 
 template <int D>
-void Increment<D>::find_supported(std::vector<unsigned char>& held) const {
+void Increment<D>::find_supported(std::vector<unsigned char>& supported) const {
   const auto& space = *problem_->space;
-  held.assign(problem_->nodes(), 0);
-  if (motion_.drag().acts()) return std::fill(held.begin(), held.end(), fixed_translation<D>);
+  supported.assign(problem_->nodes(), 0);
+  if (motion_.drag().acts())
+    return std::fill(supported.begin(), supported.end(), fixed_translation<D>);
   for (std::size_t q = 0; q < space.fixed.size(); ++q)
-    held[q] = space.fixed[q] & fixed_translation<D>;
+    supported[q] = space.fixed[q] & fixed_translation<D>;
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     if (!bears_load(c)) continue;
-    held[static_cast<std::size_t>(space.node[static_cast<std::size_t>(contacts_.i[c])])] =
-        held[static_cast<std::size_t>(space.node[static_cast<std::size_t>(contacts_.j[c])])] =
+    supported[static_cast<std::size_t>(space.node[static_cast<std::size_t>(contacts_.i[c])])] =
+        supported[static_cast<std::size_t>(space.node[static_cast<std::size_t>(contacts_.j[c])])] =
             fixed_translation<D>;
   }
 }
@@ -85,15 +86,15 @@ void Increment<D>::find_supported(std::vector<unsigned char>& held) const {
 template <int D>
 int Increment<D>::released_particle() {
   const auto& space = *problem_->space;
-  held_.assign(problem_->nodes(), 0);
+  supported_.assign(problem_->nodes(), 0);
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     if (overlap(c) <= 0) continue;
-    held_[static_cast<std::size_t>(space.node[static_cast<std::size_t>(contacts_.i[c])])] = 1;
-    held_[static_cast<std::size_t>(space.node[static_cast<std::size_t>(contacts_.j[c])])] = 1;
+    supported_[static_cast<std::size_t>(space.node[static_cast<std::size_t>(contacts_.i[c])])] = 1;
+    supported_[static_cast<std::size_t>(space.node[static_cast<std::size_t>(contacts_.j[c])])] = 1;
   }
   for (const auto& average : space.average) {
     for (const auto q : average.node) {
-      if (held_[static_cast<std::size_t>(q)]) continue;
+      if (supported_[static_cast<std::size_t>(q)]) continue;
       return static_cast<int>(std::find(space.node.begin(), space.node.end(), q) -
                               space.node.begin());
     }

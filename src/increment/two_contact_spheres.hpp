@@ -81,7 +81,7 @@ class TwoContactSpheres {
   std::vector<TwoContactSphere> spheres_;
   std::vector<unsigned char> count_;  // contacts of a node, at most three
   std::vector<std::array<std::size_t, 2>> contact_;
-  std::vector<std::size_t> place_;  // index of a node in spheres_
+  std::vector<std::size_t> index_;  // index of a node in spheres_
   std::vector<std::array<Limit, 2>> limits_;
   bool arbitrary_ = false;
 };

@@ -34,11 +34,11 @@ Configuration<D> given_configuration(const Material<D>& material) {
   if (material.law.rotating()) append_zero_rotations<D>(n, given.coordinates);
   for (const auto& contact : packing.contacts) {
     ContactHistory<D> history;
-    const bool turn = is_named_from_j(contact);
-    history.i = turn ? contact.j : contact.i;
-    history.j = turn ? contact.i : contact.j;
+    const bool swapped = is_named_from_j(contact);
+    history.i = swapped ? contact.j : contact.i;
+    history.j = swapped ? contact.i : contact.j;
     for (std::size_t k = 0; k < D; ++k) {
-      history.shift[k] = static_cast<std::int16_t>(turn ? -contact.shift[k] : contact.shift[k]);
+      history.shift[k] = static_cast<std::int16_t>(swapped ? -contact.shift[k] : contact.shift[k]);
     }
     history.tangential_force = given_force<D>(packing, contact);
     given.contacts.push_back(history);

@@ -189,7 +189,7 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
 
   const Problem<D> problem = material.problem();
   Request<D> request{&problem, &material.solver, &committed_, split.target};
-  request.turn = split.turn;
+  request.turn = split.rotation_vector;
   request.tolerance = material.solver.tolerance;
   request.loose_tolerance = material.solver.loose_tolerance;
   request.sensitivities = kind == TangentKind::exact;

@@ -174,8 +174,8 @@ bool BorderedSystem::solve(Increment<2>& increment, Stiffness<2>& stiffness, dou
   if (!eliminate(values)) return false;
   const auto nodes = increment.problem().nodes();
   const std::size_t b = increment.problem().node_unknowns() / nodes;
-  const auto response = [&](std::size_t column, std::size_t place) {
-    return response_[column / lanes][place].lane[column % lanes];
+  const auto response = [&](std::size_t column, std::size_t row) {
+    return response_[column / lanes][row].lane[column % lanes];
   };
   for (std::size_t q = 0; q < nodes; ++q) {
     for (std::size_t k = 0; k < b; ++k) {

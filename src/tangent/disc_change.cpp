@@ -14,9 +14,9 @@ GRAINLAW_INLINE Lanes load(const double* from) { return simd::load<4>(from); }
 // Data that all contacts share, and the arrays they write to.
 struct ContactLoop {
   std::span<const TouchingContact<2>> touching;
-  Tensor<2> inverse;        // F^-1
-  const Quad* deformation;  // change of F
-  const Quad* start_turn;   // per listed contact; null before the first history
+  Tensor<2> inverse;           // F^-1
+  const Quad* deformation;     // change of F
+  const Quad* start_rotation;  // per listed contact; null before the first history
   const Quad* start_force;
   const double* tangential_stiffness;
   const Increment<2>* bound_to_axes;  // null: branches are pulled back
@@ -28,7 +28,7 @@ ContactLoop contact_loop(const Increment<2>& increment,
   return {touching,
           inverse<2>(increment.motion().deformation()),
           change.data(),
-          history.turn,
+          history.rotation,
           history.force,
           increment.contacts().tangential_stiffness.data(),
           increment.problem().space->bound_to_axes() ? &increment : nullptr};
@@ -73,10 +73,10 @@ GRAINLAW_INLINE Lanes change_of(const ContactLoop& loop, const TouchingContact<2
   const Lanes along_n = s[0] * normal + s[1] * tangential + s[2] * rotation;
   Lanes along_t = s[3] * normal + s[4] * tangential + s[5] * rotation;
   Lanes couple = s[6] * normal + s[7] * tangential + s[8] * rotation;
-  if (loop.start_turn != nullptr && point.status != ContactStatus::sliding) {
+  if (loop.start_rotation != nullptr && point.status != ContactStatus::sliding) {
     const Lanes by_history = load(loop.start_force[contact.index].lane) -
                              loop.tangential_stiffness[contact.index] * point.distance *
-                                 load(loop.start_turn[contact.index].lane);
+                                 load(loop.start_rotation[contact.index].lane);
     along_t += by_history;
     couple += point.distance * by_history;
   }

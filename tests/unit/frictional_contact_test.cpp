@@ -123,7 +123,7 @@ TEST(frictional_contact, rigid_rotation_changes_nothing) {
     Discs discs = pair(rough(), 20);
     rotate(discs, angle);
     const auto point = discs.point();
-    EXPECT_NEAR(point.turn, 0, 1e-15);
+    EXPECT_NEAR(point.slip_angle, 0, 1e-15);
     EXPECT_NEAR(point.tangential_force, 20, 1e-11);
     EXPECT_NEAR(point.normal_force, kn * 0.1, 1e-11);
   }
