@@ -1,6 +1,7 @@
 #include "homogenise/stress.hpp"
 
 #include "contact/contact_point.hpp"
+#include "increment/contact_state.hpp"
 
 #include <cmath>
 
@@ -17,7 +18,7 @@ void for_each_contact(const Increment<D>& increment, Visit&& visit) {
                                      increment.problem().particles(), *increment.problem().law);
     if (point.status == ContactStatus::open) continue;
     visit(c, point,
-          increment.problem().space->bound_to_axes() ? increment.fixed_branch(c)
+          increment.problem().space->bound_to_axes() ? fixed_branch_of(increment, c)
                                                      : product<D>(pull_back, point.branch));
   }
 }

@@ -6,6 +6,7 @@
 #include "frame/frame_space.hpp"
 #include "generate/compaction.hpp"
 #include "homogenise/stress.hpp"
+#include "increment/contact_state.hpp"
 #include "material/given_contacts.hpp"
 #include "material/initial_stress.hpp"
 #include "material/start_advice.hpp"
@@ -224,7 +225,7 @@ std::shared_ptr<const Material<D>> make_material(MaterialDescription description
         std::max(problem.force_floor, relative_floor * force_as_given(problem, given, workspace));
   }
   const auto outcome = solve(request, workspace);
-  const bool free = outcome.status == GRAINLAW_OK && !workspace.increment.loaded();
+  const bool free = outcome.status == GRAINLAW_OK && !loaded(workspace.increment);
   if (outcome.status == GRAINLAW_CONTACTS_LOST || (free && !may_be_free)) {
     throw Error(GRAINLAW_CONTACTS_LOST,
                 "the packing has no contacts at F = I; expected one that carries stress, or "

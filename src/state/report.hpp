@@ -3,8 +3,11 @@
 
 #include <grainlaw/grainlaw.h>
 #include "base/constants.hpp"
+#include "equilibrium/request.hpp"
 #include "increment/increment.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace grainlaw::core {
@@ -46,6 +49,28 @@ void add_drag(const Increment<D>& increment, grainlaw_report& report) {
              "drag carries part of the load (unbalanced above 0.1); a smaller "
              "solver.viscous_number lowers it");
   }
+}
+
+// Cost, residual and drag of an increment, whether it was solved or not.
+template <int D>
+void add_outcome(const Increment<D>& increment, const Outcome& outcome, grainlaw_report& report) {
+  add_cost(increment, report);
+  report.step_ratio = outcome.step_ratio;
+  report.subincrements = outcome.subincrements;
+  report.history_advanced = outcome.history_advanced ? 1 : 0;
+  report.residual = increment.residual_norm();
+  add_drag(increment, report);
+}
+
+// Counts of contacts and bonds at the end of an increment.
+template <int D>
+void add_contacts(const Increment<D>& increment, const Configuration<D>& before,
+                  const Configuration<D>& after, grainlaw_report& report) {
+  report.broken_bonds = static_cast<int>(std::lround(increment.losses().broken_bonds()));
+  report.contacts = static_cast<int>(after.contacts.size());
+  report.sliding = static_cast<int>(std::count_if(after.contacts.begin(), after.contacts.end(),
+                                                  [](const auto& c) { return c.sliding; }));
+  report.status_changes = status_changes(before, after);
 }
 
 }  // namespace grainlaw::core

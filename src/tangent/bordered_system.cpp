@@ -1,6 +1,7 @@
 #include "tangent/bordered_system.hpp"
 
 #include "base/capacity.hpp"
+#include "increment/contact_state.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -83,7 +84,7 @@ BorderedSystem::Values BorderedSystem::values_of(const Increment<2>& increment,
   }
   if (!space.finds_deformation) return values;
   for (std::size_t c = 0; c < touching.size(); ++c) {
-    const auto branch = increment.fixed_branch(touching[c].index);
+    const auto branch = fixed_branch_of(increment, touching[c].index);
     for (std::size_t f = 0; f < size_; ++f) {
       const auto& column = columns_[f];
       if (column.kind != Kind::deformation) continue;

@@ -1,6 +1,8 @@
 // Changes of the contacts of discs.
 #include "tangent/contact_change.hpp"
 
+#include "increment/contact_state.hpp"
+
 namespace grainlaw::core {
 
 namespace {
@@ -38,7 +40,7 @@ ContactLoop contact_loop(const Increment<2>& increment,
 GRAINLAW_INLINE Vec<2> reference_branch(const ContactLoop& loop,
                                         const TouchingContact<2>& contact) {
   return loop.bound_to_axes == nullptr ? product<2>(loop.inverse, contact.point.branch)
-                                       : loop.bound_to_axes->fixed_branch(contact.index);
+                                       : fixed_branch_of(*loop.bound_to_axes, contact.index);
 }
 
 // Computes the change of one contact and returns that of the couple d ft. With `motion` null only

@@ -2,6 +2,7 @@
 #include "tangent/disc_history.hpp"
 #include "base/capacity.hpp"
 #include "contact/contact_point.hpp"
+#include "increment/contact_state.hpp"
 #include "packing/geometry.hpp"
 
 #include <cmath>
@@ -48,7 +49,7 @@ void HistoryDerivatives<2>::carry(const Increment<2>& increment,
   carried_force_.clear();
   carried_moment_.clear();
   for (std::size_t c = 0; c < list.size(); ++c) {
-    if (!increment.bears_load(c)) continue;
+    if (!bears_load(increment, c)) continue;
     const auto k = static_cast<std::size_t>(index[c]);
     ByDeformation<2> force = changes[k].tangential_force[0];
     for (double& value : force.lane) value /= list.weight_of(c);
@@ -87,8 +88,8 @@ void HistoryDerivatives<2>::start(const Increment<2>& increment,
     const auto j = static_cast<std::size_t>(list.j[c]);
     const auto [lx, ly] = branches.of(c);
     const double d2 = lx * lx + ly * ly;
-    const Vec<2> reference =
-        bound_to_axes ? increment.fixed_branch(c) : product<2>(branches.inverse, Vec<2>{lx, ly});
+    const Vec<2> reference = bound_to_axes ? fixed_branch_of(increment, c)
+                                           : product<2>(branches.inverse, Vec<2>{lx, ly});
     const auto* zi = &motion[static_cast<std::size_t>(node[i]) * b];
     const auto* zj = &motion[static_cast<std::size_t>(node[j]) * b];
     for (std::size_t k = 0; k < width; ++k) {
@@ -127,7 +128,7 @@ void HistoryDerivatives<2>::rescale(const Increment<2>& increment) {
   const StartBranches branches(increment);
   for (std::size_t c = 0; c < list.size(); ++c) {
     const double overlap = list.reach[c] - length<2>(branches.of(c));
-    const double scale = start_scale(increment.overlap(c), law);
+    const double scale = start_scale(overlap_of(increment, c), law);
     for (std::size_t k = 0; k < width; ++k) {
       // A contact that was open has no spring.
       const double shift = overlap > 0 ? 0.25 * overlap_[c].lane[k] / overlap : 0;

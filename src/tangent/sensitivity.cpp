@@ -1,6 +1,7 @@
 #include "tangent/sensitivity.hpp"
 
 #include "base/capacity.hpp"
+#include "increment/contact_state.hpp"
 
 #include <algorithm>
 
@@ -131,7 +132,7 @@ void Sensitivity<D>::carry_motion(const Increment<D>& increment) {
     push_forward<D>(increment.motion().deformation(), increment.motion().start_deformation(), b,
                     carried_motion_);
   }
-  increment.find_supported(supported_);
+  find_supported(increment, supported_);
   for (std::size_t k = 0; k < D; ++k) {
     simd::Lanes<width> sum{};
     double count = 0;

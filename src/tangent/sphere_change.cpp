@@ -1,6 +1,8 @@
 // Changes of the contacts of spheres.
 #include "tangent/contact_change.hpp"
 
+#include "increment/contact_state.hpp"
+
 namespace grainlaw::core {
 
 namespace {
@@ -165,7 +167,7 @@ Lanes dot(const Vec<3>& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] +
 Lanes excess_change(const Loop& loop, const TwoContactSpheres::TwoContactSphere& sphere) {
   const auto& motion = loop.increment.motion();
   if (sphere.stopped()) {
-    const Vec<3> branch = loop.increment.branch(sphere.third);
+    const Vec<3> branch = branch_of(loop.increment, sphere.third);
     return sphere.third_side *
            dot(sphere.by_third,
                product(loop.change, grainlaw::core::product<3>(loop.pull_back, branch)));

@@ -3,6 +3,7 @@
 
 #include "base/capacity.hpp"
 #include "contact/contact_point.hpp"
+#include "increment/contact_state.hpp"
 #include "packing/geometry.hpp"
 
 #include <cmath>
@@ -18,7 +19,7 @@ void HistoryDerivatives<3>::carry(const Increment<3>& increment,
   carried_force_.clear();
   carried_moment_.clear();
   for (std::size_t c = 0; c < list.size(); ++c) {
-    if (!increment.bears_load(c)) continue;
+    if (!bears_load(increment, c)) continue;
     const auto k = static_cast<std::size_t>(index[c]);
     const auto keep = [&](const TripleByDeformation& change, std::vector<TripleByDeformation>& to) {
       to.push_back(change);

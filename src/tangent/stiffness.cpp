@@ -6,6 +6,7 @@
 #include <limits>
 #include "base/capacity.hpp"
 #include "base/constants.hpp"
+#include "increment/contact_state.hpp"
 
 namespace grainlaw::core {
 
@@ -25,7 +26,7 @@ void Stiffness<D>::find_touching(const Increment<D>& increment) {
   const auto& law = *increment.problem().law;
   touching_.clear();
   for (std::size_t c = 0; c < list.size(); ++c) {
-    if (increment.surely_open(c)) continue;
+    if (surely_open(increment, c)) continue;
     const auto point = contact_point(list, c, increment.motion().coordinates(),
                                      increment.problem().particles(), law);
     if (point.status == ContactStatus::open) continue;
@@ -75,7 +76,8 @@ void Stiffness<D>::find_graph(const Increment<D>& increment) {
   resize_with_capacity(edge_of_contact_, list.size());
   std::fill(edge_of_contact_.begin(), edge_of_contact_.end(), not_in_graph);
   for (std::size_t c = 0; c < list.size(); ++c) {
-    if (increment.overlap(c) < -0.5 * tuned::graph_gap * list.reach[c] && !list.bonded(c)) continue;
+    if (overlap_of(increment, c) < -0.5 * tuned::graph_gap * list.reach[c] && !list.bonded(c))
+      continue;
     const auto [a, b] = std::minmax(node[static_cast<std::size_t>(list.i[c])],
                                     node[static_cast<std::size_t>(list.j[c])]);
     edge_of_contact_[c] = on_the_diagonal;
