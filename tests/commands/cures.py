@@ -163,6 +163,15 @@ CASES = {
         "displacement in place of a load that the body may not carry",
         [('[[pressure]]\non = "top"\nvalue = 100e3\n', ""), ('[[traction]]', '[[displacement]]'),
          ("value = -500e3", "value = -0.02"), ("steps = 4", "steps = 20")]),
+    "a_band_whose_packings_lose_their_contacts": (
+        "solve", solve("".join(held(on, c) for on, c in (("bottom", "x"), ("bottom", "y"), ("top", "x")))
+                       + held("top", "y", -7.2e-3) + SIDES, "steps = 20\n",
+                       RANDOM.replace("[4e-3, 9e-3], seed = 3", "[2e-3, 4e-3], seed = 10")
+                       .replace(", friction = 0.3", "").replace("friction = 0.5 ", "friction = 0.5463 "),
+                       "solver = { viscous_number = 1e-3 }\n")
+        .replace("[0.5, 1.0]", "[0.06, 0.12]").replace("[1, 1]", '[2, 4]\nelement = "q4r"'),
+        "the packing lost its contacts; it carries no stress; try more particles, or solver.contacts_lost",
+        [("count = 30", "count = 60")]),
     "a_newton_iteration_of_few_iterations": (
         "solve", solve(PRESSED + held("top", "y", -1e-2), "steps = 1\n", material=RANDOM)
         + "[newton]\nmax_iterations = 1\nmax_cuts = 0\n",

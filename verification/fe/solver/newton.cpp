@@ -209,7 +209,8 @@ class NewtonSolver final : public Solver {
                   double& share, double time, double before, int halvings) {
     for (int halving = 0;; ++halving, share *= 0.5) {
       const Eigen::VectorXd tried = displacement + share * correction;
-      const bool reached = points_.evaluate(tried, options_.tangent, threads_) == GRAINLAW_OK;
+      const grainlaw_status status = points_.evaluate(tried, options_.tangent, threads_);
+      const bool reached = status == GRAINLAW_OK;
       if (reached) {
         System found = assemble(model_, points_, tried, time);
         const double residual = dofs_.reduce(found.residual).norm() / found.scale;
@@ -220,7 +221,8 @@ class NewtonSolver final : public Solver {
         }
       }
       if (halving < halvings) continue;
-      if (!reached) return {.ratio = points_.step_ratio(), .reason = points_.message()};
+      if (!reached)
+        return {.ratio = points_.step_ratio(), .reason = points_.message(), .status = status};
       return {.reason =
                   fmt::format("{} halvings of a correction did not lower the residual", halvings)};
     }

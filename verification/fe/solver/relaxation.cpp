@@ -118,8 +118,8 @@ class RelaxationSolver final : public Solver {
     for (int iteration = 0;; ++iteration) {
       const bool first = iteration == 0;
       const unsigned want = first ? unsigned{GRAINLAW_WANT_TANGENT_ELASTIC} : 0U;
-      if (points_.evaluate(displacement, want, threads_) != GRAINLAW_OK)
-        return {.ratio = points_.step_ratio(), .reason = points_.message()};
+      if (const auto status = points_.evaluate(displacement, want, threads_); status != GRAINLAW_OK)
+        return {.ratio = points_.step_ratio(), .reason = points_.message(), .status = status};
       now = balance(displacement, time);
       residuals.push_back(now.residual);
       if (now.residual <= options_.tolerance) break;
