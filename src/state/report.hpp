@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
+#include <vector>
 
 namespace grainlaw::core {
 
@@ -60,6 +62,26 @@ void add_outcome(const Increment<D>& increment, const Outcome& outcome, grainlaw
   report.history_advanced = outcome.history_advanced ? 1 : 0;
   report.residual = increment.residual_norm();
   add_drag(increment, report);
+}
+
+// Number of nodes with a contact now and none before. `marks`: memory for the nodes that had one.
+template <int D>
+int newly_loaded(const BoundarySpace<D>& space, const Configuration<D>& before,
+                 const Configuration<D>& after, std::vector<unsigned char>& marks) {
+  marks.assign(space.nodes, 0);
+  int count = 0;
+  const auto mark = [&](const Configuration<D>& at, int counts) {
+    for (const auto& contact : at.contacts) {
+      for (const auto p : {contact.i, contact.j}) {
+        auto& marked = marks[static_cast<std::size_t>(space.node[static_cast<std::size_t>(p)])];
+        count += marked == 0 ? counts : 0;
+        marked = 1;
+      }
+    }
+  };
+  mark(before, 0);
+  mark(after, 1);
+  return count;
 }
 
 // Counts of contacts and bonds at the end of an increment.

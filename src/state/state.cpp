@@ -268,6 +268,9 @@ void State<D>::keep_trial(const Outcome& outcome, Workspace<D>& w, grainlaw_repo
   trial_loose_ = outcome.loose;
   trial_advanced_ = outcome.history_advanced;
   add_contacts(w.increment, committed_, trial_, report);
+  // Drag, and the file of a packing, say where a particle without contacts is.
+  if (!drag.acts() && committed_.coordinates != material_->initial.coordinates)
+    report.rattlers_loaded = newly_loaded(material_->space, committed_, trial_, w.loaded);
 }
 
 // Rotates the trial and the answer with the increment.
