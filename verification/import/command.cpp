@@ -101,10 +101,12 @@ double pressure_of(const std::vector<double>& sigma) {
 }
 
 State equilibrium(MaterialSource& source, const ImportArguments& arguments, int dimension) {
-  State state(make_material(source, dimension));
   if (!(arguments.pressure > 0) || source.changes["contact"]["young"].value_or(0.0) == 0)
-    return state;
-  // Forces of linear contacts are as their stiffness.
+    return State(make_material(source, dimension));
+  // Forces of linear contacts are as their stiffness. Particles that do not press are told below.
+  MaterialSource measured = source;
+  measured.changes.insert("solver", toml::table{{"contacts_lost", "stress_free"}});
+  const State state(make_material(measured, dimension));
   const double now = pressure_of(measure(state.get(), GRAINLAW_CAUCHY_STRESS));
   if (!(now > 0))
     throw InputError(
