@@ -164,6 +164,9 @@ typedef struct grainlaw_report {
                              normal force, 0 at equilibrium [-] */
   double viscous_work;    /* with solver.viscous_number: work done on the drag, of which its springs
                              and masses store a part [J] */
+  int rattlers_loaded;    /* particles that bear now and were left without a contact by an earlier
+                             increment [-]. Rounding decides where such a particle is, and P with
+                             it: P(Q F) differs from Q P(F). 0 with solver.viscous_number */
 } grainlaw_report;
 
 /* A report with its size set and zeros elsewhere. */

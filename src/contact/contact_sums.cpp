@@ -47,10 +47,10 @@ void ContactSums<D>::arrange(std::span<const std::int32_t> i, std::span<const st
   // Nodes sorted by their contacts as i, then as j, by counting: first by j, then by i.
   const auto sort_by = [&](const std::vector<std::uint32_t>& count,
                            const std::vector<std::uint32_t>& from, std::vector<std::uint32_t>& to) {
-    zeroes(places_, std::size_t{most} + 2);
-    for (std::size_t q = 0; q < nodes; ++q) ++places_[count[q] + 1];
-    for (std::size_t k = 1; k < places_.size(); ++k) places_[k] += places_[k - 1];
-    for (const std::uint32_t q : from) to[places_[count[q]]++] = q;
+    zeroes(ends_, std::size_t{most} + 2);
+    for (std::size_t q = 0; q < nodes; ++q) ++ends_[count[q] + 1];
+    for (std::size_t k = 1; k < ends_.size(); ++k) ends_[k] += ends_[k - 1];
+    for (const std::uint32_t q : from) to[ends_[count[q]]++] = q;
   };
   resize_with_capacity(node_, nodes);
   resize_with_capacity(begin_, nodes);  // filled below; until then nodes sorted by j

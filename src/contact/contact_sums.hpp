@@ -66,7 +66,7 @@ class ContactSums {
   std::vector<Run> runs_;
   std::vector<std::uint32_t> node_;     // in this order
   std::vector<std::uint32_t> contact_;  // of each node, first those with the node as i
-  std::vector<std::uint32_t> as_i_, as_j_, begin_, places_;
+  std::vector<std::uint32_t> as_i_, as_j_, begin_, ends_;
 };
 
 }  // namespace grainlaw::core

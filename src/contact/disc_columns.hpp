@@ -95,24 +95,24 @@ GRAINLAW_INLINE Columns<width> pair_columns(const double* particles, const std::
 }
 
 // Stores columns as records; place(k) is the address for lane k.
-template <std::size_t width, class Place>
-GRAINLAW_INLINE void put_records(const Columns<width>& columns, Place&& place) {
+template <std::size_t width, class Address>
+GRAINLAW_INLINE void put_records(const Columns<width>& columns, Address&& address) {
   Columns<width> from = columns;
   if constexpr (width == 2) {
     transpose(from.x, from.y);
     transpose(from.roll, from.last);
-    store(place(0), from.x);
-    store(place(0) + 2, from.roll);
-    store(place(1), from.y);
-    store(place(1) + 2, from.last);
+    store(address(0), from.x);
+    store(address(0) + 2, from.roll);
+    store(address(1), from.y);
+    store(address(1) + 2, from.last);
   } else {
     transpose(from.x, from.y, from.roll, from.last);
     const auto put = [&](std::size_t k, const Lanes<width>& row) {
       if constexpr (width == 4) {
-        store(place(k), row);
+        store(address(k), row);
       } else {
-        store(place(k), first(row));
-        store(place(k + 4), second(row));
+        store(address(k), first(row));
+        store(address(k + 4), second(row));
       }
     };
     put(0, from.x);

@@ -76,7 +76,7 @@ GRAINLAW_INLINE Relinearised relinearise_loop(const Loop& loop) {
         beyond = largest(beyond, here ? excess : zero);
         V slip = distance;
         if constexpr (far) {
-          slip *= far_turn(distance, dot, cross);
+          slip *= far_angle(distance, dot, cross);
         } else {
           slip *= arc_sine(sine);
         }
@@ -135,9 +135,9 @@ GRAINLAW_INLINE StepMeasures step_loop(const Loop& loop) {
         const V kn = load<width>(half->normal_stiffness + k);
         const V fn = largest(load<width>(half->normal_force + k) - kn * (nx * ux + ny * uy), zero);
         const V across = nx * uy - ny * ux;
-        const V turn = curvature * across;
-        const V ax = nx - turn * ny;
-        const V ay = ny + turn * nx;
+        const V skew = curvature * across;
+        const V ax = nx - skew * ny;
+        const V ay = ny + skew * nx;
         V slip = across;
         V stretch{};
         if constexpr (rotating) {

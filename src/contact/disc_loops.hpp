@@ -172,15 +172,15 @@ GRAINLAW_INLINE void find_forces(const Loop& loop, std::size_t first, std::size_
     const V distance = load<width>(at.distance + c);
     const V inverse = load<width>(at.inverse + c);
     const V fn = load<width>(at.normal_force + c);
-    V turn;
+    V slip_angle;
     if constexpr (far) {
       const V dot = load<width>(start_x + c) * x + load<width>(start_y + c) * y;
       const V cross = load<width>(start_x + c) * y - load<width>(start_y + c) * x;
-      turn = far_turn(distance, dot, cross);
+      slip_angle = far_angle(distance, dot, cross);
     } else {
-      turn = arc_sine(load<width>(at.sine + c));
+      slip_angle = arc_sine(load<width>(at.sine + c));
     }
-    V slip = distance * turn;
+    V slip = distance * slip_angle;
     const V stretch = distance * load<width>(inverse_reach + c);
     const V roll = load<width>(at.roll + c);
     if constexpr (rotating) slip += stretch * (load<width>(start_roll + c) - roll);
@@ -214,9 +214,9 @@ GRAINLAW_INLINE void find_forces(const Loop& loop, std::size_t first, std::size_
       if constexpr (advance) {
         const V lost = lost_by<width>(start_moment, trial_moment, moment, largest_moment, kr);
         if constexpr (law.hertz) {
-          const V held = load<width>(&list.start_moment[0][first + c]);
+          const V whole = load<width>(&list.start_moment[0][first + c]);
           const V all = load<width>(&list.bending_stiffness[first + c]);
-          dissipated.add(c, kr > zero ? lost : (all > zero ? 0.5 * held * held / all : zero));
+          dissipated.add(c, kr > zero ? lost : (all > zero ? 0.5 * whole * whole / all : zero));
           moment = kr > zero ? moment : zero;
           store(&list.start_moment[0][first + c], kr > zero ? moment / fourth : zero);
         } else {
@@ -236,9 +236,9 @@ GRAINLAW_INLINE void find_forces(const Loop& loop, std::size_t first, std::size_
       if constexpr (rotating) store(start_roll + c, roll);
       if constexpr (law.hertz) {
         // An open contact loses the whole energy of its spring.
-        const V held = load<width>(start_force + c);
+        const V whole = load<width>(start_force + c);
         const V all = load<width>(stiffness + c);
-        dissipated.add(c, kt > zero ? lost : (all > zero ? 0.5 * held * held / all : zero));
+        dissipated.add(c, kt > zero ? lost : (all > zero ? 0.5 * whole * whole / all : zero));
         store(start_force + c, kt > zero ? ft / fourth : zero);
       } else {
         dissipated.add(c, kt > zero ? lost : zero);

@@ -23,7 +23,7 @@ struct ContactPoint<2> {
   double distance;
   Vec<2> normal;
   double normal_force, tangential_force;  // with the contact's weight [N]
-  double turn;                            // du / d [rad]
+  double slip_angle;                      // du / d [rad]
   ContactStatus status;
 
   // Directions of the tangential spring.
@@ -35,8 +35,8 @@ struct ContactPoint<2> {
 };
 
 // Rotation of the branch since the start of the increment [rad].
-inline double turn_of_branch(const ContactList<2>& list, std::size_t c,
-                             const ContactPoint<2>& point) {
+inline double rotation_of_branch(const ContactList<2>& list, std::size_t c,
+                                 const ContactPoint<2>& point) {
   const double cross =
       list.start_normal[0][c] * point.branch[1] - list.start_normal[1][c] * point.branch[0];
   const double dot =
@@ -65,15 +65,15 @@ inline ContactPoint<2> contact_point(const ContactList<2>& list, std::size_t c,
   point.status = bonded ? ContactStatus::bonded : ContactStatus::sticking;
   point.normal_force = normal_force(list, c, overlap, law);
   if (!law.tangential()) return point;
-  point.turn = turn_of_branch(list, c, point);
+  point.slip_angle = rotation_of_branch(list, c, point);
   if (law.rotating()) {
     const double* rotation = y + particles;
-    point.turn += list.start_roll[c] / list.reach[c] - list.lever_i[c] * rotation[p] -
-                  (1 - list.lever_i[c]) * rotation[q];
+    point.slip_angle += list.start_roll[c] / list.reach[c] - list.lever_i[c] * rotation[p] -
+                        (1 - list.lever_i[c]) * rotation[q];
   }
-  const double trial =
-      list.start_force[0][c] * start_scale(overlap, law) -
-      list.tangential_stiffness[c] * stiffness_scale(overlap, law) * point.distance * point.turn;
+  const double trial = list.start_force[0][c] * start_scale(overlap, law) -
+                       list.tangential_stiffness[c] * stiffness_scale(overlap, law) *
+                           point.distance * point.slip_angle;
   point.tangential_force = trial;
   if (bonded) return point;
   const double bound = law.friction * point.normal_force;
@@ -90,7 +90,7 @@ inline std::array<double, 9> contact_stiffness(const ContactPoint<2>& point, dou
   const double d = point.distance;
   const double fn = point.normal_force;
   const double ft = point.tangential_force;
-  double by_normal = -kt * point.turn;
+  double by_normal = -kt * point.slip_angle;
   double by_tangential = -kt;
   double by_rotation = kt * d;
   if (point.status == ContactStatus::sliding) {
@@ -121,7 +121,7 @@ inline std::array<double, 9> contact_stiffness(const ContactList<2>& list, std::
     // kt and the scaled start force depend on the overlap.
     const double d = point.distance;
     const double start = list.start_force[0][c] * start_scale(overlap, law);
-    const double by_normal = (0.5 * kt * d * point.turn - 0.25 * start) / overlap;
+    const double by_normal = (0.5 * kt * d * point.slip_angle - 0.25 * start) / overlap;
     k[3] += by_normal;
     k[6] += d * by_normal;
   }

@@ -39,7 +39,7 @@ GRAINLAW_INLINE Vector arc_tangent(const Vector& t) {
 // Any rotation by halving the angle, exact to rounding below 90 degrees and to 1e-7 at 180. dot and
 // cross are products of start normal and branch.
 template <class Vector>
-GRAINLAW_INLINE Vector far_turn(const Vector& distance, const Vector& dot, const Vector& cross) {
+GRAINLAW_INLINE Vector far_angle(const Vector& distance, const Vector& dot, const Vector& cross) {
   const Vector half = cross / simd::largest(distance + dot, 1e-12 * distance);
   const Vector quarter = half / (1 + simd::square_root(1 + half * half));
   return 8 * arc_tangent(quarter / (1 + simd::square_root(1 + quarter * quarter)));

@@ -39,7 +39,7 @@ GRAINLAW_INLINE Triple<width> product(const Lanes<width>& factor, const Triple<w
 
 template <std::size_t width>
 struct Spheres {
-  Triple<width> place, eta;
+  Triple<width> position, eta;
   Lanes<width> half, radius;
 };
 

@@ -65,7 +65,7 @@ GRAINLAW_INLINE Relinearised relinearise_loop(const HalfContactLoop& loop) {
         const Half::Start& start = loop.starts[row];
         Half::HalfContact& half = loop.half_contacts[row];
         at.i = spheres_at<width>(loop.records, half.other + k);
-        at.branch = sum(sum(at.j.place, -one, at.i.place), triple_at<width>(start.offset, k));
+        at.branch = sum(sum(at.j.position, -one, at.i.position), triple_at<width>(start.offset, k));
         at.square = dot(at.branch, at.branch) + tiny;
         at.distance = square_root(at.square);
         at.normal = product(1 / at.distance, at.branch);
@@ -76,7 +76,7 @@ GRAINLAW_INLINE Relinearised relinearise_loop(const HalfContactLoop& loop) {
         const V kt = loop.ratio * kn;
         Triple<width> h = sum(triple_at<width>(start.force, k), kt * at.distance,
                               triple_at<width>(start.normal, k));
-        if constexpr (rotating) h = turn(at, h);
+        if constexpr (rotating) h = rotated(at, h);
         const V stretch = at.distance * load<width>(start.inverse_reach + k);
         put(at.normal, half.normal, k);
         store(half.normal_force + k, fn);

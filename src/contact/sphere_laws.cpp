@@ -81,10 +81,10 @@ ContactTotals sum_stiffnesses<3>(std::span<const ParticleRecord<3>> particles,
   list.sums.add_up(list.stiffness, nodes);
   if (!law.moments()) return totals;
   for (std::size_t q = 0; q < list.inverse_node_radius.size(); ++q) {
-    const double turning = nodes[q].bending * list.inverse_node_radius[q];
-    nodes[q].spin_x += turning;
-    nodes[q].spin_y += turning;
-    nodes[q].spin_z += turning;
+    const double rotational = nodes[q].bending * list.inverse_node_radius[q];
+    nodes[q].spin_x += rotational;
+    nodes[q].spin_y += rotational;
+    nodes[q].spin_z += rotational;
   }
   return totals;
 }

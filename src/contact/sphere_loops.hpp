@@ -46,7 +46,7 @@ GRAINLAW_INLINE Geometry<width> geometry_of(const Loop& loop, std::size_t c) {
   at.i = spheres_at<width>(records, &list.i[c]);
   at.j = spheres_at<width>(records, &list.j[c]);
   const Lanes<width> one = Lanes<width>{} + 1.0;
-  at.branch = sum(sum(at.j.place, -one, at.i.place), triple_at<width>(list.offset, c));
+  at.branch = sum(sum(at.j.position, -one, at.i.position), triple_at<width>(list.offset, c));
   at.square = dot(at.branch, at.branch) + tiny;
   at.distance = square_root(at.square);
   at.normal = product(1 / at.distance, at.branch);
@@ -60,21 +60,21 @@ GRAINLAW_INLINE Geometry<width> geometry_of(const Loop& loop, std::size_t c) {
 
 // Rbar g, with the mean quaternion (w, v) of the pair, not normalised.
 template <std::size_t width>
-GRAINLAW_INLINE Triple<width> turn(const Geometry<width>& at, const Triple<width>& g) {
+GRAINLAW_INLINE Triple<width> rotated(const Geometry<width>& at, const Triple<width>& g) {
   const Lanes<width> w = 2 * (at.i.half * at.i.radius + at.j.half * at.j.radius);
   const Triple<width> v = sum(product(at.i.half, at.i.eta), at.j.half, at.j.eta);
   const Triple<width> u = sum(product(w, g), cross(v, g));
   return sum(g, 2 / (w * w + dot(v, v)), cross(v, u));
 }
 
-// Energy lost by a spring of this stiffness [J]. `held`: its force at the start; `size`: its trial
+// Energy lost by a spring of this stiffness [J]. `start`: its force there; `size`: its trial
 // force; `carried`: its force within the bound.
 template <std::size_t width>
-GRAINLAW_INLINE Lanes<width> lost_by(const Lanes<width>& held, const Lanes<width>& size,
+GRAINLAW_INLINE Lanes<width> lost_by(const Lanes<width>& start, const Lanes<width>& size,
                                      const Lanes<width>& carried, const Lanes<width>& bound,
                                      const Lanes<width>& stiffness) {
   const Lanes<width> zero{};
-  const Lanes<width> excess = largest(held - bound, zero);
+  const Lanes<width> excess = largest(start - bound, zero);
   const Lanes<width> lost = (carried * (size - carried) + 0.5 * excess * excess) / stiffness;
   return stiffness > zero ? lost : zero;
 }
@@ -102,8 +102,8 @@ GRAINLAW_INLINE Lanes<width> moment_of(const Loop& loop, std::size_t c, const Ge
   const Triple<width> relative =
       sum(sum(product(2 * at.i.half, b), -2 * at.j.half, a), cross(a, b));
   const V along = 2 * dot(at.normal, relative);
-  const Triple<width> turned = turn(at, start);
-  Triple<width> trial = sum(turned, -2 * bending, relative);
+  const Triple<width> sprung = rotated(at, start);
+  Triple<width> trial = sum(sprung, -2 * bending, relative);
   trial = sum(trial, (bending - torsion) * along, at.normal);
   const V twist = dot(at.normal, trial);
   const Triple<width> roll = sum(trial, -twist, at.normal);
@@ -120,11 +120,12 @@ GRAINLAW_INLINE Lanes<width> moment_of(const Loop& loop, std::size_t c, const Ge
   const Triple<width> moment = sum(product(carried / size, roll), carried_twist, at.normal);
   put_records(moment, {zero, zero, zero}, &list.moments[c].x);
   if constexpr (!advance) return zero;
-  const V held_twist = dot(at.normal, turned);
-  const Triple<width> held = sum(turned, -held_twist, at.normal);
-  V lost = lost_by<width>(square_root(dot(held, held)), size, carried, roll_bound, bending) +
-           lost_by<width>(magnitude(held_twist), magnitude(twist), magnitude(carried_twist),
-                          twist_bound, torsion);
+  const V start_twist = dot(at.normal, sprung);
+  const Triple<width> start_roll = sum(sprung, -start_twist, at.normal);
+  V lost =
+      lost_by<width>(square_root(dot(start_roll, start_roll)), size, carried, roll_bound, bending) +
+      lost_by<width>(magnitude(start_twist), magnitude(twist), magnitude(carried_twist),
+                     twist_bound, torsion);
   if constexpr (law.hertz) {
     put(product(root > zero ? 1 / fourth : zero, moment), list.start_moment, c);
   } else {
@@ -161,7 +162,7 @@ GRAINLAW_INLINE double contact_loop(const Loop& loop) {
         start = product(fourth, start);
       }
       Triple<width> h = sum(start, kt * at.distance, triple_at<width>(list.start_normal, c));
-      if constexpr (law.rotating) h = turn(at, h);
+      if constexpr (law.rotating) h = rotated(at, h);
       const Triple<width> trial = sum(h, -dot(at.normal, h), at.normal);
       const V size = square_root(dot(trial, trial) + tiny);
       V bound = loop.friction * fn;
@@ -224,14 +225,14 @@ GRAINLAW_INLINE ContactTotals stiffness_loop(const Loop& loop) {
     force.add(c, share * kn * overlap);
     touching.add(c, here ? one : zero);
     const V spin = kt * at.square * load<width>(&list.inverse_reach[c]);
-    V turning = zero;
+    V rotational = zero;
     if constexpr (law.moments) {
-      turning =
+      rotational =
           largest(load<width>(&list.bending_stiffness[c]), load<width>(&list.torsion_stiffness[c]));
-      if constexpr (law.hertz) turning *= square_root(largest(overlap, zero));
-      turning = here ? turning : zero;
+      if constexpr (law.hertz) rotational *= square_root(largest(overlap, zero));
+      rotational = here ? rotational : zero;
     }
-    put_records<width>({kn, kn, kn}, {spin, spin, spin}, &list.stiffness[c].x, turning);
+    put_records<width>({kn, kn, kn}, {spin, spin, spin}, &list.stiffness[c].x, rotational);
   }
   return {force.total(), touching.total(), static_cast<int>(touching.total())};
 }

@@ -58,7 +58,7 @@ Cap cap_of(ContactMoment<3>& result, const Vec<3>& n, const Vec<3>& trial, doubl
 ContactMoment<3> contact_moment(const ContactList<3>& list, std::size_t c,
                                 const ContactPoint<3>& point, std::span<const double> coordinates,
                                 std::size_t particles, const ContactLaw& law) {
-  const auto turn_of = [&](std::int32_t particle) {
+  const auto rotation_of = [&](std::int32_t particle) {
     const double* theta = coordinates.data() + 3 * particles + static_cast<std::size_t>(particle);
     return quaternion_of({theta[0], theta[particles], theta[2 * particles]});
   };
@@ -68,15 +68,15 @@ ContactMoment<3> contact_moment(const ContactList<3>& list, std::size_t c,
   const double scale = stiffness_scale(overlap, law);
   const double bending = list.bending_stiffness[c] * scale;
   const double torsion = list.torsion_stiffness[c] * scale;
-  const Quaternion relative = product(turn_of(list.j[c]), conjugate(turn_of(list.i[c])));
+  const Quaternion relative = product(rotation_of(list.j[c]), conjugate(rotation_of(list.i[c])));
   Vec<3> kept{};
   for (std::size_t k = 0; k < 3; ++k) {
     kept[k] = start_scale(overlap, law) * list.start_moment[k][c];
   }
-  const Vec<3> turned = rotated(point.mean, kept);
+  const Vec<3> start = rotated(point.mean, kept);
   const double along = 2 * dot(n, relative.v);
   const Vec<3> sprung = sum(sum({}, 2 * bending, relative.v), (torsion - bending) * along, n);
-  const Vec<3> trial = sum(turned, -1, sprung);
+  const Vec<3> trial = sum(start, -1, sprung);
 
   ContactMoment<3> result;
   const bool bonded = point.status == ContactStatus::bonded;
@@ -89,12 +89,12 @@ ContactMoment<3> contact_moment(const ContactList<3>& list, std::size_t c,
   Matrix3 across{};  // dn by dl
   add_identity(across, 1 / d);
   add_outer(across, -1 / d, n, n);
-  const Vec<3> half_turn = product<3>(across, relative.v);
+  const Vec<3> relative_across = product<3>(across, relative.v);
   Matrix3 trial_by_branch{};
   add(trial_by_branch, -(torsion - bending) * along, across);
-  add_outer(trial_by_branch, -2 * (torsion - bending), n, half_turn);
+  add_outer(trial_by_branch, -2 * (torsion - bending), n, relative_across);
   if (law.hertzian()) {
-    add_outer(trial_by_branch, 1 / overlap, sum(sum({}, 0.5, sprung), -0.25, turned), n);
+    add_outer(trial_by_branch, 1 / overlap, sum(sum({}, 0.5, sprung), -0.25, start), n);
   }
   result.by_branch = product<3>(left, trial_by_branch);
   Matrix3 twist_by_normal{};  // of n (n.m*)
@@ -127,7 +127,7 @@ ContactMoment<3> contact_moment(const ContactList<3>& list, std::size_t c,
   add(relative_by_i, -1, cross_matrix(relative.v));
   const auto by_spin = [&](const Matrix3& mean_spin, double lever, const Matrix3& by) {
     Matrix3 trial_by{};
-    add_product(trial_by, -lever, cross_matrix(turned), mean_spin);
+    add_product(trial_by, -lever, cross_matrix(start), mean_spin);
     add_product(trial_by, -1, springs, by);
     return product<3>(left, trial_by);
   };

@@ -71,11 +71,11 @@ struct ContactPoint<3> {
   Vec<3> normal{};
   double normal_force = 0;     // with the contact's weight [N]
   Vec<3> tangential_force{};   // on j [N]
-  Vec<3> turned{};             // h = Rbar (ft_c + kt d n_c) [N]
+  Vec<3> spring{};             // h = Rbar (ft_c + kt d n_c) [N]
   Vec<3> trial{};              // t* [N]
   double trial_size = 0;       // |t*| [N]
-  Vec<3> turned_normal{};      // Rbar n_c
-  Vec<3> turned_start{};       // Rbar ft_c, as stored in the list
+  Vec<3> rotated_normal{};     // Rbar n_c
+  Vec<3> rotated_start{};      // Rbar ft_c, as stored in the list
   Quaternion mean;             // of the pair, not normalised: R_i q_i + R_j q_j [m]
   Matrix3 spin_i{}, spin_j{};  // A_k in d wbar = sum A_k R_k d omega_k / (R_i + R_j)
   ContactStatus status = ContactStatus::open;
@@ -133,29 +133,30 @@ inline ContactPoint<3> contact_point(const ContactList<3>& list, std::size_t c,
     start_force[k] = list.start_force[k][c];
     start_normal[k] = list.start_normal[k][c];
   }
-  point.turned_normal = start_normal;
-  point.turned_start = start_force;
+  point.rotated_normal = start_normal;
+  point.rotated_start = start_force;
   if (law.rotating()) {
     const double reach = list.reach[c];
     const double radius_i = list.lever_i[c] * reach;
     const double radius_j = reach - radius_i;
-    const Quaternion turn_i = quaternion_of(of(3, p));
-    const Quaternion turn_j = quaternion_of(of(3, q));
-    point.mean.s = radius_i * turn_i.s + radius_j * turn_j.s;
+    const Quaternion rotation_i = quaternion_of(of(3, p));
+    const Quaternion rotation_j = quaternion_of(of(3, q));
+    point.mean.s = radius_i * rotation_i.s + radius_j * rotation_j.s;
     for (std::size_t k = 0; k < 3; ++k) {
-      point.mean.v[k] = radius_i * turn_i.v[k] + radius_j * turn_j.v[k];
+      point.mean.v[k] = radius_i * rotation_i.v[k] + radius_j * rotation_j.v[k];
     }
-    point.turned_normal = rotated(point.mean, start_normal);
-    point.turned_start = rotated(point.mean, start_force);
-    point.spin_i = spin_matrix(turn_i, point.mean, reach);
-    point.spin_j = spin_matrix(turn_j, point.mean, reach);
+    point.rotated_normal = rotated(point.mean, start_normal);
+    point.rotated_start = rotated(point.mean, start_force);
+    point.spin_i = spin_matrix(rotation_i, point.mean, reach);
+    point.spin_j = spin_matrix(rotation_j, point.mean, reach);
   }
   const double kt = list.tangential_stiffness[c] * stiffness_scale(overlap, law);
   const double scale = start_scale(overlap, law);
   for (std::size_t k = 0; k < 3; ++k) {
-    point.turned[k] = scale * point.turned_start[k] + kt * point.distance * point.turned_normal[k];
+    point.spring[k] =
+        scale * point.rotated_start[k] + kt * point.distance * point.rotated_normal[k];
   }
-  point.trial = sum(point.turned, -dot(point.normal, point.turned), point.normal);
+  point.trial = sum(point.spring, -dot(point.normal, point.spring), point.normal);
   point.trial_size = std::sqrt(square<3>(point.trial) + std::numeric_limits<double>::min());
   point.tangential_force = point.trial;
   if (bonded) return point;
@@ -169,8 +170,8 @@ inline ContactPoint<3> contact_point(const ContactList<3>& list, std::size_t c,
 // Derivatives of the force f on j and the spin moment tau (M / R of both) by branch l and mean
 // rotation wbar. Also the derivative of the tangential force by ft_c + kt d n_c.
 struct SphereStiffness {
-  Matrix3 force_by_branch{}, force_by_turn{};
-  Matrix3 spin_by_branch{}, spin_by_turn{};
+  Matrix3 force_by_branch{}, force_by_rotation{};
+  Matrix3 spin_by_branch{}, spin_by_rotation{};
   Matrix3 spring_by_start{};
 };
 
@@ -193,29 +194,29 @@ inline SphereStiffness contact_stiffness(const ContactList<3>& list, std::size_t
   // Derivatives of the trial force.
   const double kt = list.tangential_stiffness[c] * scale;
   Vec<3> by_distance{};  // of h
-  for (std::size_t m = 0; m < 3; ++m) by_distance[m] = kt * point.turned_normal[m];
+  for (std::size_t m = 0; m < 3; ++m) by_distance[m] = kt * point.rotated_normal[m];
   if (law.hertzian()) {
     // kt and the scaled start force depend on the overlap.
     const double start = start_scale(overlap, law);
     for (std::size_t m = 0; m < 3; ++m) {
-      by_distance[m] -= 0.5 * kt / overlap * d * point.turned_normal[m] +
-                        0.25 * start / overlap * point.turned_start[m];
+      by_distance[m] -= 0.5 * kt / overlap * d * point.rotated_normal[m] +
+                        0.25 * start / overlap * point.rotated_start[m];
     }
   }
   Matrix3 trial_by_branch{};
-  add(trial_by_branch, -dot(n, point.turned) / d, across);
+  add(trial_by_branch, -dot(n, point.spring) / d, across);
   add_outer(trial_by_branch, -1 / d, n, point.trial);
   add_outer(trial_by_branch, 1, product<3>(across, by_distance), n);
-  Matrix3 trial_by_turn{};
+  Matrix3 trial_by_rotation{};
   if (law.rotating()) {
-    add(trial_by_turn, -1, product<3>(across, cross_matrix(point.turned)));
+    add(trial_by_rotation, -1, product<3>(across, cross_matrix(point.spring)));
   }
 
   // Derivatives after the friction limit.
   Matrix3 left{};
   add_identity(left, 1);
   Matrix3 spring_by_branch = trial_by_branch;
-  Matrix3 spring_by_turn = trial_by_turn;
+  Matrix3 spring_by_rotation = trial_by_rotation;
   if (point.status == ContactStatus::sliding) {
     Vec<3> e{};
     for (std::size_t m = 0; m < 3; ++m) e[m] = point.trial[m] / point.trial_size;
@@ -225,16 +226,16 @@ inline SphereStiffness contact_stiffness(const ContactList<3>& list, std::size_t
     add_outer(left, -share, e, e);
     spring_by_branch = product<3>(left, trial_by_branch);
     add_outer(spring_by_branch, -law.friction * kn, e, n);
-    spring_by_turn = product<3>(left, trial_by_turn);
+    spring_by_rotation = product<3>(left, trial_by_rotation);
   }
   add(by_branch, 1, spring_by_branch);
-  k.force_by_turn = spring_by_turn;
+  k.force_by_rotation = spring_by_rotation;
   Matrix3 start_by{};  // Rbar, column by column
   for (std::size_t m = 0; m < 3; ++m) {
     Vec<3> axis{};
     axis[m] = 1;
-    const Vec<3> turned = law.rotating() ? rotated(point.mean, axis) : axis;
-    for (std::size_t r = 0; r < 3; ++r) start_by[3 * r + m] = turned[r];
+    const Vec<3> start = law.rotating() ? rotated(point.mean, axis) : axis;
+    for (std::size_t r = 0; r < 3; ++r) start_by[3 * r + m] = start[r];
   }
   k.spring_by_start = product<3>(left, product<3>(across, start_by));
   if (!law.rotating()) return k;
@@ -242,7 +243,7 @@ inline SphereStiffness contact_stiffness(const ContactList<3>& list, std::size_t
   const Matrix3 lever = cross_matrix(point.branch);
   add(k.spin_by_branch, inverse_reach, cross_matrix(point.tangential_force));
   add(k.spin_by_branch, -inverse_reach, product<3>(lever, spring_by_branch));
-  add(k.spin_by_turn, -inverse_reach, product<3>(lever, spring_by_turn));
+  add(k.spin_by_rotation, -inverse_reach, product<3>(lever, spring_by_rotation));
   return k;
 }
 

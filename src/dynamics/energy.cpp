@@ -16,8 +16,8 @@ void WaveMotion::find_slices(double width, Slices& slices) const {
   slices.mass.assign(last + 1, 0);
   for (std::size_t q = 0; q < mass_.size(); ++q) {
     const double x = specimen_->position[particle_of_[q]];
-    const double place = std::max((x - left) / width + 1, 0.0);
-    slices.of[q] = static_cast<std::uint32_t>(std::min(static_cast<std::size_t>(place), last));
+    const double slice = std::max((x - left) / width + 1, 0.0);
+    slices.of[q] = static_cast<std::uint32_t>(std::min(static_cast<std::size_t>(slice), last));
     if (inverse_mass_[q].x > 0) slices.mass[slices.of[q]] += mass_[q];
   }
 }

@@ -42,8 +42,8 @@ WaveMotion::WaveMotion(const WaveSpecimen& specimen, const ContactLaw& law, doub
   }
   for (std::size_t p = 0; p < n; ++p) {
     particles_[p] = {specimen.position[p], specimen.position[n + p], 0, specimen.radius[p]};
-    const auto by_mass = [&](Held direction) {
-      return (specimen.held[p] & direction) == 0 ? 1 / mass_[node(p)] : 0;
+    const auto by_mass = [&](Support direction) {
+      return (specimen.supported[p] & direction) == 0 ? 1 / mass_[node(p)] : 0;
     };
     // The moment of inertia is M R^2 / 2.
     inverse_mass_[node(p)] = {by_mass(support_x), by_mass(support_y),
@@ -54,11 +54,12 @@ WaveMotion::WaveMotion(const WaveSpecimen& specimen, const ContactLaw& law, doub
   list_contacts();
   find_forces();
   find_largest_time_step();
+  constexpr double rounded_down = 0.995;  // three digits of it are not above the limit
   if (time_step > largest_time_step_)
     throw Error(GRAINLAW_BAD_ARGUMENT,
                 fmt::format("time_step: found {:.3g} s, expected at most {:.3g} s, beyond which "
                             "the particles' motion may be unstable",
-                            time_step, largest_time_step_));
+                            time_step, rounded_down * largest_time_step_));
 }
 
 std::vector<double> WaveMotion::coordinates() const {
@@ -175,14 +176,14 @@ void WaveMotion::settle() {
       const Force &f = forces_[q], &w = inverse_mass_[q];
       Force& v = velocity_[q];
       // Zeroes the velocity of what moves against its force.
-      const auto move = [&](double& velocity, double force, double by_mass) {
+      const auto accelerate = [&](double& velocity, double force, double by_mass) {
         if (by_mass == 0) return;
         largest = std::max(largest, std::abs(force));
         velocity = (velocity * force < 0 ? 0 : velocity) + time_step_ * by_mass * force;
       };
-      move(v.x, f.x, w.x);
-      move(v.y, f.y, w.y);
-      move(v.roll, f.roll, w.roll);
+      accelerate(v.x, f.x, w.x);
+      accelerate(v.y, f.y, w.y);
+      accelerate(v.roll, f.roll, w.roll);
     }
     move_particles();
     if (largest <= rest) break;

@@ -20,13 +20,13 @@ enum Side : unsigned char { bottom = 1, top = 2, left = 4, right = 8 };
 
 std::vector<unsigned char> sides_of_frame(const Packing& packing) {
   const Frame& frame = *packing.frame;
-  const auto place = corner_indices(frame);
+  const auto corner = corner_indices(frame);
   constexpr std::array<unsigned char, 4> around{bottom, right, top, left};
   std::vector<unsigned char> side(packing.size(), 0);
   const std::size_t count = frame.boundary.size();
   for (std::size_t s = 0; s < 4; ++s) {
-    const std::size_t end = s < 3 ? place[s + 1] : count;
-    for (std::size_t k = place[s]; k <= end; ++k)
+    const std::size_t end = s < 3 ? corner[s + 1] : count;
+    for (std::size_t k = corner[s]; k <= end; ++k)
       side[static_cast<std::size_t>(frame.boundary[k % count])] |= around[s];
   }
   return side;
@@ -59,12 +59,12 @@ class Numbering {
       : n_(packing.size()), tiles_(tiles), left_twin_(n_, none) {
     if (packing.frame) {
       const Frame& frame = *packing.frame;
-      std::map<std::tuple<int, int, int>, std::size_t> by_place;
+      std::map<std::tuple<int, int, int>, std::size_t> by_source;
       for (std::size_t p = 0; p < n_; ++p)
-        by_place[{frame.source[p], frame.offset[p][0], frame.offset[p][1]}] = p;
+        by_source[{frame.source[p], frame.offset[p][0], frame.offset[p][1]}] = p;
       for (std::size_t p = 0; p < n_; ++p)
         if (frame.offset[p][0] == 1)
-          left_twin_[p] = by_place.at({frame.source[p], 0, frame.offset[p][1]});
+          left_twin_[p] = by_source.at({frame.source[p], 0, frame.offset[p][1]});
     }
     id_.assign((tiles + 1) * n_, none);
     for (std::size_t k = 0; k <= tiles; ++k)
@@ -95,8 +95,8 @@ class Numbering {
   std::vector<std::size_t> left_twin_, id_;
 };
 
-void place_particles(const Material<2>& material, const Numbering& numbering,
-                     const std::vector<unsigned char>& side, WaveSpecimen& specimen) {
+void add_particles(const Material<2>& material, const Numbering& numbering,
+                   const std::vector<unsigned char>& side, WaveSpecimen& specimen) {
   const Packing& packing = material.packing;
   const std::vector<double>& position = material.initial.coordinates;
   const std::size_t n = packing.size(), all = numbering.size();
@@ -104,7 +104,7 @@ void place_particles(const Material<2>& material, const Numbering& numbering,
   specimen.position.resize(2 * all);
   specimen.radius.resize(all);
   specimen.mass.resize(all);
-  specimen.held.resize(all);
+  specimen.supported.resize(all);
   specimen.right.resize(all);
   specimen.side.resize(all);
   for (std::size_t k = 0; k <= specimen.tiles; ++k)
@@ -123,7 +123,7 @@ void place_particles(const Material<2>& material, const Numbering& numbering,
           frame ? k + 1 == specimen.tiles && (side[p] & right) != 0 : k == specimen.tiles;
       specimen.right[q] = at_right;
       specimen.side[q] = side[p] & (bottom | top);
-      specimen.held[q] =
+      specimen.supported[q] =
           static_cast<unsigned char>(at_left || at_right ? support_x | support_y | support_rotation
                                                          : (support ? support_y : 0));
     }
@@ -153,8 +153,7 @@ void join_copies(const Packing& packing, const Numbering& numbering, WaveSpecime
     specimen.node[p] = specimen.node[static_cast<std::size_t>(original[p])];
 }
 
-void place_contacts(const Material<2>& material, const Numbering& numbering,
-                    WaveSpecimen& specimen) {
+void add_contacts(const Material<2>& material, const Numbering& numbering, WaveSpecimen& specimen) {
   const Configuration<2>& initial = material.initial;
   struct Contact {
     ContactHistory<2> history;
@@ -221,9 +220,9 @@ WaveSpecimen repeat_along_x(const Material<2>& material, std::size_t tiles) {
   const auto side = packing.frame ? sides_of_frame(packing)
                                   : sides_of_cell(packing, material.initial.coordinates);
   const Numbering numbering(packing, side, tiles);
-  place_particles(material, numbering, side, specimen);
+  add_particles(material, numbering, side, specimen);
   join_copies(packing, numbering, specimen);
-  place_contacts(material, numbering, specimen);
+  add_contacts(material, numbering, specimen);
   return specimen;
 }
 

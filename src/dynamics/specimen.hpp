@@ -15,8 +15,8 @@
 
 namespace grainlaw::core {
 
-// Bits of WaveSpecimen::held: supported directions of a particle.
-enum Held : unsigned char { support_x = 1, support_y = 2, support_rotation = 4 };
+// Bits of WaveSpecimen::supported: supported directions of a particle.
+enum Support : unsigned char { support_x = 1, support_y = 2, support_rotation = 4 };
 
 // A specimen whose left end is supported and whose right end follows the pulse; bottom and top are
 // supported in y. When bottom and top of a frame are copies, the specimen is a slice of an infinite
@@ -28,9 +28,9 @@ struct WaveSpecimen {
   std::vector<double> mass;      // [kg]
   std::vector<int> node;         // particles of the same node move together
   std::size_t nodes = 0;
-  std::vector<unsigned char> held;  // bits of Held: supported directions
-  std::vector<char> right;          // 1: on the right end
-  std::vector<unsigned char> side;  // 1: on the bottom, 2: on the top
+  std::vector<unsigned char> supported;  // bits of Support: supported directions
+  std::vector<char> right;               // 1: on the right end
+  std::vector<unsigned char> side;       // 1: on the bottom, 2: on the top
   // Initial contact histories, ordered by (i, j).
   std::vector<ContactHistory<2>> contacts;
   std::vector<double> moments;  // empty for laws without moments

@@ -24,7 +24,7 @@ double defect_norm(const Increment<D>& increment, std::span<const double> step, 
 
 // Largest displacement of a particle's surface, relative to its neighbours where F is found [m].
 template <int D>
-double largest_move(const Increment<D>& increment, std::span<const double> step) {
+double largest_displacement(const Increment<D>& increment, std::span<const double> step) {
   const auto nodes = increment.problem().nodes();
   double largest = 0;
   for (std::size_t k = increment.problem().node_unknowns(); k < step.size(); ++k) {
@@ -51,7 +51,7 @@ class PseudoTransientNewton {
                   !increment.motion().drag().acts()) {
     memory.step.assign(increment.problem().unknowns(), 0.0);
     const auto& z = increment.motion().coordinates();
-    for (auto* places : {&memory.coordinates, &memory.moved}) places->reserve(z.size());
+    for (auto* positions : {&memory.coordinates, &memory.shifted}) positions->reserve(z.size());
     for (auto* moves : {&memory.flow, &memory.total}) moves->reserve(memory.step.size());
     increment.refresh_masses();
     if (may_roll_) memory.mechanisms.forget(increment);
@@ -66,7 +66,7 @@ class PseudoTransientNewton {
       if (increment_.residual_norm() < tolerance_) return true;
       assemble();
       if (may_roll_) {
-        turn_mechanisms();
+        rotate_mechanisms();
         if (increment_.residual_norm() < tolerance_) return true;
         memory_.mechanisms.regularise(increment_, memory_.stiffness);
       }
@@ -93,10 +93,10 @@ class PseudoTransientNewton {
     return tuned::least_moment * tolerance_ * increment_.scale().relative();
   }
 
-  void turn_mechanisms() {
+  void rotate_mechanisms() {
     auto& mechanisms = memory_.mechanisms;
     mechanisms.find(increment_, memory_.stiffness.touching());
-    if (!mechanisms.turn(increment_, least_moment())) return;
+    if (!mechanisms.rotate(increment_, least_moment())) return;
     increment_.update_forces();
     norm_ = defect();
     if (norm_ < best_) keep_best();
@@ -162,7 +162,7 @@ class PseudoTransientNewton {
     const double before = norm_;
     const double limit = tuned::longest_full_step * increment_.scale().relative() /
                          increment_.masses().mean_stiffness();
-    const double share = limit / largest_move(increment_, memory_.step);
+    const double share = limit / largest_displacement(increment_, memory_.step);
     if (share < tuned::least_share && shift_ < tuned::flow_shift) {
       shift_ = std::max(16 * shift_, tuned::first_shift);
       return;
@@ -195,8 +195,8 @@ class PseudoTransientNewton {
   [[nodiscard]] double near_share() const {
     const auto radius = increment_.motion().node_radius();
     const double smallest = *std::min_element(radius.begin(), radius.end());
-    return std::min(1.0,
-                    tuned::longest_flow_step * smallest / largest_move(increment_, memory_.step));
+    return std::min(
+        1.0, tuned::longest_flow_step * smallest / largest_displacement(increment_, memory_.step));
   }
 
   void move(double fraction) {
@@ -241,11 +241,11 @@ class PseudoTransientNewton {
   // Relaxes after a step; undoes that unless the residual falls below its value before the step.
   bool settled(double error) {
     if (!may_settle(error, norm_)) return false;
-    memory_.moved = increment_.motion().coordinates();
+    memory_.shifted = increment_.motion().coordinates();
     const auto deformation = increment_.motion().deformation();
     settle();
     if (defect() < tuned::acceptable_step * norm_) return true;
-    go_to(memory_.moved, deformation);
+    go_to(memory_.shifted, deformation);
     return false;
   }
 

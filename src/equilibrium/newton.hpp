@@ -18,7 +18,7 @@ struct NewtonMemory {
   Stiffness<D> stiffness;
   BorderedSystem border;
   RollingMechanisms<D> mechanisms;
-  std::vector<double> step, residual, coordinates, moved, best, flow, total;
+  std::vector<double> step, residual, coordinates, shifted, best, flow, total;
 };
 
 // Solves (K + s M) dz = r with the exact, non-symmetric K until residual_norm() < tolerance.

@@ -23,7 +23,8 @@ struct Workspace {
   NewtonMemory<D> newton;
   Sensitivity<D> sensitivity;
   std::vector<double> guess;
-  std::vector<double> velocity;  // of the drag's masses at the end of the last part
+  std::vector<double> velocity;       // of the drag's masses at the end of the last part
+  std::vector<unsigned char> loaded;  // nodes that bear, while the report counts them
 };
 
 // Stages to try: all; or those of the whole increment alone, without parts. committed and advancing

@@ -36,13 +36,13 @@ void RollingMechanisms<2>::find(const Increment<2>& increment,
   const auto& list = increment.contacts();
   const auto& law = *increment.problem().law;
   const auto nodes = increment.problem().nodes();
-  for (auto* column : {&sense_, &turn_}) resize_with_capacity(*column, nodes);
+  for (auto* column : {&sense_, &rotation_}) resize_with_capacity(*column, nodes);
   resize_with_capacity(parent_, nodes);
   resize_with_capacity(locked_, nodes);
   resize_with_capacity(wanted_, nodes);
   std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   std::fill(sense_.begin(), sense_.end(), 1.0);
-  std::fill(turn_.begin(), turn_.end(), 0.0);
+  std::fill(rotation_.begin(), rotation_.end(), 0.0);
   for (auto* column : {&locked_, &wanted_}) {
     std::fill(column->begin(), column->end(), static_cast<unsigned char>(0));
   }
@@ -58,7 +58,7 @@ void RollingMechanisms<2>::find(const Increment<2>& increment,
       const double overlap = list.rest_of(c) - point.distance;
       const double kt = list.tangential_stiffness[c] * stiffness_scale(overlap, law);
       const double start = list.start_force[0][c] * start_scale(overlap, law);
-      sliding_.push_back({start - kt * point.distance * point.turn,
+      sliding_.push_back({start - kt * point.distance * point.slip_angle,
                           law.friction * point.normal_force, kt,
                           point.distance * list.inverse_reach[c], contact.node_i, contact.node_j});
       continue;
@@ -114,25 +114,25 @@ double RollingMechanisms<2>::balance(std::span<const Side> sides, double force) 
   const double way = force > 0 ? 1 : -1;
   for (const Side& side : sides) {
     const Sliding& contact = sliding_[side.contact];
-    const double by_turn = way * contact.stiffness * side.rate;  // change of the trial force
-    if (by_turn == 0) continue;
-    const auto [sticks, slides] = std::minmax(
-        {(-contact.bound - contact.trial) / by_turn, (contact.bound - contact.trial) / by_turn});
+    const double by_rotation = way * contact.stiffness * side.rate;  // change of the trial force
+    if (by_rotation == 0) continue;
+    const auto [sticks, slides] = std::minmax({(-contact.bound - contact.trial) / by_rotation,
+                                               (contact.bound - contact.trial) / by_rotation});
     if (slides <= 0) continue;
-    const double stiffness = std::abs(by_turn * side.rate);
+    const double stiffness = std::abs(by_rotation * side.rate);
     kinks_.push_back({std::max(sticks, 0.0), stiffness});
     kinks_.push_back({slides, -stiffness});
   }
   std::sort(kinks_.begin(), kinks_.end(),
-            [](const Kink& a, const Kink& b) { return a.turn < b.turn; });
+            [](const Kink& a, const Kink& b) { return a.rotation < b.rotation; });
   double left = std::abs(force);
-  double turn = 0;
+  double rotation = 0;
   double stiffness = 0;
   for (const Kink& kink : kinks_) {
-    const double lost = stiffness * (kink.turn - turn);
-    if (lost >= left) return way * (turn + left / stiffness);
+    const double lost = stiffness * (kink.rotation - rotation);
+    if (lost >= left) return way * (rotation + left / stiffness);
     left -= lost;
-    turn = kink.turn;
+    rotation = kink.rotation;
     stiffness += kink.stiffness;
   }
   return 0;  // rounding: no slip is left to undo
@@ -161,7 +161,7 @@ void RollingMechanisms<2>::forget(const Increment<2>& increment) {
   std::fill(seen_.begin(), seen_.end(), static_cast<unsigned char>(0));
 }
 
-bool RollingMechanisms<2>::turn(Increment<2>& increment, double least) {
+bool RollingMechanisms<2>::rotate(Increment<2>& increment, double least) {
   bool any = false;
   for (std::size_t q = 0; q < increment.problem().nodes(); ++q) {
     if (seen_[q] == 0) continue;
@@ -171,26 +171,26 @@ bool RollingMechanisms<2>::turn(Increment<2>& increment, double least) {
   }
   if (!any) return false;
   list_sides();
-  bool turned = false;
+  bool rotated = false;
   for (std::size_t first = 0, last = 0; first < sides_.size(); first = last) {
     const std::size_t cluster = sides_[first].cluster;
     while (last < sides_.size() && sides_[last].cluster == cluster) ++last;
     const auto sides = std::span(sides_).subspan(first, last - first);
     const double moment = force(sides);
     if (wanted_[cluster] == 0 || !(std::abs(moment) > least)) continue;
-    const double turn = balance(sides, moment);
-    turned = turned || turn != 0;
-    turn_[cluster] = turn;
+    const double rotation = balance(sides, moment);
+    rotated = rotated || rotation != 0;
+    rotation_[cluster] = rotation;
     for (const Side& side : sides) {
       Sliding& contact = sliding_[side.contact];
-      contact.trial += contact.stiffness * side.rate * turn;
+      contact.trial += contact.stiffness * side.rate * rotation;
     }
   }
-  if (!turned) return false;
+  if (!rotated) return false;
   auto& motion = increment.motion();
   for (std::size_t q = 0; q < increment.problem().nodes(); ++q) {
     const Member own = member(q);
-    motion.coordinate(2, q) += own.sense * turn_[own.cluster] / motion.node_radius()[q];
+    motion.coordinate(2, q) += own.sense * rotation_[own.cluster] / motion.node_radius()[q];
   }
   return true;
 }

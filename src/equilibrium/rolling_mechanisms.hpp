@@ -33,7 +33,7 @@ class RollingMechanisms<2> {
   void forget(const Increment<2>& increment);
   // Rotates the recorded clusters with a moment above `least` [N] to where it vanishes, in the
   // motion's coordinates. Returns whether one rotated; then find() is due.
-  bool turn(Increment<2>& increment, double least);
+  bool rotate(Increment<2>& increment, double least);
 
  private:
   struct Sliding {
@@ -49,7 +49,7 @@ class RollingMechanisms<2> {
   };
   // Rotation [m] from which the sum of the contacts' stiffnesses changes by `stiffness` [N/m].
   struct Kink {
-    double turn, stiffness;
+    double rotation, stiffness;
   };
   struct Member {
     std::size_t cluster;
@@ -66,7 +66,7 @@ class RollingMechanisms<2> {
   std::vector<unsigned char> locked_;  // by odd cycles, at the cluster's root
   std::vector<unsigned char> seen_;    // nodes out of balance
   std::vector<unsigned char> wanted_;  // clusters with such nodes
-  std::vector<double> turn_;           // of a cluster: R theta of its root [m]
+  std::vector<double> rotation_;       // of a cluster: R theta of its root [m]
   std::vector<Sliding> sliding_;
   std::vector<Side> sides_;  // sorted by clusters
   std::vector<Kink> kinks_;

@@ -14,7 +14,7 @@ class RollingMechanisms<3> {
   void regularise(const Increment<3>& /*increment*/, Stiffness<3>& /*stiffness*/) const {}
   void see(const Increment<3>& /*increment*/, std::span<const double> /*step*/, double /*least*/) {}
   void forget(const Increment<3>& /*increment*/) {}
-  bool turn(Increment<3>& /*increment*/, double /*least*/) { return false; }
+  bool rotate(Increment<3>& /*increment*/, double /*least*/) { return false; }
 };
 
 }  // namespace grainlaw::core

@@ -2,6 +2,7 @@
 
 #include "base/constants.hpp"
 #include "equilibrium/drag_start.hpp"
+#include "increment/contact_state.hpp"
 #include "reference/servo.hpp"
 
 #include <algorithm>
@@ -125,7 +126,7 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
     const bool may_extrapolate = request.guess == nullptr && !has_drag(request);
     const bool relaxed =
         relax(increment, tolerance, limit, History::committed, w.relaxation, 0, may_extrapolate);
-    if (increment.lost() || increment.runs_away()) return is_free(request, increment);
+    if (lost(increment) || increment.runs_away()) return is_free(request, increment);
     const bool there = relaxed && tolerance == target;
     if (there && (coarse || increment.find_two_contact_spheres() < target)) return true;
     const auto is_loose = [&] { return increment.residual_norm() < request.loose_tolerance; };
@@ -194,12 +195,12 @@ bool solve_parts(const Request<D>& request, int parts, Workspace<D>& w, Outcome&
     if (!solve_part(request, w, outcome)) return false;
     double start = static_cast<double>(k - 1) / parts;
     const auto find_sensitivities = [&] {
-      if (!outcome.sensitivities || (may_be_free(request) && !increment.loaded())) return;
+      if (!outcome.sensitivities || (may_be_free(request) && !loaded(increment))) return;
       outcome.sensitivities = w.sensitivity.solve(increment, share, start, w.newton.stiffness);
     };
     const auto carry = [&] {
       if (!outcome.sensitivities) return;
-      if (may_be_free(request) && !increment.loaded()) {
+      if (may_be_free(request) && !loaded(increment)) {
         w.sensitivity.carry_free(increment, share);
       } else {
         w.sensitivity.carry(increment);
@@ -257,7 +258,7 @@ bool solve_advancing(const Request<D>& request, Method method, Workspace<D>& w, 
   // An F at which the contacts were lost on this path counts as loose too.
   outcome.loose =
       request.loose_tolerance > 0 && increment.residual_norm() > reachable(request, increment);
-  outcome.sensitivities = done && request.sensitivities && !outcome.loose && increment.loaded() &&
+  outcome.sensitivities = done && request.sensitivities && !outcome.loose && loaded(increment) &&
                           w.sensitivity.solve(increment, 1, 0, w.newton.stiffness);
   return done;
 }
@@ -275,7 +276,7 @@ bool solve_whole(Request<D> request, Workspace<D>& w, Outcome& outcome) {
   const double target = reachable(request, increment);
   if (!pseudo_transient_newton(increment, target, factorisations, w.newton, &w.relaxation))
     return false;
-  if (increment.collapsed()) return false;
+  if (collapsed(increment)) return false;
   w.sensitivity.reset();
   outcome.subincrements = 1;
   outcome.history_advanced = false;

@@ -3,6 +3,7 @@
 #include "base/constants.hpp"
 #include "base/error.hpp"
 #include "equilibrium/stages.hpp"
+#include "increment/contact_state.hpp"
 #include "packing/geometry.hpp"
 
 #include <algorithm>
@@ -126,7 +127,7 @@ class Walk {
     if (!find()) {
       if (ran_away_) std::rethrow_exception(ran_away_);
       const auto& increment = workspace_.increment;
-      outcome_.status = workspace_.increment.collapsed()    ? GRAINLAW_COLLAPSED
+      outcome_.status = collapsed(workspace_.increment)     ? GRAINLAW_COLLAPSED
                         : increment.scale().touching() == 0 ? GRAINLAW_CONTACTS_LOST
                                                             : GRAINLAW_NOT_CONVERGED;
       outcome_.step_ratio = 0.5;
@@ -145,14 +146,14 @@ class Walk {
       const bool done = enter(stage);
       if (stage.kind == Stage::fading) advancing_fails = !done;
       if (ran_away_) continue;
-      const bool accepted = done && (stage.kind != Stage::fading || !increment.loaded());
+      const bool accepted = done && (stage.kind != Stage::fading || !loaded(increment));
       cost_.add(increment.cost);
-      if (accepted && !increment.collapsed()) {
+      if (accepted && !collapsed(increment)) {
         outcome_.status = GRAINLAW_OK;
         if (stage.try_whole) try_whole();
         return true;
       }
-      if (stage.kind == Stage::parts && increment.lost()) return false;
+      if (stage.kind == Stage::parts && lost(increment)) return false;
       if (request_.trying == Trying::whole && increment.scale().below_rounding()) return false;
     }
     return false;

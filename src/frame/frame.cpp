@@ -114,13 +114,13 @@ void check_polygon(const Packing& packing) {
 }  // namespace
 
 std::array<std::size_t, 4> corner_indices(const Frame& frame) {
-  std::array<std::size_t, 4> place{};
+  std::array<std::size_t, 4> index{};
   std::size_t k = 0;
   for (std::size_t q = 0; q < frame.boundary.size() && k < 4; ++q)
-    if (frame.boundary[q] == frame.corner[k]) place[k++] = q;
-  if (k < 4 || place[0] != 0)
+    if (frame.boundary[q] == frame.corner[k]) index[k++] = q;
+  if (k < 4 || index[0] != 0)
     wrong("the boundary must start at corner 0 and pass the others in order");
-  return place;
+  return index;
 }
 
 void complete_frame(Packing& packing) {

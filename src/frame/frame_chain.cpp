@@ -36,8 +36,8 @@ ChainGraph::ChainGraph(std::vector<double> position, const std::vector<double>& 
   for (const NeighbourPair<2>& pair : pairs) {
     const auto i = static_cast<std::size_t>(pair.i);
     const auto j = static_cast<std::size_t>(pair.j);
-    const Point a = place({pair.i, {0, 0}});
-    const Point b = place({pair.j, {pair.shift[0], pair.shift[1]}});
+    const Point a = position_of({pair.i, {0, 0}});
+    const Point b = position_of({pair.j, {pair.shift[0], pair.shift[1]}});
     const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
     const double gap = std::max(0.0, length - radius[i] - radius[j]);
     links[i].push_back({pair.j, {pair.shift[0], pair.shift[1]}, length, gap});
@@ -52,7 +52,7 @@ ChainGraph::ChainGraph(std::vector<double> position, const std::vector<double>& 
   from_.resize(cost_.size());
 }
 
-Point ChainGraph::place(const Site& site) const {
+Point ChainGraph::position_of(const Site& site) const {
   const auto p = static_cast<std::size_t>(site.particle);
   return {position_[p] + h_[0] * site.cell[0] + h_[1] * site.cell[1],
           position_[position_.size() / 2 + p] + h_[2] * site.cell[0] + h_[3] * site.cell[1]};
@@ -77,8 +77,8 @@ std::optional<Chain> ChainGraph::shortest(int origin, int direction,
   };
   const Site first{origin, {0, 0}};
   const Site last{origin, {direction == 0 ? 1 : 0, direction == 0 ? 0 : 1}};
-  const Point start = place(first);
-  const Point end = place(last);
+  const Point start = position_of(first);
+  const Point end = position_of(last);
   const Point along = {end[0] - start[0], end[1] - start[1]};
 
   // A* bound: no chain costs less than the straight line.
@@ -94,7 +94,7 @@ std::optional<Chain> ChainGraph::shortest(int origin, int direction,
     const auto [estimate, k] = open.top();
     open.pop();
     const Site site = site_of(k);
-    const Point here = place(site);
+    const Point here = position_of(site);
     if (estimate > cost_[k] + remaining(here)) continue;  // a cheaper chain was found since
     const auto p = static_cast<std::size_t>(site.particle);
     for (std::size_t l = begin_[p]; l < begin_[p + 1]; ++l) {
@@ -106,7 +106,7 @@ std::optional<Chain> ChainGraph::shortest(int origin, int direction,
       if (m != goal &&
           (next.particle == origin || blocked[static_cast<std::size_t>(next.particle)]))
         continue;
-      const Point there = place(next);
+      const Point there = position_of(next);
       const double stray = off_line(start, along, there) / mean_radius_;
       const double cost = cost_[k] + link.length * (1 + gap_weight * link.gap / mean_radius_ +
                                                     stray_weight * stray * stray);

@@ -37,7 +37,7 @@ class ChainGraph {
   // no chain.
   std::optional<Chain> shortest(int origin, int direction, const std::vector<char>& blocked);
 
-  [[nodiscard]] Point place(const Site& site) const;
+  [[nodiscard]] Point position_of(const Site& site) const;
 
  private:
   struct Link {

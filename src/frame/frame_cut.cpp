@@ -124,7 +124,7 @@ std::optional<Layout> lay_out(const Candidate& candidate, const ChainGraph& grap
   for (std::size_t k = lower.size() - 1; k > 0; --k) boundary.push_back(shifted(lower[k], 1));
   for (std::size_t k = left.size() - 1; k > 0; --k) boundary.push_back(left[k]);
   std::vector<Point> polygon;
-  for (const Site& site : boundary) polygon.push_back(graph.place(site));
+  for (const Site& site : boundary) polygon.push_back(graph.position_of(site));
   if (!is_simple(polygon) || !(signed_area(polygon) > 0)) return {};
 
   // Every other particle needs exactly one image inside.
@@ -134,16 +134,16 @@ std::optional<Layout> lay_out(const Candidate& candidate, const ChainGraph& grap
     int inside = 0;
     for (int c0 = -2; c0 <= 2; ++c0)
       for (int c1 = -2; c1 <= 2; ++c1) {
-        if (!is_inside(polygon, graph.place({static_cast<int>(p), {c0, c1}}))) continue;
+        if (!is_inside(polygon, graph.position_of({static_cast<int>(p), {c0, c1}}))) continue;
         layout.first[p] = {c0, c1};
         ++inside;
       }
     if (inside != 1) return {};
   }
-  const auto held = [&](const auto& pair) {
+  const auto fits = [&](const auto& pair) {
     return layout.copies(pair.i, pair.j, pair.shift[0], pair.shift[1]) > 0;
   };
-  if (!std::ranges::all_of(packing.touching, held) || !std::ranges::all_of(packing.contacts, held))
+  if (!std::ranges::all_of(packing.touching, fits) || !std::ranges::all_of(packing.contacts, fits))
     return {};
   return layout;
 }
@@ -174,7 +174,7 @@ Packing assemble(const Packing& periodic, const Wrapped& wrapped, const ChainGra
   packing.names_bonds = periodic.names_bonds;
   packing.position.resize(2 * sites.size());
   for (std::size_t q = 0; q < sites.size(); ++q) {
-    const Point x = graph.place(sites[q]);
+    const Point x = graph.position_of(sites[q]);
     packing.position[q] = x[0];
     packing.position[sites.size() + q] = x[1];
     packing.radius.push_back(periodic.radius[static_cast<std::size_t>(sites[q].particle)]);

@@ -12,10 +12,10 @@ bool on_segment(const Point& a, const Point& b, const Point& p) {
 }
 
 bool segments_meet(const Point& a, const Point& b, const Point& c, const Point& d) {
-  const double ca = turn(c, d, a);
-  const double cb = turn(c, d, b);
-  const double ac = turn(a, b, c);
-  const double ad = turn(a, b, d);
+  const double ca = orientation(c, d, a);
+  const double cb = orientation(c, d, b);
+  const double ac = orientation(a, b, c);
+  const double ad = orientation(a, b, d);
   if (((ca > 0) != (cb > 0)) && ((ac > 0) != (ad > 0))) return true;
   return (ca == 0 && on_segment(c, d, a)) || (cb == 0 && on_segment(c, d, b)) ||
          (ac == 0 && on_segment(a, b, c)) || (ad == 0 && on_segment(a, b, d));
@@ -23,7 +23,7 @@ bool segments_meet(const Point& a, const Point& b, const Point& c, const Point& 
 
 }  // namespace
 
-double turn(const Point& a, const Point& b, const Point& c) {
+double orientation(const Point& a, const Point& b, const Point& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
@@ -31,7 +31,7 @@ double signed_area(const std::vector<Point>& polygon) {
   // Coordinates relative to the first corner, so that a distant origin costs no digits.
   double twice = 0;
   for (std::size_t k = 2; k < polygon.size(); ++k)
-    twice += turn(polygon[0], polygon[k - 1], polygon[k]);
+    twice += orientation(polygon[0], polygon[k - 1], polygon[k]);
   return twice / 2;
 }
 
@@ -53,7 +53,7 @@ bool is_inside(const std::vector<Point>& polygon, const Point& point) {
     const Point& b = polygon[k];
     if ((a[1] > point[1]) == (b[1] > point[1])) continue;
     // The side crosses the horizontal line through the point: count crossings to its right.
-    if ((turn(a, b, point) > 0) == (b[1] > a[1])) inside = !inside;
+    if ((orientation(a, b, point) > 0) == (b[1] > a[1])) inside = !inside;
   }
   return inside;
 }

@@ -10,7 +10,7 @@ namespace grainlaw::core {
 using Point = std::array<double, 2>;
 
 // Twice the signed area of the triangle (a, b, c), positive when anticlockwise.
-double turn(const Point& a, const Point& b, const Point& c);
+double orientation(const Point& a, const Point& b, const Point& c);
 
 // Signed area, positive when anticlockwise.
 double signed_area(const std::vector<Point>& polygon);

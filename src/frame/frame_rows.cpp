@@ -66,10 +66,10 @@ void build_frame(const std::string& path, const FrameRows& rows, const ParticleI
   };
   if (rows.corners != 4)
     wrong(fmt::format("found {} particles of role 'corner', expected 4", rows.corners));
-  std::int64_t place = 0;
+  std::int64_t expected = 0;
   for (const auto& [order, particle] : rows.particle_at)
-    if (order != place++)
-      wrong(fmt::format("frame_order has no {}, expected 0 to {} without a gap", place - 1,
+    if (order != expected++)
+      wrong(fmt::format("frame_order has no {}, expected 0 to {} without a gap", expected - 1,
                         rows.particle_at.size() - 1));
   std::size_t corners = 0;
   for (const auto& [order, particle] : rows.particle_at) {

@@ -13,8 +13,8 @@ void straighten(const Packing& packing, std::size_t side, BoundarySpace<2>& spac
   const auto corner = corner_indices(frame);
   const std::size_t count = frame.boundary.size();
   const std::size_t end = side < 3 ? corner[side + 1] : count;
-  const auto at = [&](std::size_t place) {
-    const auto p = static_cast<std::size_t>(frame.boundary[place % count]);
+  const auto at = [&](std::size_t index) {
+    const auto p = static_cast<std::size_t>(frame.boundary[index % count]);
     return std::array{undeformed(packing)[p], undeformed(packing)[n + p]};
   };
   const auto a = at(corner[side]);

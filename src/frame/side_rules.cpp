@@ -23,7 +23,7 @@ constexpr std::array<const char*, 4> side_names{"bottom", "right", "top", "left"
 }
 
 // Bits of the sides of every boundary particle: bit k for side k, two at a corner.
-std::vector<unsigned char> sides_of_places(const Frame& frame) {
+std::vector<unsigned char> sides_of_boundary(const Frame& frame) {
   const auto corner = corner_indices(frame);
   const std::size_t count = frame.boundary.size();
   std::vector<unsigned char> sides(count, 0);
@@ -43,7 +43,7 @@ class Builder {
         frame_(*packing.frame),
         sides_(sides),
         space_(space),
-        sides_of_(sides_of_places(frame_)) {}
+        sides_of_(sides_of_boundary(frame_)) {}
 
   void build() {
     share_nodes();
@@ -54,9 +54,9 @@ class Builder {
   }
 
  private:
-  [[nodiscard]] bool any_side(std::size_t place, auto&& has) const {
+  [[nodiscard]] bool any_side(std::size_t index, auto&& has) const {
     for (std::size_t k = 0; k < 4; ++k) {
-      if ((sides_of_[place] >> k & 1U) != 0 && has(sides_[k])) return true;
+      if ((sides_of_[index] >> k & 1U) != 0 && has(sides_[k])) return true;
     }
     return false;
   }
@@ -130,8 +130,8 @@ class Builder {
     }
   }
 
-  [[nodiscard]] std::size_t node_at(std::size_t place) const {
-    return static_cast<std::size_t>(space_.node[static_cast<std::size_t>(frame_.boundary[place])]);
+  [[nodiscard]] std::size_t node_at(std::size_t index) const {
+    return static_cast<std::size_t>(space_.node[static_cast<std::size_t>(frame_.boundary[index])]);
   }
 
   void fix_nodes() {
@@ -139,20 +139,22 @@ class Builder {
     space_.boundary.assign(space_.nodes, 0);
     for (std::size_t q = 0; q < sides_of_.size(); ++q) {
       auto& fixed = space_.fixed[node_at(q)];
-      const auto held = [](const Side& s) { return s.rotation != SideRotation::free; };
+      const auto prescribes_rotation = [](const Side& s) {
+        return s.rotation != SideRotation::free;
+      };
       auto& boundary = space_.boundary[node_at(q)];
-      boundary = any_side(q, held) || boundary == 1 ? 1 : 2;
+      boundary = any_side(q, prescribes_rotation) || boundary == 1 ? 1 : 2;
       const auto fix = [&](unsigned char bit, auto&& has) {
         if (any_side(q, has)) fixed |= bit;
       };
-      const auto held_x = [](const Side& s) {
+      const auto fixes_x = [](const Side& s) {
         return s.x == SideRule::d || s.row == SideRow::rigid;
       };
-      const auto held_y = [](const Side& s) {
+      const auto fixes_y = [](const Side& s) {
         return s.y == SideRule::d || s.row == SideRow::rigid;
       };
-      fix(fixed_bit(0), held_x);
-      fix(fixed_bit(1), held_y);
+      fix(fixed_bit(0), fixes_x);
+      fix(fixed_bit(1), fixes_y);
       fix(fixed_rotation<2>, [](const Side& s) { return s.rotation == SideRotation::fixed; });
     }
     // Nodes periodic in both directions translate freely; the published servo prescribes the

@@ -58,8 +58,8 @@ class Placed {
     members_.resize(all);
   }
 
-  [[nodiscard]] bool fits(const Vec<D>& place, double radius) const {
-    Bin first = bin(place);
+  [[nodiscard]] bool fits(const Vec<D>& position, double radius) const {
+    Bin first = bin(position);
     Bin last = first;
     for (std::size_t k = 0; k < D; ++k) {
       --first[k];
@@ -71,7 +71,7 @@ class Placed {
         const double limit = radius + other.radius;
         Vec<D> apart;
         for (std::size_t k = 0; k < D; ++k) {
-          apart[k] = std::remainder(place[k] - other.place[k], side_);
+          apart[k] = std::remainder(position[k] - other.position[k], side_);
         }
         if (square<D>(apart) < limit * limit) fits = false;
       }
@@ -79,21 +79,21 @@ class Placed {
     return fits;
   }
 
-  void add(const Vec<D>& place, double radius) {
-    members_[index(bin(place))].push_back({place, radius});
+  void add(const Vec<D>& position, double radius) {
+    members_[index(bin(position))].push_back({position, radius});
   }
 
  private:
   struct Particle {
-    Vec<D> place;
+    Vec<D> position;
     double radius;
   };
   using Bin = std::array<std::int32_t, static_cast<std::size_t>(D)>;
 
-  [[nodiscard]] Bin bin(const Vec<D>& place) const {
+  [[nodiscard]] Bin bin(const Vec<D>& position) const {
     Bin result;
     for (std::size_t k = 0; k < D; ++k) {
-      result[k] = std::min(static_cast<int>(place[k] / side_ * bins_), bins_ - 1);
+      result[k] = std::min(static_cast<int>(position[k] / side_ * bins_), bins_ - 1);
     }
     return result;
   }
@@ -149,16 +149,16 @@ Packing scatter(const GeneratorOptions& options) {
   Placed<D> placed(side, options.radius_max);
   for (const std::size_t p : order) {
     int trials = 0;
-    Vec<D> place{};
+    Vec<D> position{};
     do {
       if (++trials > most_trials)
         throw Error(GRAINLAW_BAD_PACKING,
                     fmt::format("generator: no room for a {}; the radii differ too much",
                                 D == 2 ? "disc" : "sphere"));
-      for (double& component : place) component = side * unit_double(engine);
-    } while (!placed.fits(place, packing.radius[p]));
-    placed.add(place, packing.radius[p]);
-    for (std::size_t k = 0; k < D; ++k) packing.position[k * n + p] = place[k];
+      for (double& component : position) component = side * unit_double(engine);
+    } while (!placed.fits(position, packing.radius[p]));
+    placed.add(position, packing.radius[p]);
+    for (std::size_t k = 0; k < D; ++k) packing.position[k * n + p] = position[k];
   }
   return packing;
 }

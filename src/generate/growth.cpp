@@ -63,12 +63,12 @@ Growth<D>::Growth(const GeneratorOptions& options, const std::vector<double>& ra
 }
 
 template <int D>
-void Growth<D>::place(const Packing& start, std::mt19937_64& engine) {
+void Growth<D>::begin(const Packing& start, std::mt19937_64& engine) {
   const std::size_t n = particles_.size();
   const double side = start.cell[0];
   for (std::size_t p = 0; p < n; ++p) {
     Particle& particle = particles_[p];
-    for (std::size_t k = 0; k < dim; ++k) particle.place[k] = start.position[k * n + p] / side;
+    for (std::size_t k = 0; k < dim; ++k) particle.position[k] = start.position[k * n + p] / side;
     particle.velocity = unit_vector<D>(engine);
   }
   rescale();
@@ -131,9 +131,10 @@ void Growth<D>::rescale() {
     particle.time = 0;
     for (std::size_t k = 0; k < dim; ++k) {
       particle.velocity[k] *= factor;
-      particle.place[k] -= std::floor(particle.place[k]);
-      particle.cell[k] = std::min(
-          cells_ - 1, static_cast<std::int32_t>(particle.place[k] * static_cast<double>(cells_)));
+      particle.position[k] -= std::floor(particle.position[k]);
+      particle.cell[k] =
+          std::min(cells_ - 1,
+                   static_cast<std::int32_t>(particle.position[k] * static_cast<double>(cells_)));
     }
     members_[bucket(particle.cell)].push_back(static_cast<int>(i));
   }

@@ -27,18 +27,18 @@ class Growth {
 
   using Cells = std::array<std::int32_t, static_cast<std::size_t>(D)>;
   struct Particle {
-    Vec<D> place;  // at `time`, not wrapped
+    Vec<D> position;  // at `time`, not wrapped
     Vec<D> velocity;
     double radius;  // radius at scale 1
     double time;
-    Cells cell;               // of the periodic grid, not wrapped
-    unsigned long turns = 0;  // collisions so far; predictions with fewer are void
+    Cells cell;                    // of the periodic grid, not wrapped
+    unsigned long collisions = 0;  // collisions so far; predictions with fewer are void
   };
 
   Growth(const GeneratorOptions& options, const std::vector<double>& radii);
 
   // Takes positions in the unit box and draws velocities.
-  void place(const Packing& start, std::mt19937_64& engine);
+  void begin(const Packing& start, std::mt19937_64& engine);
 
   // Runs to jamming or to the end of growth; returns whether the particles jammed.
   bool run();
@@ -58,8 +58,8 @@ class Growth {
     int particle = 0;
     int partner = -1;
     Cells shift{};
-    unsigned long turns = 0;
-    unsigned long partner_turns = 0;
+    unsigned long collisions = 0;
+    unsigned long partner_collisions = 0;
 
     bool operator>(const Event& other) const {
       return std::pair(time, particle) > std::pair(other.time, other.particle);
@@ -104,9 +104,9 @@ class Growth {
 // Branch from a to b, which is shifted by so many boxes.
 template <class Particle, class Cells>
 auto branch_of(const Particle& a, const Particle& b, const Cells& shift) {
-  auto branch = b.place;
+  auto branch = b.position;
   for (std::size_t k = 0; k < shift.size(); ++k) {
-    branch[k] = branch[k] + static_cast<double>(shift[k]) - a.place[k];
+    branch[k] = branch[k] + static_cast<double>(shift[k]) - a.position[k];
   }
   return branch;
 }

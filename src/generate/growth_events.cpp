@@ -17,7 +17,7 @@ double Growth<D>::meeting(const Particle& a, const Particle& b, const Cells& shi
   const double late = now_ - b.time;
   Vec<D> x, u;
   for (std::size_t k = 0; k < dim; ++k) {
-    x[k] = b.place[k] + b.velocity[k] * late + static_cast<double>(shift[k]) - a.place[k];
+    x[k] = b.position[k] + b.velocity[k] * late + static_cast<double>(shift[k]) - a.position[k];
     u[k] = b.velocity[k] - a.velocity[k];
   }
   const double reach = a.radius + b.radius;
@@ -39,16 +39,16 @@ void Growth<D>::predict(std::size_t i) {
   const Particle& particle = particles_[i];
   Event next;
   next.particle = static_cast<int>(i);
-  next.turns = particle.turns;
-  const auto leaving = [&](double place, double velocity, std::int32_t cell) {
+  next.collisions = particle.collisions;
+  const auto leaving = [&](double position, double velocity, std::int32_t cell) {
     const double width = 1 / static_cast<double>(cells_);
     const auto k = static_cast<double>(cell);
-    if (velocity > 0) return ((k + 1) * width - place) / velocity;
-    return velocity < 0 ? (k * width - place) / velocity : never;
+    if (velocity > 0) return ((k + 1) * width - position) / velocity;
+    return velocity < 0 ? (k * width - position) / velocity : never;
   };
   double time = never;
   for (std::size_t k = 0; k < dim; ++k) {
-    time = std::min(time, leaving(particle.place[k], particle.velocity[k], particle.cell[k]));
+    time = std::min(time, leaving(particle.position[k], particle.velocity[k], particle.cell[k]));
   }
   time = std::max(0.0, time);
   for_neighbours(particle, [&](std::size_t j, const Cells& shift) {
@@ -58,7 +58,7 @@ void Growth<D>::predict(std::size_t i) {
     time = meet;
     next.partner = static_cast<int>(j);
     next.shift = shift;
-    next.partner_turns = particles_[j].turns;
+    next.partner_collisions = particles_[j].collisions;
   });
   next.time = now_ + time;
   events_.push(next);
@@ -67,7 +67,7 @@ void Growth<D>::predict(std::size_t i) {
 template <int D>
 void Growth<D>::bring_up(Particle& particle) const {
   for (std::size_t k = 0; k < dim; ++k) {
-    particle.place[k] += particle.velocity[k] * (now_ - particle.time);
+    particle.position[k] += particle.velocity[k] * (now_ - particle.time);
   }
   particle.time = now_;
 }
@@ -86,8 +86,8 @@ void Growth<D>::collide(Particle& a, Particle& b, const Cells& shift) {
     a.velocity[k] -= kick * normal[k];
     b.velocity[k] += kick * normal[k];
   }
-  ++a.turns;
-  ++b.turns;
+  ++a.collisions;
+  ++b.collisions;
   virial_ += kick * distance;
 }
 
@@ -102,7 +102,7 @@ void Growth<D>::enter_next_cell(std::size_t i) {
     const double velocity = particle.velocity[k];
     std::int32_t& cell = particle.cell[k];
     const double wall = static_cast<double>(velocity > 0 ? cell + 1 : cell) * width;
-    const double rest = velocity > 0 ? wall - particle.place[k] : particle.place[k] - wall;
+    const double rest = velocity > 0 ? wall - particle.position[k] : particle.position[k] - wall;
     if (velocity != 0 && rest <= 1e-12 * width) cell += velocity > 0 ? 1 : -1;
   }
   members_[bucket(particle.cell)].push_back(static_cast<int>(i));
@@ -121,7 +121,7 @@ bool Growth<D>::run_block(long collisions) {
     events_.pop();
     const auto i = static_cast<std::size_t>(event.particle);
     Particle& particle = particles_[i];
-    if (event.turns != particle.turns) continue;
+    if (event.collisions != particle.collisions) continue;
     now_ = event.time;
     bring_up(particle);
     if (event.partner < 0) {
@@ -131,7 +131,7 @@ bool Growth<D>::run_block(long collisions) {
     }
     const auto j = static_cast<std::size_t>(event.partner);
     Particle& partner = particles_[j];
-    if (event.partner_turns != partner.turns) {
+    if (event.partner_collisions != partner.collisions) {
       predict(i);
       continue;
     }

@@ -31,7 +31,7 @@ Packing grow(const GeneratorOptions& options) {
   Packing packing = scatter<D>(options);
   std::mt19937_64 engine(options.seed);
   Growth<D> growth(options, packing.radius);
-  growth.place(packing, engine);
+  growth.begin(packing, engine);
   const bool jammed = growth.run();
   const double scale = growth.free_scale();
   if (jammed && options.growth_end > 0)
@@ -48,7 +48,7 @@ Packing grow(const GeneratorOptions& options) {
   for (std::size_t k = 0; k < D; ++k) {
     packing.cell[(D + 1) * k] = side;
     for (std::size_t p = 0; p < n; ++p) {
-      packing.position[k * n + p] = growth.particles()[p].place[k] * side;
+      packing.position[k * n + p] = growth.particles()[p].position[k] * side;
     }
   }
   return packing;

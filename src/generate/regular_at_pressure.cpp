@@ -46,7 +46,7 @@ double overlap_under(const Lattice& lattice, const ContactLaw& law, double radiu
 }
 
 template <int D>
-Packing place(const GeneratorOptions& options, double distance) {
+Packing lattice_at(const GeneratorOptions& options, double distance) {
   const double radius = options.radius_max;
   if constexpr (D == 3) {
     return sphere_lattice(options.kind, options.cells, radius, distance);
@@ -74,7 +74,7 @@ Packing make_regular(const GeneratorOptions& options, const ContactLaw& law) {
   if (!(overlap >= 0 && overlap < lattice.most_overlap * diameter))
     wrong("overlap", overlap,
           fmt::format("a length >= 0 and below {} m", lattice.most_overlap * diameter));
-  Packing packing = place<D>(options, diameter - overlap);
+  Packing packing = lattice_at<D>(options, diameter - overlap);
   std::mt19937_64 engine(options.seed);
   if (options.radius_spread > 0)
     for (double& r : packing.radius) r *= 1 + options.radius_spread * (2 * unit_double(engine) - 1);

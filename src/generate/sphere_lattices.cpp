@@ -15,8 +15,8 @@ namespace grainlaw::core {
 namespace {
 
 struct UnitCell {
-  Vec<3> edges;                // of a cell, over the distance of neighbours
-  std::vector<Vec<3>> places;  // positions over the edges
+  Vec<3> edges;                   // of a cell, over the distance of neighbours
+  std::vector<Vec<3>> positions;  // positions over the edges
   int neighbours;
 };
 
@@ -53,21 +53,21 @@ Packing sphere_lattice(GeneratorKind kind, const std::array<std::size_t, 3>& cel
   const UnitCell unit = unit_cell(kind);
   Packing packing;
   packing.dimension = 3;
-  std::array<std::vector<double>, 3> places;
+  std::array<std::vector<double>, 3> positions;
   for (std::size_t c = 0; c < cells[2]; ++c)
     for (std::size_t b = 0; b < cells[1]; ++b)
       for (std::size_t a = 0; a < cells[0]; ++a)
-        for (const Vec<3>& place : unit.places)
+        for (const Vec<3>& position : unit.positions)
           for (std::size_t k = 0; k < 3; ++k) {
             // A quarter of a distance from the cell's faces, so that rounding cannot carry a sphere
             // across.
-            const double at = static_cast<double>(std::array{a, b, c}[k]) + place[k] + 0.25;
-            places[k].push_back(at * unit.edges[k] * distance);
+            const double at = static_cast<double>(std::array{a, b, c}[k]) + position[k] + 0.25;
+            positions[k].push_back(at * unit.edges[k] * distance);
           }
-  packing.radius.assign(places[0].size(), radius);
+  packing.radius.assign(positions[0].size(), radius);
   for (std::size_t k = 0; k < 3; ++k) {
     packing.cell[4 * k] = static_cast<double>(cells[k]) * unit.edges[k] * distance;
-    packing.position.insert(packing.position.end(), places[k].begin(), places[k].end());
+    packing.position.insert(packing.position.end(), positions[k].begin(), positions[k].end());
   }
   return packing;
 }
@@ -75,7 +75,7 @@ Packing sphere_lattice(GeneratorKind kind, const std::array<std::size_t, 3>& cel
 double pressure_share(GeneratorKind kind) {
   const UnitCell unit = unit_cell(kind);
   const double volume = unit.edges[0] * unit.edges[1] * unit.edges[2];
-  return unit.neighbours * static_cast<double>(unit.places.size()) / (6 * volume);
+  return unit.neighbours * static_cast<double>(unit.positions.size()) / (6 * volume);
 }
 
 double most_lattice_overlap(GeneratorKind kind) {

@@ -2,6 +2,7 @@
 
 #include "homogenise/measures.hpp"
 #include "homogenise/stress.hpp"
+#include "increment/contact_state.hpp"
 #include "packing/geometry.hpp"
 
 #include <algorithm>
@@ -64,7 +65,7 @@ bool StressControl<D>::accept(const Tensor<D>& deformation, double least_pressur
   request.sensitivities = true;
   const Outcome outcome = solve(request, workspace_);
   Increment<D>& increment = workspace_.increment;
-  if (outcome.status != GRAINLAW_OK || !increment.loaded()) return false;
+  if (outcome.status != GRAINLAW_OK || !loaded(increment)) return false;
   const Tensor<D> stress = piola_stress(increment);
   const auto tangent = outcome.sensitivities ? condensed_tangent(increment, workspace_.sensitivity)
                                              : elastic_tangent(increment);

@@ -1,6 +1,7 @@
 #include "homogenise/stress.hpp"
 
 #include "contact/contact_point.hpp"
+#include "increment/contact_state.hpp"
 
 #include <cmath>
 
@@ -17,7 +18,7 @@ void for_each_contact(const Increment<D>& increment, Visit&& visit) {
                                      increment.problem().particles(), *increment.problem().law);
     if (point.status == ContactStatus::open) continue;
     visit(c, point,
-          increment.problem().space->bound_to_axes() ? increment.fixed_branch(c)
+          increment.problem().space->bound_to_axes() ? fixed_branch_of(increment, c)
                                                      : product<D>(pull_back, point.branch));
   }
 }
@@ -126,9 +127,9 @@ Tensor4<3> condensed_tangent(const Increment<3>& increment, const Sensitivity<3>
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 3; ++j) spin[3 * i + j] = 0.5 * (x[3 * i + j] - x[3 * j + i]);
     }
-    const Tensor<3> turned = product<3>(spin, stress);
+    const Tensor<3> rotated = product<3>(spin, stress);
     for (std::size_t row = 0; row < n; ++row) {
-      double sum = turned[row];
+      double sum = rotated[row];
       for (std::size_t lane = 0; lane < stretch_of_lane.size(); ++lane) {
         const auto [a, b] = stretch_of_lane[lane];
         sum += 0.5 * (x[3 * a + b] + x[3 * b + a]) * by_stretch[row * n + lane];

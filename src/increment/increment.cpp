@@ -2,12 +2,12 @@
 
 #include "base/constants.hpp"
 #include "contact/contact_forces.hpp"
-#include "increment/records.hpp"
+#include "contact/contact_point.hpp"
+#include "increment/contact_state.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
 
 namespace grainlaw::core {
 
@@ -23,17 +23,10 @@ std::uint64_t next_epoch() {
 template <int D>
 void Increment<D>::begin(const Problem<D>& problem, const Configuration<D>& from,
                          const Tensor<D>& target) {
-  problem_ = &problem;
   epoch_ = next_epoch();
   cost = {};
-  has_chord_springs_ = false;
-  losses_.begin();
-  motion_.begin(problem, from);
+  Balance::begin(problem, from);
   history_.begin(from);
-  masses_.begin(problem, motion_);
-  scale_.begin(problem, motion_);
-  forces_.resize(problem.nodes() + problem.rows());
-  residual_.resize(problem.unknowns());
   deform(target);
 }
 
@@ -67,87 +60,12 @@ bool Increment<D>::keep_neighbours() {
 }
 
 template <int D>
-double Increment<D>::overlap(std::size_t c) const {
-  return contacts_.rest_of(c) - std::sqrt(branch_square(c));
-}
-
-template <int D>
-void Increment<D>::refresh_masses() {
-  motion_.load_records();
-  sum_masses();
-  masses_.put(*problem_, motion_);
-}
-
-template <int D>
-void Increment<D>::sum_masses() {
-  scale_.take(masses_.sum(*problem_, motion_, contacts_));
-}
-
-template <int D>
-void Increment<D>::relinearise(HalfContacts<D>& half_contacts) {
-  scale_.take(
-      half_contacts.relinearise(motion_.records(), *problem_->law, tuned::mass_factor, contacts_));
-  if (motion_.drag().acts()) {
-    half_contacts.add_drag(motion_.records(), motion_.drag().of_nodes(), tuned::mass_factor);
-  }
-}
-
-template <int D>
-void Increment<D>::update_forces(History history) {
-  motion_.load_records();
-  find_forces(history);
-  put_residual(forces_.data(), motion_.node_radius(), problem_->law->rotating(), residual_.data());
-  double* of_rows = residual_.data() + problem_->node_unknowns();
-  for (std::size_t i = 0; i < problem_->rows(); ++i) {
-    std::copy_n(&forces_[problem_->nodes() + i].x, dim, of_rows + dim * i);
-  }
-  if constexpr (D == 3) {
-    if (!has_chord_springs_) return;
-    two_contact_spheres_.find(*this);
-    two_contact_spheres_.add_to(problem_->nodes(), residual_);
-  }
-}
-
-template <int D>
-bool Increment<D>::add_chord_springs() {
-  if constexpr (D == 3) has_chord_springs_ = TwoContactSpheres::possible(*this);
-  return has_chord_springs_;
-}
-
-template <int D>
-double Increment<D>::find_two_contact_spheres() {
-  if constexpr (D == 2) return 0;
-  if constexpr (D == 3) {
-    two_contact_spheres_.forget();
-    if (!TwoContactSpheres::possible(*this)) return 0;
-    refresh_masses();
-    two_contact_spheres_.find(*this);
-    double largest = 0;
-    for (const auto& sphere : two_contact_spheres_.spheres()) {
-      largest = std::max(largest, sphere.force(motion_.node_radius()[sphere.node]));
-    }
-    return largest / scale_.relative();
-  }
-}
-
-template <int D>
-void Increment<D>::find_forces(History history) {
-  if (history == History::advancing) {
-    losses_.dissipate(advance_contacts<D>(motion_.records(), *problem_->law, contacts_, forces_));
-    motion_.restart_rotations();
-  } else {
-    sum_forces(forces_);
-  }
-  reduce(forces_);
-}
-
-template <int D>
 void Increment<D>::find_first_drag(bool stressed) {
   motion_.load_records();
-  sum_masses();
+  this->sum_masses();
   if (stressed) {
-    sum_forces(forces_);
-    reduce(forces_);
+    this->sum_forces(forces_);
+    this->reduce(forces_);
   } else {
     std::fill(forces_.begin(), forces_.end(), ForceRecord<D>{});
   }
@@ -155,92 +73,129 @@ void Increment<D>::find_first_drag(bool stressed) {
 }
 
 template <int D>
-void Increment<D>::find_contact_forces() {
-  core::find_contact_forces<D>(motion_.records(), *problem_->law, contacts_);
-}
-
-template <int D>
-void Increment<D>::sum_forces(std::span<ForceRecord<D>> forces) {
-  evaluate_contacts<D>(motion_.records(), *problem_->law, contacts_, forces);
-  if (motion_.drag().acts()) motion_.drag().subtract_from(forces, motion_.records());
-}
-
-// Reduces forces on nodes to residuals. Prescribed components become 0, and the part that the
-// average constraint supports is projected out, with the present masses. Found rows of F get the
-// missing stress as forces.
-template <int D>
-void Increment<D>::reduce(std::span<ForceRecord<D>> forces) const {
-  const auto& space = *problem_->space;
-  if (space.identity) return;
-  for (std::size_t q = 0; q < problem_->nodes(); ++q) {
-    const unsigned char fixed = space.fixed[q];
-    if (fixed == 0) continue;
-    for (std::size_t k = 0; k < Dimension<D>::unknowns; ++k) {
-      if ((fixed & fixed_bit(k)) != 0) component(forces[q], k) = 0;
-    }
-  }
-  masses_.project_out_averages(space, forces);
-  if (space.finds_deformation) add_missing_stress(forces);
-}
-
-// Force on the rows of F: V (P* - P) over the scale, with V P = - sum f (x) L. @formula stress
-template <int D>
-void Increment<D>::add_missing_stress(std::span<ForceRecord<D>> forces) const {
-  const auto& space = *problem_->space;
-  Tensor<D> force{};
+void Increment<D>::advance_contacts_and_history() {
+  motion_.load_records();
+  const auto& law = *problem_->law;
+  losses_.dissipate(advance_contacts<D>(motion_.records(), law, contacts_, forces_));
+  motion_.restart_rotations();
+  if (losses_.after_break()) losses_.fall_to(potential_energy());
+  history_.clear(pairs(), law);
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    const double* f = &contacts_.forces[c].x;
-    if (std::all_of(f, f + dim, [](double component) { return component == 0; })) continue;
-    const auto branch = fixed_branch(c);
-    for (std::size_t k = 0; k < squared<D>; ++k) force[k] += f[k / dim] * branch[k % dim];
-  }
-  for (std::size_t k = 0; k < squared<D>; ++k) {
-    force[k] = space.found[k] ? (force[k] + space.reference_volume * space.stress[k]) /
-                                    motion_.deformation_scale()
-                              : 0;
-  }
-  for (std::size_t i = 0; i < dim; ++i) {
-    ForceRecord<D>& row = forces[problem_->nodes() + i];
-    row = {};
-    std::copy_n(force.data() + dim * i, dim, &row.x);
+    if (bears_load(*this, c))
+      history_.add(contacts_, c, pairs()[c], overlap_of(*this, c), scale_.chance(), law);
   }
 }
 
 template <int D>
-double Increment<D>::residual_norm() const {
-  if (scale_.touching() == 0) return std::numeric_limits<double>::infinity();
-  const auto m = problem_->nodes();
-  const double* r = residual_.data();
-  double largest = 0;
-  double sum = 0;  // catches NaN, which max does not
-#pragma omp simd reduction(max : largest) reduction(+ : sum)
-  for (std::size_t q = 0; q < dim * m; ++q) {
-    largest = std::max(largest, std::abs(r[q]));
-    sum += r[q];
+void Increment<D>::advance_history() {
+  advance_contacts_and_history();
+  motion_.start_here();
+  build_list();
+}
+
+template <int D>
+void Increment<D>::continue_history() {
+  advance_contacts_and_history();
+  find_supported(*this, supported_);
+  motion_.start_here(supported_);
+  build_list();
+}
+
+template <int D>
+int Increment<D>::released_particle() {
+  const auto& space = *problem_->space;
+  supported_.assign(problem_->nodes(), 0);
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    if (overlap_of(*this, c) <= 0) continue;
+    supported_[static_cast<std::size_t>(space.node[static_cast<std::size_t>(contacts_.i[c])])] = 1;
+    supported_[static_cast<std::size_t>(space.node[static_cast<std::size_t>(contacts_.j[c])])] = 1;
   }
-  if (problem_->law->rotating()) {
-    const double* moment = r + dim * m;
-    const double* radius = motion_.node_radius().data();
-    for (std::size_t k = 0; k < spins; ++k, moment += m) {
-#pragma omp simd reduction(max : largest) reduction(+ : sum)
-      for (std::size_t q = 0; q < m; ++q) {
-        const double force = moment[q] / radius[q];
-        largest = std::max(largest, std::abs(force));
-        sum += force;
-      }
+  for (const auto& average : space.average) {
+    for (const auto q : average.node) {
+      if (supported_[static_cast<std::size_t>(q)]) continue;
+      return static_cast<int>(std::find(space.node.begin(), space.node.end(), q) -
+                              space.node.begin());
     }
   }
-  if (problem_->space->finds_deformation) {
-    for (std::size_t k = problem_->node_unknowns(); k < problem_->unknowns(); ++k) {
-      largest = std::max(largest, std::abs(r[k]));
-      sum += r[k];
-    }
-    if (!(determinant<D>(motion_.deformation()) > 0)) {
-      return std::numeric_limits<double>::infinity();
-    }
+  return -1;
+}
+
+template <int D>
+bool Increment<D>::runs_away() const {
+  const auto& space = *problem_->space;
+  if (!space.finds_deformation) return false;
+  for (std::size_t k = 0; k < squared<D>; ++k) {
+    const double change = motion_.deformation()[k] - motion_.committed_deformation()[k];
+    if (space.found[k] && std::abs(change) > tuned::largest_found_change) return true;
   }
-  if (!std::isfinite(sum)) return std::numeric_limits<double>::infinity();
-  return largest / scale_.relative();
+  return false;
+}
+
+// Energy of the springs less the work of the prescribed stresses [J]. Nothing else supplies energy
+// at the given F.
+template <int D>
+double Increment<D>::potential_energy() const {
+  const auto& space = *problem_->space;
+  double energy =
+      stored_energy(contacts_, motion_.coordinates(), problem_->particles(), *problem_->law);
+  for (std::size_t k = 0; k < squared<D>; ++k) {
+    if (space.found[k])
+      energy -= space.reference_volume * space.stress[k] * motion_.deformation()[k];
+  }
+  return energy;
+}
+
+// Load of a bond, 1 at failure; 0 without a bond [-]. @formula bond
+template <int D>
+double Increment<D>::bond_load(std::size_t c) const {
+  if (!contacts_.bonded(c)) return 0;
+  const auto& law = *problem_->law;
+  const auto point = contact_point(contacts_, c, motion_.coordinates(), problem_->particles(), law);
+  double load = -point.normal_force / law.bond.normal_strength +
+                magnitude_of(point.tangential_force) / law.bond.tangential_strength;
+  const bool by_moments = law.bond.bending_strength > 0 || law.bond.torsion_strength > 0;
+  if (by_moments && law.moments()) {
+    load += bond_share(
+        contact_moment(contacts_, c, point, motion_.coordinates(), problem_->particles(), law),
+        law.bond);
+  }
+  return load / contacts_.weight_of(c);
+}
+
+template <int D>
+double Increment<D>::worst_bond() const {
+  double worst = 0;
+  if (!problem_->law->bonds()) return worst;
+  for (std::size_t c = 0; c < contacts_.size(); ++c) worst = std::max(worst, bond_load(c));
+  return worst;
+}
+
+template <int D>
+bool Increment<D>::break_bonds() {
+  if (!overloads_bonds()) return false;
+  const double energy = potential_energy();
+  continue_history();
+  losses_.begin_break(energy);
+  const double worst = worst_bond();
+  const double limit = std::min(worst, 0.5 * (1 + worst));
+  std::size_t h = 0;
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    if (!contacts_.bonded(c)) continue;
+    while (key_of(history_.contacts()[h]) != key_of(pairs()[c])) ++h;
+    if (bond_load(c) < limit) continue;
+    history_.break_bond(h);
+    losses_.break_bond(contacts_.weight_of(c));
+  }
+  build_list();
+  return true;
+}
+
+template <int D>
+void Increment<D>::export_to(const Configuration<D>& from, Configuration<D>& to) const {
+  motion_.export_to(from, to);
+  history_.export_to(to);
+  to.dissipated = from.dissipated + losses_.dissipated();
+  to.broken_bonds = from.broken_bonds + losses_.broken_bonds();
 }
 
 template class Increment<2>;

@@ -12,7 +12,7 @@ namespace {
 
 // Adds the affine displacement of reference positions to x.
 template <int D>
-void move_with(const double* reference, const Tensor<D>& change, std::size_t n, double* x) {
+void carry_with(const double* reference, const Tensor<D>& change, std::size_t n, double* x) {
   for (std::size_t p = 0; p < n; ++p) {
     for (std::size_t k = 0; k < D; ++k) {
       x[k * n + p] += dot<D>(change.data() + D * k, reference + p, n);
@@ -75,7 +75,7 @@ void Motion<D>::carry_affinely(const Tensor<D>& from, const Tensor<D>& to,
   if (problem_->space->bound_to_axes()) {
     Tensor<D> change{};
     for (std::size_t k = 0; k < squared<D>; ++k) change[k] = to[k] - from[k];
-    move_with<D>(problem_->space->reference.data(), change, n, positions);
+    carry_with<D>(problem_->space->reference.data(), change, n, positions);
     return;
   }
   map_positions<D>(product<D>(to, inverse<D>(from)), n, positions);
@@ -140,7 +140,7 @@ void Motion<D>::move(std::span<const double> step, double factor) {
     if (space.found[k]) change[k] = factor * found[k] / deformation_scale_;
     deformation_[k] += change[k];
   }
-  move_with<D>(space.reference.data(), change, n, coordinates_.data());
+  carry_with<D>(space.reference.data(), change, n, coordinates_.data());
   if (drag_.acts()) drag_.follow_deformation(space, change);
 }
 
@@ -188,7 +188,7 @@ void Motion<D>::start_here() {
 
 // Rotations stay: the history of a particle does not depend on its orientation.
 template <int D>
-void Motion<D>::start_here(std::span<const unsigned char> held) {
+void Motion<D>::start_here(std::span<const unsigned char> supported) {
   const auto n = problem_->particles();
   const auto& node = problem_->space->node;
   carried_start_.assign(start_.begin(), start_.begin() + static_cast<std::ptrdiff_t>(dim * n));
@@ -196,20 +196,20 @@ void Motion<D>::start_here(std::span<const unsigned char> held) {
   start_here();
   for (std::size_t k = 0; k < dim; ++k) {
     const double* carried = carried_start_.data() + k * n;
-    const auto is_held = [&](std::size_t p) {
-      return (held[static_cast<std::size_t>(node[p])] & fixed_bit(k)) != 0;
+    const auto is_supported = [&](std::size_t p) {
+      return (supported[static_cast<std::size_t>(node[p])] & fixed_bit(k)) != 0;
     };
     double sum = 0;
     double count = 0;
     for (std::size_t p = 0; p < n; ++p) {
-      if (!is_held(p)) continue;
+      if (!is_supported(p)) continue;
       sum += coordinates_[k * n + p] - carried[p];
       ++count;
     }
     if (count == static_cast<double>(n)) continue;
     const double mean = count > 0 ? sum / count : 0;
     for (std::size_t p = 0; p < n; ++p) {
-      if (!is_held(p)) start_[k * n + p] = carried[p] + mean;
+      if (!is_supported(p)) start_[k * n + p] = carried[p] + mean;
     }
   }
 }

@@ -43,7 +43,7 @@ class Motion {
   void start_here();
   // Starts the history here for supported nodes (fixed_bit() of each direction). Others start at
   // the affine image of their last start, plus the mean fluctuation of the supported ones.
-  void start_here(std::span<const unsigned char> held);
+  void start_here(std::span<const unsigned char> supported);
   // Sets the present rotations of spheres as the reference.
   void restart_rotations();
 

@@ -59,16 +59,16 @@ template <>
 class RotationReference<3> {
  public:
   void reset(std::size_t particles, bool rotating) {
-    turn_.assign(rotating ? particles : 0, Quaternion{});
+    rotation_.assign(rotating ? particles : 0, Quaternion{});
   }
   void restart(std::span<ParticleRecord<3>> records, double* rotation) {
-    const std::size_t n = turn_.size();
+    const std::size_t n = rotation_.size();
     for (std::size_t p = 0; p < n; ++p) {
       const auto& record = records[p];
       const double inverse = 1 / record.radius;
-      turn_[p] = product(
+      rotation_[p] = product(
           quaternion_of({inverse * record.eta_x, inverse * record.eta_y, inverse * record.eta_z}),
-          turn_[p]);
+          rotation_[p]);
       for (std::size_t k = 0; k < 3; ++k) rotation[k * n + p] = 0;
       records[p].eta_x = records[p].eta_y = records[p].eta_z = 0;
       records[p].half = 0.5;
@@ -77,12 +77,12 @@ class RotationReference<3> {
   void export_to(std::size_t particles, const std::vector<double>& from,
                  std::vector<double>& coordinates) const {
     const std::size_t n = particles;
-    if (turn_.empty()) return coordinates.resize(3 * n);
+    if (rotation_.empty()) return coordinates.resize(3 * n);
     coordinates.resize(7 * n);
     for (std::size_t p = 0; p < n; ++p) {
       const Quaternion before{from[3 * n + p], {from[4 * n + p], from[5 * n + p], from[6 * n + p]}};
       const Quaternion all =
-          product(product(since(coordinates.data() + 3 * n, p), turn_[p]), before);
+          product(product(since(coordinates.data() + 3 * n, p), rotation_[p]), before);
       coordinates[3 * n + p] = all.s;
       for (std::size_t k = 0; k < 3; ++k) coordinates[(4 + k) * n + p] = all.v[k];
     }
@@ -90,11 +90,11 @@ class RotationReference<3> {
 
  private:
   [[nodiscard]] Quaternion since(const double* rotation, std::size_t p) const {
-    const std::size_t n = turn_.size();
+    const std::size_t n = rotation_.size();
     return quaternion_of({rotation[p], rotation[n + p], rotation[2 * n + p]});
   }
 
-  std::vector<Quaternion> turn_;
+  std::vector<Quaternion> rotation_;
 };
 
 }  // namespace grainlaw::core

@@ -63,8 +63,8 @@ inline LeastMass<3> least_mass<3>(const ContactLaw& law, double r) {
   const double kn = law.stiffness(r, r);
   double spin = law.rotating() ? 2 * law.ratio * kn : 1;
   if (law.moments()) {
-    const double turning = std::max(law.rolling_ratio(r, r), law.twisting_ratio(r, r));
-    spin += law.ratio * kn * turning / (r * r);
+    const double rotational = std::max(law.rolling_ratio(r, r), law.twisting_ratio(r, r));
+    spin += law.ratio * kn * rotational / (r * r);
   }
   return {kn, spin, 1 / r};
 }

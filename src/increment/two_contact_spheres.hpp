@@ -14,7 +14,7 @@
 namespace grainlaw::core {
 
 template <int D>
-class Increment;
+class ForceBalance;
 
 // Rule for two-contact spheres. Such a sphere may roll along a path around the chord, on which all
 // positions are in equilibrium but P differs. @formula free-spin The rule: since the start of the
@@ -51,13 +51,13 @@ class TwoContactSpheres {
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   // True if neither the law nor drag resists rotation about the chord.
-  static bool possible(const Increment<3>& increment);
+  static bool possible(const ForceBalance<3>& balance);
   void forget() {
     spheres_.clear();
     arbitrary_ = false;
   }
   // Finds the two-contact spheres at the present coordinates, with the present masses.
-  void find(const Increment<3>& increment);
+  void find(const ForceBalance<3>& balance);
   // Adds the moments of the springs to the residual [N m].
   void add_to(std::size_t nodes, std::span<double> residual) const;
 
@@ -72,16 +72,16 @@ class TwoContactSpheres {
     std::size_t contact;
     Vec<3> by_branch;
   };
-  [[nodiscard]] TwoContactSphere sphere_at(const Increment<3>& increment, std::size_t node) const;
-  void find_limits(const Increment<3>& increment);
-  void limit_by_third(const Increment<3>& increment, std::size_t contact, std::size_t node,
+  [[nodiscard]] TwoContactSphere sphere_at(const ForceBalance<3>& balance, std::size_t node) const;
+  void find_limits(const ForceBalance<3>& balance);
+  void limit_by_third(const ForceBalance<3>& balance, std::size_t contact, std::size_t node,
                       double side);
-  void stop(const Increment<3>& increment);
+  void stop(const ForceBalance<3>& balance);
 
   std::vector<TwoContactSphere> spheres_;
   std::vector<unsigned char> count_;  // contacts of a node, at most three
   std::vector<std::array<std::size_t, 2>> contact_;
-  std::vector<std::size_t> place_;  // index of a node in spheres_
+  std::vector<std::size_t> index_;  // index of a node in spheres_
   std::vector<std::array<Limit, 2>> limits_;
   bool arbitrary_ = false;
 };

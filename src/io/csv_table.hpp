@@ -39,25 +39,25 @@ class CsvTable {
     if (!read_record()) fail("the file is empty, expected a header line");
     header_ = shortened(text_.substr(0, text_.find_first_of("\r\n")));
     width_ = fields_.size();
-    place_.fill(none);
+    index_.fill(none);
     for (std::size_t k = 0; k < width_; ++k)
       for (std::size_t column = 0; column < columns; ++column) {
         const auto [name, unit] = parted(fields_[k]);
         if (name != names_[column]) continue;
-        if (place_[column] != none) fail(fmt::format("column '{}' stands twice", name));
+        if (index_[column] != none) fail(fmt::format("column '{}' stands twice", name));
         if (!unit.empty() && unit != units_[column])
           fail(
               fmt::format("column '{}': found the unit [{}], expected {}; grainlaw import brings "
                           "others to SI",
                           name, unit, units_[column].empty() ? "none" : units_[column]));
-        place_[column] = k;
+        index_[column] = k;
       }
   }
 
   CsvTable(const CsvTable&) = delete;
   CsvTable& operator=(const CsvTable&) = delete;
 
-  [[nodiscard]] bool has(std::size_t column) const { return place_[column] != none; }
+  [[nodiscard]] bool has(std::size_t column) const { return index_[column] != none; }
 
   // Fails unless the columns first..last-1 are present.
   void require(std::size_t first, std::size_t last) const {
@@ -76,7 +76,7 @@ class CsvTable {
 
   // Text of a column; empty where the file lacks the column.
   [[nodiscard]] std::string_view text(std::size_t column) const {
-    return has(column) ? std::string_view(fields_[place_[column]]) : std::string_view();
+    return has(column) ? std::string_view(fields_[index_[column]]) : std::string_view();
   }
 
   // A finite number.
@@ -155,7 +155,7 @@ class CsvTable {
   std::string text_;
   CsvRecords records_;
   std::vector<std::string> fields_;
-  std::array<std::size_t, columns> place_{};  // index of each column in a record
+  std::array<std::size_t, columns> index_{};  // index of each column in a record
   std::size_t width_ = 0;
   std::string header_;  // header line for messages
 };

@@ -40,7 +40,7 @@ GRAINLAW_INLINE void add_matrix(const View& f, const Front& front, const Shape& 
   constexpr std::size_t size = b * rows_of(b);
   for (std::size_t k = 0; k < front.pivots; ++k) {
     const auto node = static_cast<std::size_t>(f.node[front.first + k]);
-    double* const to = f.values + front.values + shape.place(k, k);
+    double* const to = f.values + front.values + shape.offset(k, k);
     add_block<b>(to, shape.pivot_rows, matrix.blocks + node * size);
     if (matrix.added == nullptr) continue;
     for (std::size_t c = 0; c < b; ++c) {

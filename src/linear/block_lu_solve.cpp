@@ -134,7 +134,7 @@ GRAINLAW_INLINE void forward(const View& f, const Front& front, double* y) {
     const typename Unknowns::Spread by = x.spread();
     for (std::size_t r = k + 1; r < front.pivots; ++r) {
       auto to = Unknowns::load(own + r * Unknowns::size);
-      to.subtract(values + shape.place(r, k), shape.pivot_rows, by);
+      to.subtract(values + shape.offset(r, k), shape.pivot_rows, by);
       to.store(own + r * Unknowns::size);
     }
   }
@@ -171,7 +171,7 @@ GRAINLAW_INLINE void backward(const View& f, const Front& front, double* y) {
 #pragma GCC unroll 4
     for (std::size_t i = 0; i < count; ++i) to[i] = Unknowns::load(own + (k + i) * Unknowns::size);
     const std::size_t step = b * shape.pivot_rows;
-    const double* a = values + shape.place(k, front.pivots);
+    const double* a = values + shape.offset(k, front.pivots);
     std::size_t r = 0;
     const auto take = [&](Unknowns* sum, const double* at, std::size_t other) GRAINLAW_INLINED {
       const auto x = Unknowns::load(y + static_cast<std::size_t>(rows[other]) * Unknowns::size);
@@ -192,13 +192,13 @@ GRAINLAW_INLINE void backward(const View& f, const Front& front, double* y) {
   };
   if (front.others > 0) by_pivots<Unknowns::backward_pivots>(front.pivots, give);
   for (std::size_t k = front.pivots; k-- > 0;) {
-    const auto x = Unknowns::divide(own + k * Unknowns::size, values + shape.place(k, k),
+    const auto x = Unknowns::divide(own + k * Unknowns::size, values + shape.offset(k, k),
                                     shape.pivot_rows, f.pivots[front.first + k]);
     x.store(own + k * Unknowns::size);
     const typename Unknowns::Spread found = x.spread();
     for (std::size_t r = 0; r < k; ++r) {
       auto to = Unknowns::load(own + r * Unknowns::size);
-      to.subtract(values + shape.place(r, k), shape.pivot_rows, found);
+      to.subtract(values + shape.offset(r, k), shape.pivot_rows, found);
       to.store(own + r * Unknowns::size);
     }
   }

@@ -42,7 +42,7 @@ struct Shape {
            product * static_cast<double>(eliminated) * (panel + left);
   }
   // Position of block (row, column), counted in nodes, one of which is a pivot.
-  [[nodiscard]] std::size_t place(std::size_t row, std::size_t column) const {
+  [[nodiscard]] std::size_t offset(std::size_t row, std::size_t column) const {
     const std::size_t to = components * column;
     return row < pivots ? pivot_rows * to + components * row
                         : other_panel() + other_rows * to + components * (row - pivots);

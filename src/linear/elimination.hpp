@@ -90,7 +90,7 @@ class Elimination {
   void find_structure();
   void find_fronts();
   void link_fronts();
-  void place_fronts();
+  void lay_out_fronts();
   void find_sources();
 };
 

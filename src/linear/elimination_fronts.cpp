@@ -11,7 +11,7 @@ namespace grainlaw::core {
 
 namespace {
 
-std::size_t at(std::int32_t place) { return static_cast<std::size_t>(place); }
+std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
@@ -77,22 +77,22 @@ void Elimination::link_fronts() {
     front.opens = parent.is_leaf;
     parent.is_leaf = false;
     const std::size_t end = parent.first + parent.pivots;
-    std::size_t place = parent.rows;
+    std::size_t index = parent.rows;
     for (std::size_t k = front.rows; k < front.rows + front.others; ++k) {
       if (at(rows_[k]) < end) {
         within_[k] = static_cast<std::int32_t>(at(rows_[k]) - parent.first);
         ++front.passed;
         continue;
       }
-      while (rows_[place] != rows_[k]) ++place;
-      within_[k] = static_cast<std::int32_t>(parent.pivots + place - parent.rows);
+      while (rows_[index] != rows_[k]) ++index;
+      within_[k] = static_cast<std::int32_t>(parent.pivots + index - parent.rows);
     }
   }
 }
 
 // Places the fronts in memory. Schur complements lie on two stacks by their depth in the tree: that
 // of a child and that of its parent are each on top.
-void Elimination::place_fronts() {
+void Elimination::lay_out_fronts() {
   const auto b = static_cast<std::size_t>(components_);
   resize_with_capacity(mark_, std::max(nodes_, fronts_.size()));
   std::array<std::size_t, 2> top{}, highest{};
@@ -164,9 +164,9 @@ void Elimination::find_sources() {
     }
     const std::size_t upper = nodes_ + e;
     const std::size_t lower = upper + edges_.size();
-    sources_[next_[f]++] = {front.values + shape.place(pivot, other), shape.pivot_rows,
+    sources_[next_[f]++] = {front.values + shape.offset(pivot, other), shape.pivot_rows,
                             ascending ? upper : lower};
-    sources_[next_[f]++] = {front.values + shape.place(other, pivot),
+    sources_[next_[f]++] = {front.values + shape.offset(other, pivot),
                             other < front.pivots ? shape.pivot_rows : shape.other_rows,
                             ascending ? lower : upper};
   });

@@ -12,7 +12,7 @@ namespace grainlaw::core {
 
 namespace {
 
-std::size_t at(std::int32_t place) { return static_cast<std::size_t>(place); }
+std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
@@ -69,14 +69,14 @@ void Elimination::find_tree() {
   resize_with_capacity(parent_, nodes_);
   resize_with_capacity(ancestor_, nodes_);
   for (std::size_t j = 0; j < nodes_; ++j) {
-    const auto place = static_cast<std::int32_t>(j);
+    const auto index = static_cast<std::int32_t>(j);
     parent_[j] = ancestor_[j] = -1;
     const std::size_t node = at(node_[j]);
     for (std::size_t k = neighbours_begin_[node]; k < neighbours_begin_[node + 1]; ++k) {
-      for (std::int32_t r = position_[at(neighbours_[k])]; r != -1 && r < place;) {
+      for (std::int32_t r = position_[at(neighbours_[k])]; r != -1 && r < index;) {
         const std::int32_t next = ancestor_[at(r)];
-        ancestor_[at(r)] = place;
-        if (next == -1) parent_[at(r)] = place;
+        ancestor_[at(r)] = index;
+        if (next == -1) parent_[at(r)] = index;
         r = next;
       }
     }
@@ -96,7 +96,7 @@ void Elimination::sort_by_tree() {
     sibling_[j] = head;
     head = static_cast<std::int32_t>(j);
   }
-  std::int32_t place = 0;
+  std::int32_t index = 0;
   for (std::int32_t root = roots; root != -1; root = sibling_[at(root)]) {
     for (std::int32_t j = root;;) {
       while (child_[at(j)] != -1) {  // down, and clear the links
@@ -104,7 +104,7 @@ void Elimination::sort_by_tree() {
         child_[at(j)] = -1;
         j = child;
       }
-      order_[at(j)] = place++;
+      order_[at(j)] = index++;
       if (j == root) break;
       j = sibling_[at(j)] != -1 ? sibling_[at(j)] : parent_[at(j)];
     }
@@ -131,11 +131,11 @@ void Elimination::find_structure() {
   structure_.clear();
   fill_ = 0;
   for (std::size_t j = 0; j < nodes_; ++j) {
-    const auto place = static_cast<std::int32_t>(j);
+    const auto index = static_cast<std::int32_t>(j);
     const std::size_t begin = structure_.size();
     const auto add = [&](std::int32_t row) {
-      if (row <= place || mark_[at(row)] == place) return;
-      mark_[at(row)] = place;
+      if (row <= index || mark_[at(row)] == index) return;
+      mark_[at(row)] = index;
       structure_.push_back(row);
     };
     for (std::int32_t child = child_[j]; child != -1; child = sibling_[at(child)]) {
@@ -149,16 +149,16 @@ void Elimination::find_structure() {
     below_[j] = static_cast<std::int32_t>(structure_.size() - begin);
     structure_begin_[j] = begin;
     fill_ += below_[j];
-    if (j > 0 && parent_[j - 1] == place && below_[j - 1] == below_[j] + 1) {
+    if (j > 0 && parent_[j - 1] == index && below_[j - 1] == below_[j] + 1) {
       structure_.resize(begin);
       const std::size_t first = structure_begin_[j - 1];
       const auto list = structure_.begin() + static_cast<std::ptrdiff_t>(first);
-      std::iter_swap(list, std::find(list, list + below_[j - 1], place));
+      std::iter_swap(list, std::find(list, list + below_[j - 1], index));
       structure_begin_[j] = first + 1;
     }
     if (parent_[j] == -1) continue;
     sibling_[j] = child_[at(parent_[j])];
-    child_[at(parent_[j])] = place;
+    child_[at(parent_[j])] = index;
   }
   keep_capacity(structure_);
 }
@@ -191,7 +191,7 @@ void Elimination::analyse(std::size_t nodes, int components, std::span<const Edg
   }
   find_fronts();
   link_fronts();
-  place_fronts();
+  lay_out_fronts();
   find_sources();
   analysed_ = true;
 }

@@ -9,7 +9,7 @@ void ContactLines::reverse(InitialContact& contact) {
   for (double& component : contact.moment) component = -component;
 }
 
-std::vector<unsigned> ContactLines::move_to(Packing& packing) const {
+std::vector<unsigned> ContactLines::hand_to(Packing& packing) const {
   std::vector<unsigned> lines;
   for (const auto& [key, value] : contacts_) {
     packing.contacts.push_back(value.second);

@@ -55,7 +55,7 @@ class ContactLines {
   }
 
   // Moves the sorted contacts to the packing; returns the line of each.
-  std::vector<unsigned> move_to(Packing& packing) const;
+  std::vector<unsigned> hand_to(Packing& packing) const;
 
  private:
   // Reverses branch and forces.

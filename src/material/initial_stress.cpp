@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "homogenise/stress.hpp"
+#include "increment/contact_state.hpp"
 
 #include <fmt/format.h>
 
@@ -54,7 +55,7 @@ void load_to_stress(const BoundarySpace<D>& space, const Request<D>& request,
     part.trying = advancing ? Trying::advancing : Trying::committed;
     const auto outcome = solve(part, workspace);
     relaxation_steps += workspace.increment.cost.relaxation_steps;
-    if (outcome.status == GRAINLAW_OK && workspace.increment.loaded()) {
+    if (outcome.status == GRAINLAW_OK && loaded(workspace.increment)) {
       const auto stress = piola_stress(workspace.increment);
       workspace.increment.advance_history();
       Configuration<D> reached;

@@ -6,6 +6,7 @@
 #include "frame/frame_space.hpp"
 #include "generate/compaction.hpp"
 #include "homogenise/stress.hpp"
+#include "increment/contact_state.hpp"
 #include "material/given_contacts.hpp"
 #include "material/initial_stress.hpp"
 #include "material/start_advice.hpp"
@@ -34,11 +35,11 @@ Configuration<D> given_configuration(const Material<D>& material) {
   if (material.law.rotating()) append_zero_rotations<D>(n, given.coordinates);
   for (const auto& contact : packing.contacts) {
     ContactHistory<D> history;
-    const bool turn = is_named_from_j(contact);
-    history.i = turn ? contact.j : contact.i;
-    history.j = turn ? contact.i : contact.j;
+    const bool swapped = is_named_from_j(contact);
+    history.i = swapped ? contact.j : contact.i;
+    history.j = swapped ? contact.i : contact.j;
     for (std::size_t k = 0; k < D; ++k) {
-      history.shift[k] = static_cast<std::int16_t>(turn ? -contact.shift[k] : contact.shift[k]);
+      history.shift[k] = static_cast<std::int16_t>(swapped ? -contact.shift[k] : contact.shift[k]);
     }
     history.tangential_force = given_force<D>(packing, contact);
     given.contacts.push_back(history);
@@ -224,7 +225,7 @@ std::shared_ptr<const Material<D>> make_material(MaterialDescription description
         std::max(problem.force_floor, relative_floor * force_as_given(problem, given, workspace));
   }
   const auto outcome = solve(request, workspace);
-  const bool free = outcome.status == GRAINLAW_OK && !workspace.increment.loaded();
+  const bool free = outcome.status == GRAINLAW_OK && !loaded(workspace.increment);
   if (outcome.status == GRAINLAW_CONTACTS_LOST || (free && !may_be_free)) {
     throw Error(GRAINLAW_CONTACTS_LOST,
                 "the packing has no contacts at F = I; expected one that carries stress, or "

@@ -44,7 +44,9 @@ void check_sizes(const std::string& path, const ParticleIds& ids, const Packing&
     return std::ranges::find(ids, p, &ParticleIds::value_type::second)->first;
   };
   const auto wrong = [&](const std::string& what) {
-    throw Error(GRAINLAW_BAD_PACKING, fmt::format("{}: {}; expected all lengths in m", path, what));
+    throw Error(GRAINLAW_BAD_PACKING,
+                fmt::format("{}: {}; expected all lengths in m, and the cell of these particles",
+                            path, what));
   };
   const double height = height_of(tensor_of<D>(packing.cell));
   const auto largest = std::ranges::max_element(packing.radius);
@@ -86,7 +88,8 @@ void check_branches(const std::string& path, const std::vector<unsigned>& lines,
     if (!contact.bonded && !(length < 1.5 * reach))
       throw Error(GRAINLAW_BAD_PACKING,
                   fmt::format("{}:{}: centres are {} m apart, radii add up to {} m: these do not "
-                              "touch; expected x_j - x_i + H shift to be the branch",
+                              "touch; expected x_j - x_i + H shift to be the branch, with the cell "
+                              "H of this packing",
                               path, lines[c], length, reach));
   }
 }

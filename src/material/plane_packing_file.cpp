@@ -201,7 +201,7 @@ std::vector<unsigned> read_contacts(const Source& source, const Ids& ids, const 
     read_bond(table, bonded, bond_gap, contact);
     contacts.add(table, contact);
   }
-  return contacts.move_to(packing);
+  return contacts.hand_to(packing);
 }
 
 // Parses a packing; contacts without a path: none.

@@ -58,16 +58,16 @@ void read_cell(const PackingText& source, Packing& packing) {
 // Fails for positions beyond the cell numbers of the neighbour search.
 template <class Table>
 void check_position(const Table& table, const Tensor<3>& to_cells, const Vec<3>& first,
-                    const Vec<3>& place) {
+                    const Vec<3>& position) {
   constexpr double furthest_apart = 250, furthest = 1e8;  // [cells]
   const auto cells = [&](const Vec<3>& vector) {
     const Vec<3> counts = product<3>(to_cells, vector);
     return std::max({std::abs(counts[0]), std::abs(counts[1]), std::abs(counts[2])});
   };
-  if (const double away = cells(place); !(away <= furthest))
+  if (const double away = cells(position); !(away <= furthest))
     table.fail(fmt::format("the centre is {:.3g} cells from the origin, expected at most {:g}",
                            away, furthest));
-  const Vec<3> apart{place[0] - first[0], place[1] - first[1], place[2] - first[2]};
+  const Vec<3> apart{position[0] - first[0], position[1] - first[1], position[2] - first[2]};
   if (const double away = cells(apart); !(away <= furthest_apart))
     table.fail(fmt::format("the centre is {:.3g} cells from the first, expected at most {:g}", away,
                            furthest_apart));
@@ -78,20 +78,20 @@ ParticleIds read_particles(const PackingText& source, Packing& packing) {
   table.require(id, r + 1);
   const Tensor<3> to_cells = inverse<3>(tensor_of<3>(packing.cell));
   ParticleIds ids;
-  std::array<std::vector<double>, 3> places;
+  std::array<std::vector<double>, 3> positions;
   Vec<3> first{};
   while (table.next()) {
     const auto particle = static_cast<int>(packing.radius.size());
     if (!ids.emplace(table.integer(id), particle).second)
       table.complain(id, "an id that no other particle has");
-    const Vec<3> place{table.real(x), table.real(y), table.real(z)};
-    if (particle == 0) first = place;
-    check_position(table, to_cells, first, place);
-    for (std::size_t k = 0; k < 3; ++k) places[k].push_back(place[k]);
+    const Vec<3> position{table.real(x), table.real(y), table.real(z)};
+    if (particle == 0) first = position;
+    check_position(table, to_cells, first, position);
+    for (std::size_t k = 0; k < 3; ++k) positions[k].push_back(position[k]);
     packing.radius.push_back(table.positive(r));
   }
   if (ids.empty()) table.fail("found no particle");
-  for (const auto& component : places) {
+  for (const auto& component : positions) {
     packing.position.insert(packing.position.end(), component.begin(), component.end());
   }
   return ids;
@@ -128,7 +128,7 @@ std::vector<unsigned> read_contacts(const PackingText& source, const ParticleIds
     read_bond(table, bonded, bond_gap, contact);
     contacts.add(table, contact);
   }
-  return contacts.move_to(packing);
+  return contacts.hand_to(packing);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace grainlaw::core {
 namespace {
 
 template <int D>
-std::string expectation(const Increment<D>& increment) {
+std::string expectation(const Increment<D>& increment, bool from_files) {
   constexpr double soft = 30, stiff = 1e7;       // kn / p outside are hardly meant
   constexpr double sparse = 0.3, crowded = 1.2;  // share of the cell that particles fill
   const Packing& packing = *increment.problem().packing;
@@ -27,7 +27,9 @@ std::string expectation(const Increment<D>& increment) {
   if (!(pressure > 0)) return text + ": it does not bear; expected a denser packing";
   text += fmt::format(", kn/p {:.3g}", ratio);
   if (ratio < soft) return text + ", soft: expected stiffer contacts or smaller overlaps";
-  if (ratio > stiff) return text + ", stiff: expected softer contacts or a packing under more load";
+  if (ratio > stiff)
+    return text + fmt::format(", stiff: expected {}softer contacts or a packing under more load",
+                              from_files ? "the cell of these particles, " : "");
   return text + "; expected a packing made with these contacts and friction, and its contacts file";
 }
 
@@ -42,7 +44,7 @@ std::string made_with_more_friction(const MaterialDescription& description) {
 
 template <int D>
 std::string start_advice(const Increment<D>& increment, const MaterialDescription& description) {
-  return expectation(increment) + made_with_more_friction(description);
+  return expectation(increment, !description.generator) + made_with_more_friction(description);
 }
 
 template std::string start_advice(const Increment<2>&, const MaterialDescription&);

@@ -55,11 +55,11 @@ struct NeighbourSearch<D>::Grid {
 
   [[nodiscard]] std::int32_t padded(std::size_t k) const { return count[k] + 2 * margin[k]; }
   [[nodiscard]] std::size_t bin(const Bin& at) const {
-    auto place = static_cast<std::size_t>(at[dim - 1]);
+    auto index = static_cast<std::size_t>(at[dim - 1]);
     for (std::size_t k = dim - 1; k-- > 0;) {
-      place = place * static_cast<std::size_t>(padded(k)) + static_cast<std::size_t>(at[k]);
+      index = index * static_cast<std::size_t>(padded(k)) + static_cast<std::size_t>(at[k]);
     }
-    return place;
+    return index;
   }
   [[nodiscard]] std::size_t bins() const {
     std::size_t product = 1;
@@ -139,7 +139,7 @@ void NeighbourSearch<D>::find_homes(const Grid& grid, std::size_t n, const doubl
       home_[p].bin[k] = std::clamp(bin, 0, grid.count[k] - 1) + grid.margin[k];
       home_[p].wrapped[k] = static_cast<std::int64_t>(cells[k]);
     }
-    home_[p].place = grid.shifted(x, -1, cells);
+    home_[p].position = grid.shifted(x, -1, cells);
   }
   for (std::size_t k = 0; k < dim; ++k) {
     if (highest[k] - lowest[k] + grid.margin[k] + 1 > static_cast<double>(Key<D>::largest_shift))
@@ -179,7 +179,7 @@ void NeighbourSearch<D>::fill_bins(const Grid& grid, std::size_t n, const double
     const Home& home = home_[p];
     std::array<std::int64_t, dim> shift;
     for (std::size_t k = 0; k < dim; ++k) shift[k] = q[k] - home.wrapped[k];
-    entry_[bin_end_[b + 1]++] = {grid.shifted(home.place, 1, q), radius[p],
+    entry_[bin_end_[b + 1]++] = {grid.shifted(home.position, 1, q), radius[p],
                                  Key<D>::of_particle(p) + Key<D>::of_shift(shift)};
   });
 }
@@ -230,7 +230,7 @@ void NeighbourSearch<D>::find(std::size_t n, const double* position, const doubl
     std::size_t hits = 0;
     for_runs(grid, home.bin, grid.reach, [&](const Entry& other) {
       Vec<D> apart{};
-      for (std::size_t k = 0; k < dim; ++k) apart[k] = other.place[k] - home.place[k];
+      for (std::size_t k = 0; k < dim; ++k) apart[k] = other.position[k] - home.position[k];
       const double limit = reach + other.radius;
       const std::uint64_t key = other.key + origin;
       hit_[hits] = key;
@@ -263,7 +263,7 @@ void NeighbourSearch<D>::add_larger(const Grid& grid, std::size_t n, const doubl
     const std::uint64_t origin = Key<D>::of_shift(home.wrapped);
     for_runs(grid, home.bin, grid.margin, [&](const Entry& other) {
       Vec<D> apart{};
-      for (std::size_t k = 0; k < dim; ++k) apart[k] = other.place[k] - home.place[k];
+      for (std::size_t k = 0; k < dim; ++k) apart[k] = other.position[k] - home.position[k];
       const double limit = radius[p] + gap + other.radius;
       if (!(square<D>(apart) < limit * limit)) return;
       NeighbourPair<D> pair = Key<D>::pair(p, other.key + origin);

@@ -65,12 +65,12 @@ class NeighbourSearch {
 
   // A particle or one of its images. The key orders entries by (particle, shift).
   struct Entry {
-    Vec<D> place;
+    Vec<D> position;
     double radius;
     std::uint64_t key;
   };
   struct Home {
-    Vec<D> place;                           // wrapped into the cell
+    Vec<D> position;                        // wrapped into the cell
     Bin bin;                                // bin in the padded grid
     std::array<std::int64_t, dim> wrapped;  // x = wrapped place + H wrapped
   };

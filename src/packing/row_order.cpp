@@ -18,7 +18,7 @@ std::vector<std::int32_t> row_order(const Packing& packing) {
   };
   const double area = h(0, 0) * h(1, 1) - h(0, 1) * h(1, 0);
   const double rows = std::max(1.0, std::floor(0.5 * std::sqrt(static_cast<double>(n))));
-  std::vector<std::array<double, 2>> place(n);  // row, and distance along the path within it
+  std::vector<std::array<double, 2>> key(n);  // row, and distance along the path within it
   for (std::size_t p = 0; p < n; ++p) {
     const double x = packing.position[p];
     const double y = packing.position[n + p];
@@ -26,12 +26,12 @@ std::vector<std::int32_t> row_order(const Packing& packing) {
     const double across = (h(0, 0) * y - h(1, 0) * x) / area;
     const double row = std::floor(rows * (across - std::floor(across)));
     const double fraction = along - std::floor(along);
-    place[p] = {row, std::fmod(row, 2) == 0 ? fraction : 1 - fraction};
+    key[p] = {row, std::fmod(row, 2) == 0 ? fraction : 1 - fraction};
   }
   std::vector<std::int32_t> order(n);
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-    return place[static_cast<std::size_t>(a)] < place[static_cast<std::size_t>(b)];
+    return key[static_cast<std::size_t>(a)] < key[static_cast<std::size_t>(b)];
   });
   return order;
 }

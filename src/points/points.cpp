@@ -41,9 +41,9 @@ Summary evaluate_all(PointSpan points, std::span<std::size_t> order, const Evalu
   sort_by_cost(points, order);
   Summary summary;
   std::mutex adding;
-  std::atomic<std::size_t> turn{0};
+  std::atomic<std::size_t> taken{0};
   const auto evaluate_some = [&] {
-    for (std::size_t next = turn++; next < order.size(); next = turn++) {
+    for (std::size_t next = taken++; next < order.size(); next = taken++) {
       const std::size_t point = order[next];
       grainlaw_report report{};
       const grainlaw_status status = evaluate(point, report);

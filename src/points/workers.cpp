@@ -23,7 +23,7 @@ namespace {
 // Work of one call, in a list of all calls.
 struct Job {
   const std::function<void()>& work;
-  int places;      // helpers that may still come
+  int vacancies;   // helpers that may still come
   int inside = 0;  // helpers that are working
   Job* next = nullptr;
 };
@@ -35,9 +35,9 @@ struct Crew {
   pthread_cond_t called = PTHREAD_COND_INITIALIZER;
   pthread_cond_t left = PTHREAD_COND_INITIALIZER;
   Job* jobs = nullptr;
-  int places = 0;  // sum over all jobs
-  int size = 0;    // threads
-  int busy = 0;    // threads at work
+  int vacancies = 0;  // sum over all jobs
+  int size = 0;       // threads
+  int busy = 0;       // threads at work
   bool dismissed = false;
   std::array<pthread_t, most_threads> threads{};
 };
@@ -48,13 +48,13 @@ void* help(void* /*unused*/) {
   std::unique_lock lock(crew.mutex);
   while (!crew.dismissed) {
     Job* job = crew.jobs;
-    while (job != nullptr && job->places == 0) job = job->next;
+    while (job != nullptr && job->vacancies == 0) job = job->next;
     if (job == nullptr) {
       pthread_cond_wait(&crew.called, crew.mutex.native_handle());
       continue;
     }
-    --job->places;
-    --crew.places;
+    --job->vacancies;
+    --crew.vacancies;
     ++job->inside;
     ++crew.busy;
     lock.unlock();
@@ -141,18 +141,18 @@ void work_together(const std::function<void()>& work, int helpers) noexcept {
     const std::lock_guard lock(crew.mutex);
     job.next = crew.jobs;
     crew.jobs = &job;
-    crew.places += helpers;
-    while (crew.places > crew.size - crew.busy && start_one()) {
+    crew.vacancies += helpers;
+    while (crew.vacancies > crew.size - crew.busy && start_one()) {
     }
     for (int k = 0; k < helpers; ++k) pthread_cond_signal(&crew.called);
   }
   work();
   if (helpers == 0) return;
   std::unique_lock lock(crew.mutex);
-  crew.places -= job.places;
-  Job** place = &crew.jobs;
-  while (*place != &job) place = &(*place)->next;
-  *place = job.next;
+  crew.vacancies -= job.vacancies;
+  Job** link = &crew.jobs;
+  while (*link != &job) link = &(*link)->next;
+  *link = job.next;
   while (job.inside > 0) pthread_cond_wait(&crew.left, crew.mutex.native_handle());
 }
 

@@ -96,7 +96,8 @@ class Servo {
   }
 
   // Component i of F X: the position without fluctuation.
-  [[nodiscard]] double place(std::size_t p, std::size_t i, const std::array<double, 4>& f) const {
+  [[nodiscard]] double affine_position(std::size_t p, std::size_t i,
+                                       const std::array<double, 4>& f) const {
     const auto n = packing_.size();
     const double offset = space_.bound_to_axes() ? space_.offset[i * n + p] : 0;
     return f[2 * i] * reference()[p] + f[2 * i + 1] * reference()[n + p] + offset;
@@ -110,8 +111,10 @@ class Servo {
     for (const int q : packing_.frame->boundary) {
       const auto p = static_cast<std::size_t>(q);
       for (std::size_t i = 0; i < 2; ++i) {
-        const double w = motion_.start()[i * n + p] - place(p, i, motion_.start_deformation());
-        motion_.coordinate(i, p) = place(p, i, motion_.deformation()) + servo_.inheritance * w;
+        const double w =
+            motion_.start()[i * n + p] - affine_position(p, i, motion_.start_deformation());
+        motion_.coordinate(i, p) =
+            affine_position(p, i, motion_.deformation()) + servo_.inheritance * w;
       }
     }
   }
@@ -136,9 +139,9 @@ class Servo {
         memory_.correction[k * nodes_ + q] = servo_.gain_force * compliance(radius) * force;
         sum += std::pow(force / force_scale(radius), 2);
       }
-      const bool turned =
+      const bool rotated =
           space_.boundary[q] != free_rotation && (space_.fixed[q] & fixed_rotation<2>) == 0;
-      if (!problem_.law->rotating() || !turned) continue;
+      if (!problem_.law->rotating() || !rotated) continue;
       const double moment = r[2 * nodes_ + q];
       memory_.correction[2 * nodes_ + q] =
           servo_.gain_moment * compliance(radius) / (radius * radius) * moment;
@@ -244,7 +247,8 @@ class Servo {
 
   [[nodiscard]] double fluctuation(std::size_t node, std::size_t i) const {
     const auto p = particle_[node];
-    return motion_.coordinates()[i * packing_.size() + p] - place(p, i, motion_.deformation());
+    return motion_.coordinates()[i * packing_.size() + p] -
+           affine_position(p, i, motion_.deformation());
   }
 
   // F - (1/V) sum x (x) A| over the given components.

@@ -26,12 +26,13 @@ template <int D>
 std::vector<grainlaw_particle> list_particles(const Material<D>& material,
                                               const Configuration<D>& at) {
   const std::size_t n = material.packing.size();
-  const bool turns = at.coordinates.size() > D * n;
+  const bool rotating = at.coordinates.size() > D * n;
   std::vector<grainlaw_particle> particles(n);
   for (std::size_t p = 0; p < n; ++p) {
     grainlaw_particle& particle = particles[p];
     for (std::size_t k = 0; k < D; ++k) particle.position[k] = at.coordinates[k * n + p];
-    if (turns) put_about(rotation_of<D>(at.coordinates.data() + D * n + p, n), particle.rotation);
+    if (rotating)
+      put_about(rotation_of<D>(at.coordinates.data() + D * n + p, n), particle.rotation);
     particle.radius = material.packing.radius[p];
     particle.source = material.space.source[p];
   }

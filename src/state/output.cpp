@@ -37,8 +37,8 @@ void write_force_chains(const std::string& path, const Material<D>& material,
   constexpr std::size_t spins = Dimension<D>::spins;
   std::vector<double> rotation(coordinates.size() > D * n ? spins * n : 0);
   for (std::size_t p = 0; p < n && !rotation.empty(); ++p) {
-    const auto turned = rotation_of<D>(at.coordinates.data() + D * n + p, n);
-    for (std::size_t k = 0; k < spins; ++k) rotation[k * n + p] = turned[k];
+    const auto vector = rotation_of<D>(at.coordinates.data() + D * n + p, n);
+    for (std::size_t k = 0; k < spins; ++k) rotation[k * n + p] = vector[k];
   }
   write_vtk(path, coordinates.first(D * n), material.packing.radius, rotation, chains);
 }

@@ -13,7 +13,7 @@ SplitIncrement<2> split_rotation<2>(const Tensor<2>& F, const Tensor<2>& committ
   const double length = std::hypot(df[0] + df[3], df[2] - df[1]);
   const double c = (df[0] + df[3]) / length;
   const double s = (df[2] - df[1]) / length;
-  increment.turn = {std::atan2(s, c)};
+  increment.rotation_vector = {std::atan2(s, c)};
   increment.rotation = {c, -s, s, c};
   increment.stretch = product<2>(transpose<2>(increment.rotation), df);
   increment.target = product<2>(increment.stretch, committed);

@@ -3,9 +3,14 @@
 
 #include <grainlaw/grainlaw.h>
 #include "base/constants.hpp"
+#include "equilibrium/request.hpp"
 #include "increment/increment.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdio>
+#include <vector>
 
 namespace grainlaw::core {
 
@@ -46,6 +51,48 @@ void add_drag(const Increment<D>& increment, grainlaw_report& report) {
              "drag carries part of the load (unbalanced above 0.1); a smaller "
              "solver.viscous_number lowers it");
   }
+}
+
+// Cost, residual and drag of an increment, whether it was solved or not.
+template <int D>
+void add_outcome(const Increment<D>& increment, const Outcome& outcome, grainlaw_report& report) {
+  add_cost(increment, report);
+  report.step_ratio = outcome.step_ratio;
+  report.subincrements = outcome.subincrements;
+  report.history_advanced = outcome.history_advanced ? 1 : 0;
+  report.residual = increment.residual_norm();
+  add_drag(increment, report);
+}
+
+// Number of nodes with a contact now and none before. `marks`: memory for the nodes that had one.
+template <int D>
+int newly_loaded(const BoundarySpace<D>& space, const Configuration<D>& before,
+                 const Configuration<D>& after, std::vector<unsigned char>& marks) {
+  marks.assign(space.nodes, 0);
+  int count = 0;
+  const auto mark = [&](const Configuration<D>& at, int counts) {
+    for (const auto& contact : at.contacts) {
+      for (const auto p : {contact.i, contact.j}) {
+        auto& marked = marks[static_cast<std::size_t>(space.node[static_cast<std::size_t>(p)])];
+        count += marked == 0 ? counts : 0;
+        marked = 1;
+      }
+    }
+  };
+  mark(before, 0);
+  mark(after, 1);
+  return count;
+}
+
+// Counts of contacts and bonds at the end of an increment.
+template <int D>
+void add_contacts(const Increment<D>& increment, const Configuration<D>& before,
+                  const Configuration<D>& after, grainlaw_report& report) {
+  report.broken_bonds = static_cast<int>(std::lround(increment.losses().broken_bonds()));
+  report.contacts = static_cast<int>(after.contacts.size());
+  report.sliding = static_cast<int>(std::count_if(after.contacts.begin(), after.contacts.end(),
+                                                  [](const auto& c) { return c.sliding; }));
+  report.status_changes = status_changes(before, after);
 }
 
 }  // namespace grainlaw::core

@@ -11,10 +11,10 @@ namespace grainlaw::core {
 
 template <int D>
 struct SplitIncrement {
-  std::array<double, Dimension<D>::spins> turn{};  // rotation vector of R [rad]
-  Tensor<D> rotation{};                            // R
-  Tensor<D> stretch{};                             // U
-  Tensor<D> target{};                              // F* = U F_n
+  std::array<double, Dimension<D>::spins> rotation_vector{};  // rotation vector of R [rad]
+  Tensor<D> rotation{};                                       // R
+  Tensor<D> stretch{};                                        // U
+  Tensor<D> target{};                                         // F* = U F_n
 };
 
 // Polar decomposition of F F_n^-1; det > 0.

@@ -44,7 +44,7 @@ SplitIncrement<3> split_rotation<3>(const Tensor<3>& F, const Tensor<3>& committ
   const Tensor<3> df = product<3>(F, inverse<3>(committed));
   SplitIncrement<3> increment;
   increment.rotation = polar_rotation(df);
-  increment.turn = rotation_vector(increment.rotation);
+  increment.rotation_vector = rotation_vector(increment.rotation);
   increment.stretch = product<3>(transpose<3>(increment.rotation), df);
   increment.target = product<3>(increment.stretch, committed);
   return increment;

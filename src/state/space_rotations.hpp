@@ -42,9 +42,9 @@ inline Quaternion rotation_at(const std::vector<double>& coordinates, std::size_
 inline void add_rotation(const SplitIncrement<3>& increment, std::size_t n,
                          std::vector<double>& z) {
   if (z.size() == 3 * n) return;
-  const Quaternion turn = quaternion_of(increment.rotation);
+  const Quaternion rotation = quaternion_of(increment.rotation);
   for (std::size_t p = 0; p < n; ++p) {
-    const Quaternion q = product(turn, rotation_at(z, n, p));
+    const Quaternion q = product(rotation, rotation_at(z, n, p));
     z[3 * n + p] = q.s;
     for (std::size_t k = 0; k < 3; ++k) z[(4 + k) * n + p] = q.v[k];
   }
@@ -56,9 +56,9 @@ inline void rotate_springs(const SplitIncrement<3>& increment, Configuration<3>&
   }
   auto& moments = configuration.moments;
   for (std::size_t m = 0; m < moments.size(); m += 3) {
-    const Vec<3> turned =
+    const Vec<3> rotated =
         product<3>(increment.rotation, Vec<3>{moments[m], moments[m + 1], moments[m + 2]});
-    std::copy(turned.begin(), turned.end(), moments.begin() + static_cast<std::ptrdiff_t>(m));
+    std::copy(rotated.begin(), rotated.end(), moments.begin() + static_cast<std::ptrdiff_t>(m));
   }
 }
 
@@ -67,13 +67,13 @@ inline void rotate_springs(const SplitIncrement<3>& increment, Configuration<3>&
 inline void to_relative_rotation(const SplitIncrement<3>& increment, const Configuration<3>& from,
                                  std::size_t n, std::vector<double>& z) {
   const bool rotating = z.size() > 3 * n;
-  const std::vector<double> turned(z);
+  const std::vector<double> rotated(z);
   z.resize(6 * n);
   const Quaternion back = conjugate(quaternion_of(increment.rotation));
   for (std::size_t p = 0; p < n; ++p) {
     Quaternion q;
     if (rotating) {
-      q = product(product(back, rotation_at(turned, n, p)),
+      q = product(product(back, rotation_at(rotated, n, p)),
                   conjugate(rotation_at(from.coordinates, n, p)));
     }
     for (std::size_t k = 0; k < 3; ++k) z[(3 + k) * n + p] = 2 * q.v[k] / q.s;

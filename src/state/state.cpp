@@ -3,6 +3,7 @@
 #include "base/capacity.hpp"
 #include "equilibrium/strategy.hpp"
 #include "homogenise/stress.hpp"
+#include "increment/contact_state.hpp"
 #include "state/report.hpp"
 #include "state/rotated_configuration.hpp"
 #include "state/scratch.hpp"
@@ -65,7 +66,7 @@ grainlaw_status perturb(Request<D> request, Workspace<D>& w, Tensor4<D>& tangent
     request.deformation[component] += step;
     const auto outcome = solve(request, w);
     add_cost(w.increment, report);
-    p = w.increment.loaded() ? piola_stress(w.increment) : Tensor<D>{};
+    p = loaded(w.increment) ? piola_stress(w.increment) : Tensor<D>{};
     return outcome.status;
   };
   Tensor<D> p0{};
@@ -174,94 +175,115 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
 template <int D>
 grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double* P, double* A,
                                    grainlaw_report& report, Workspace<D>& w) {
-  const Material<D>& material = *material_;
-  const auto particles = material.packing.size();
-  const Tensor<D>& committed = committed_.deformation;
   const Tensor<D> F = effective(given);
-  const bool bound_to_axes = material.space.bound_to_axes();
-  const auto split = grainlaw::core::split<D>(material.space, F, committed);
+  const auto split = grainlaw::core::split<D>(material_->space, F, committed_.deformation);
   const bool had_trial = std::exchange(has_trial_, false);
   if (too_far(split)) {
     report.step_ratio = 0.1;
     describe(report, "the stretch since the committed state is more than 30 %");
     return GRAINLAW_STEP_TOO_LARGE;
   }
-
-  const Problem<D> problem = material.problem();
-  Request<D> request{&problem, &material.solver, &committed_, split.target};
-  request.turn = split.turn;
-  request.tolerance = material.solver.tolerance;
-  request.loose_tolerance = material.solver.loose_tolerance;
-  request.sensitivities = kind == TangentKind::exact;
-  request.duration = duration_of(material, committed_, F, time_step_);
-  if (had_trial && material.solver.start == Start::trial) {
-    guess_from_trial(committed_, trial_, particles, w, request);
-    request.guess_loose = trial_loose_;
-    request.guess_advanced = trial_advanced_;
-  }
+  const Problem<D> problem = material_->problem();
+  const auto request = request_of(problem, split, F, kind, had_trial, w);
   const auto outcome = solve(request, w);
-  add_cost(w.increment, report);
-  report.step_ratio = outcome.step_ratio;
-  report.subincrements = outcome.subincrements;
-  report.history_advanced = outcome.history_advanced ? 1 : 0;
-  report.residual = w.increment.residual_norm();
-  const auto& drag = w.increment.motion().drag();
-  add_drag(w.increment, report);
+  add_outcome(w.increment, outcome, report);
   if (outcome.status != GRAINLAW_OK) {
     describe(report, grainlaw_status_text(outcome.status));
     return outcome.status;
   }
 
-  const bool free = !w.increment.loaded();
-  if (free && material.solver.contacts_lost == ContactsLost::error) {
-    report.step_ratio = 0.5;
-    describe(report, grainlaw_status_text(GRAINLAW_CONTACTS_LOST));
-    return GRAINLAW_CONTACTS_LOST;
-  }
-  Tensor<D> stress{};
-  Tensor4<D> tangent{};
-  if (free) {
-    // The packing stays free of stress nearby: the tangent is zero too.
-    report.residual = 0;
-    report.tangent_exact = kind == TangentKind::exact ? 1 : 0;
-    describe(report, "no contact carries a force: the packing is free of stress");
-  } else {
-    stress = piola_stress(w.increment);
-    tangent = tangent_of(w, outcome, kind, report);
-  }
-
-  w.increment.advance_history();
-  w.increment.export_to(committed_, trial_);
-  if (drag.acts()) {
-    copy_with_capacity(w.velocity, trial_.velocity, state_capacity);
-    trial_.strain_rate = drag.how().strain_rate;
-  }
-  report.broken_bonds = static_cast<int>(std::lround(w.increment.losses().broken_bonds()));
-  report.contacts = static_cast<int>(trial_.contacts.size());
-  report.sliding = static_cast<int>(std::count_if(trial_.contacts.begin(), trial_.contacts.end(),
-                                                  [](const auto& c) { return c.sliding; }));
-  report.status_changes = status_changes(committed_, trial_);
+  Answer<D> answer;
+  if (const auto status = answer_of(outcome, kind, w, answer, report); status != GRAINLAW_OK)
+    return status;
+  keep_trial(outcome, w, report);
   if (kind == TangentKind::perturbed) {
-    if (const auto status = perturb(request, w, tangent, report); status != GRAINLAW_OK) {
+    if (const auto status = perturb(request, w, answer.tangent, report); status != GRAINLAW_OK) {
       describe(report, "a perturbed increment found no equilibrium");
       return status;
     }
   }
-
-  trial_.stress = rotate_stress<D>(split, stress);
-  if (!bound_to_axes) rotate_configuration(split, F, particles, trial_);
-  const bool wanted = A != nullptr && kind != TangentKind::none;
-  if (wanted && !bound_to_axes) tangent = rotate_tangent<D>(split, committed, stress, tangent);
-  if (!all_finite(tangent) || !all_finite(trial_)) {
+  rotate_back(split, F, A != nullptr && kind != TangentKind::none, answer);
+  if (!all_finite(answer.tangent) || !all_finite(trial_)) {
     describe(report, "numbers too large: the stress, the tangent or the state overflows");
     return GRAINLAW_NOT_CONVERGED;
   }
   if (P != nullptr) std::copy(trial_.stress.begin(), trial_.stress.end(), P);
-  if (wanted) std::copy(tangent.begin(), tangent.end(), A);
-  trial_loose_ = outcome.loose;
-  trial_advanced_ = outcome.history_advanced;
+  if (A != nullptr && kind != TangentKind::none)
+    std::copy(answer.tangent.begin(), answer.tangent.end(), A);
   has_trial_ = true;
   return GRAINLAW_OK;
+}
+
+// What the solver has to find, from the last trial if the material says so.
+template <int D>
+Request<D> State<D>::request_of(const Problem<D>& problem, const SplitIncrement<D>& split,
+                                const Tensor<D>& F, TangentKind kind, bool had_trial,
+                                Workspace<D>& w) const {
+  const auto& solver = material_->solver;
+  Request<D> request{&problem, &solver, &committed_, split.target};
+  request.turn = split.rotation_vector;
+  request.tolerance = solver.tolerance;
+  request.loose_tolerance = solver.loose_tolerance;
+  request.sensitivities = kind == TangentKind::exact;
+  request.duration = duration_of(*material_, committed_, F, time_step_);
+  if (had_trial && solver.start == Start::trial) {
+    guess_from_trial(committed_, trial_, material_->packing.size(), w, request);
+    request.guess_loose = trial_loose_;
+    request.guess_advanced = trial_advanced_;
+  }
+  return request;
+}
+
+// P and tangent of the increment that was solved, without its rotation.
+template <int D>
+grainlaw_status State<D>::answer_of(const Outcome& outcome, TangentKind kind, const Workspace<D>& w,
+                                    Answer<D>& answer, grainlaw_report& report) const {
+  if (loaded(w.increment)) {
+    answer.stress = piola_stress(w.increment);
+    answer.tangent = tangent_of(w, outcome, kind, report);
+    return GRAINLAW_OK;
+  }
+  if (material_->solver.contacts_lost == ContactsLost::error) {
+    report.step_ratio = 0.5;
+    describe(report, grainlaw_status_text(GRAINLAW_CONTACTS_LOST));
+    return GRAINLAW_CONTACTS_LOST;
+  }
+  // The packing stays free of stress nearby: the tangent is zero too.
+  report.residual = 0;
+  report.tangent_exact = kind == TangentKind::exact ? 1 : 0;
+  describe(report, "no contact carries a force: the packing is free of stress");
+  return GRAINLAW_OK;
+}
+
+// Ends the increment and writes it to the trial, without the rotation.
+template <int D>
+void State<D>::keep_trial(const Outcome& outcome, Workspace<D>& w, grainlaw_report& report) {
+  w.increment.advance_history();
+  w.increment.export_to(committed_, trial_);
+  const auto& drag = w.increment.motion().drag();
+  if (drag.acts()) {
+    copy_with_capacity(w.velocity, trial_.velocity, state_capacity);
+    trial_.strain_rate = drag.how().strain_rate;
+  }
+  trial_loose_ = outcome.loose;
+  trial_advanced_ = outcome.history_advanced;
+  add_contacts(w.increment, committed_, trial_, report);
+  // Drag, and the file of a packing, say where a particle without contacts is.
+  if (!drag.acts() && committed_.coordinates != material_->initial.coordinates)
+    report.rattlers_loaded = newly_loaded(material_->space, committed_, trial_, w.loaded);
+}
+
+// Rotates the trial and the answer with the increment.
+template <int D>
+void State<D>::rotate_back(const SplitIncrement<D>& split, const Tensor<D>& F, bool tangent_wanted,
+                           Answer<D>& answer) {
+  trial_.stress = rotate_stress<D>(split, answer.stress);
+  if (material_->space.bound_to_axes()) return;
+  rotate_configuration(split, F, material_->packing.size(), trial_);
+  if (tangent_wanted) {
+    answer.tangent =
+        rotate_tangent<D>(split, committed_.deformation, answer.stress, answer.tangent);
+  }
 }
 
 template class State<2>;

@@ -12,7 +12,19 @@
 namespace grainlaw::core {
 
 template <int D>
+struct Request;
+template <int D>
+struct SplitIncrement;
+template <int D>
 struct Workspace;
+struct Outcome;
+
+// P and dP/dF of one evaluation.
+template <int D>
+struct Answer {
+  Tensor<D> stress{};
+  Tensor4<D> tangent{};
+};
 
 enum class TangentKind { none, exact, elastic, perturbed };
 
@@ -48,6 +60,14 @@ class State {
  private:
   grainlaw_status evaluate(const double* F, TangentKind kind, double* P, double* A,
                            grainlaw_report& report, Workspace<D>& workspace);
+  [[nodiscard]] Request<D> request_of(const Problem<D>& problem, const SplitIncrement<D>& split,
+                                      const Tensor<D>& F, TangentKind kind, bool had_trial,
+                                      Workspace<D>& workspace) const;
+  grainlaw_status answer_of(const Outcome& outcome, TangentKind kind, const Workspace<D>& workspace,
+                            Answer<D>& answer, grainlaw_report& report) const;
+  void keep_trial(const Outcome& outcome, Workspace<D>& workspace, grainlaw_report& report);
+  void rotate_back(const SplitIncrement<D>& split, const Tensor<D>& F, bool tangent_wanted,
+                   Answer<D>& answer);
 
   std::shared_ptr<const Material<D>> material_;
   Configuration<D> committed_;

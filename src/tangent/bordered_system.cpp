@@ -1,6 +1,7 @@
 #include "tangent/bordered_system.hpp"
 
 #include "base/capacity.hpp"
+#include "increment/contact_state.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -83,7 +84,7 @@ BorderedSystem::Values BorderedSystem::values_of(const Increment<2>& increment,
   }
   if (!space.finds_deformation) return values;
   for (std::size_t c = 0; c < touching.size(); ++c) {
-    const auto branch = increment.fixed_branch(touching[c].index);
+    const auto branch = fixed_branch_of(increment, touching[c].index);
     for (std::size_t f = 0; f < size_; ++f) {
       const auto& column = columns_[f];
       if (column.kind != Kind::deformation) continue;
@@ -174,8 +175,8 @@ bool BorderedSystem::solve(Increment<2>& increment, Stiffness<2>& stiffness, dou
   if (!eliminate(values)) return false;
   const auto nodes = increment.problem().nodes();
   const std::size_t b = increment.problem().node_unknowns() / nodes;
-  const auto response = [&](std::size_t column, std::size_t place) {
-    return response_[column / lanes][place].lane[column % lanes];
+  const auto response = [&](std::size_t column, std::size_t row) {
+    return response_[column / lanes][row].lane[column % lanes];
   };
   for (std::size_t q = 0; q < nodes; ++q) {
     for (std::size_t k = 0; k < b; ++k) {

@@ -1,6 +1,8 @@
 // Changes of the contacts of discs.
 #include "tangent/contact_change.hpp"
 
+#include "increment/contact_state.hpp"
+
 namespace grainlaw::core {
 
 namespace {
@@ -14,9 +16,9 @@ GRAINLAW_INLINE Lanes load(const double* from) { return simd::load<4>(from); }
 // Data that all contacts share, and the arrays they write to.
 struct ContactLoop {
   std::span<const TouchingContact<2>> touching;
-  Tensor<2> inverse;        // F^-1
-  const Quad* deformation;  // change of F
-  const Quad* start_turn;   // per listed contact; null before the first history
+  Tensor<2> inverse;           // F^-1
+  const Quad* deformation;     // change of F
+  const Quad* start_rotation;  // per listed contact; null before the first history
   const Quad* start_force;
   const double* tangential_stiffness;
   const Increment<2>* bound_to_axes;  // null: branches are pulled back
@@ -28,7 +30,7 @@ ContactLoop contact_loop(const Increment<2>& increment,
   return {touching,
           inverse<2>(increment.motion().deformation()),
           change.data(),
-          history.turn,
+          history.rotation,
           history.force,
           increment.contacts().tangential_stiffness.data(),
           increment.problem().space->bound_to_axes() ? &increment : nullptr};
@@ -38,7 +40,7 @@ ContactLoop contact_loop(const Increment<2>& increment,
 GRAINLAW_INLINE Vec<2> reference_branch(const ContactLoop& loop,
                                         const TouchingContact<2>& contact) {
   return loop.bound_to_axes == nullptr ? product<2>(loop.inverse, contact.point.branch)
-                                       : loop.bound_to_axes->fixed_branch(contact.index);
+                                       : fixed_branch_of(*loop.bound_to_axes, contact.index);
 }
 
 // Computes the change of one contact and returns that of the couple d ft. With `motion` null only
@@ -73,10 +75,10 @@ GRAINLAW_INLINE Lanes change_of(const ContactLoop& loop, const TouchingContact<2
   const Lanes along_n = s[0] * normal + s[1] * tangential + s[2] * rotation;
   Lanes along_t = s[3] * normal + s[4] * tangential + s[5] * rotation;
   Lanes couple = s[6] * normal + s[7] * tangential + s[8] * rotation;
-  if (loop.start_turn != nullptr && point.status != ContactStatus::sliding) {
+  if (loop.start_rotation != nullptr && point.status != ContactStatus::sliding) {
     const Lanes by_history = load(loop.start_force[contact.index].lane) -
                              loop.tangential_stiffness[contact.index] * point.distance *
-                                 load(loop.start_turn[contact.index].lane);
+                                 load(loop.start_rotation[contact.index].lane);
     along_t += by_history;
     couple += point.distance * by_history;
   }

@@ -2,6 +2,7 @@
 #include "tangent/disc_history.hpp"
 #include "base/capacity.hpp"
 #include "contact/contact_point.hpp"
+#include "increment/contact_state.hpp"
 #include "packing/geometry.hpp"
 
 #include <cmath>
@@ -42,14 +43,14 @@ struct StartBranches {
 void HistoryDerivatives<2>::carry(const Increment<2>& increment,
                                   std::span<const ContactChange<2>> changes,
                                   std::span<const ByDeformation<2>> moment_changes,
-                                  std::span<const std::int32_t> place) {
+                                  std::span<const std::int32_t> index) {
   const auto& list = increment.contacts();
   const bool moments = increment.problem().law->moments();
   carried_force_.clear();
   carried_moment_.clear();
   for (std::size_t c = 0; c < list.size(); ++c) {
-    if (!increment.bears_load(c)) continue;
-    const auto k = static_cast<std::size_t>(place[c]);
+    if (!bears_load(increment, c)) continue;
+    const auto k = static_cast<std::size_t>(index[c]);
     ByDeformation<2> force = changes[k].tangential_force[0];
     for (double& value : force.lane) value /= list.weight_of(c);
     carried_force_.push_back(force);
@@ -74,7 +75,7 @@ void HistoryDerivatives<2>::start(const Increment<2>& increment,
   const std::size_t b = rotating ? 3 : 2;
   const StartBranches branches(increment);
   const bool bound_to_axes = increment.problem().space->bound_to_axes();
-  resize_with_capacity(turn_, list.size());
+  resize_with_capacity(rotation_, list.size());
   resize_with_capacity(force_, list.size());
   if (hertzian) resize_with_capacity(overlap_, list.size());
   if (moments) {
@@ -87,8 +88,8 @@ void HistoryDerivatives<2>::start(const Increment<2>& increment,
     const auto j = static_cast<std::size_t>(list.j[c]);
     const auto [lx, ly] = branches.of(c);
     const double d2 = lx * lx + ly * ly;
-    const Vec<2> reference =
-        bound_to_axes ? increment.fixed_branch(c) : product<2>(branches.inverse, Vec<2>{lx, ly});
+    const Vec<2> reference = bound_to_axes ? fixed_branch_of(increment, c)
+                                           : product<2>(branches.inverse, Vec<2>{lx, ly});
     const auto* zi = &motion[static_cast<std::size_t>(node[i]) * b];
     const auto* zj = &motion[static_cast<std::size_t>(node[j]) * b];
     for (std::size_t k = 0; k < width; ++k) {
@@ -96,11 +97,12 @@ void HistoryDerivatives<2>::start(const Increment<2>& increment,
                         change[1].lane[k] * reference[1];
       const double dy = zj[1].lane[k] - zi[1].lane[k] + change[2].lane[k] * reference[0] +
                         change[3].lane[k] * reference[1];
-      turn_[c].lane[k] = -(lx * dy - ly * dx) / d2;
+      rotation_[c].lane[k] = -(lx * dy - ly * dx) / d2;
       if (hertzian) overlap_[c].lane[k] = -(lx * dx + ly * dy) / std::sqrt(d2);
       if (moments) spin_[c].lane[k] = zj[2].lane[k] - zi[2].lane[k];
       if (rotating) {
-        turn_[c].lane[k] += list.lever_i[c] * zi[2].lane[k] + (1 - list.lever_i[c]) * zj[2].lane[k];
+        rotation_[c].lane[k] +=
+            list.lever_i[c] * zi[2].lane[k] + (1 - list.lever_i[c]) * zj[2].lane[k];
       }
     }
     force_[c] = {};
@@ -126,13 +128,13 @@ void HistoryDerivatives<2>::rescale(const Increment<2>& increment) {
   const StartBranches branches(increment);
   for (std::size_t c = 0; c < list.size(); ++c) {
     const double overlap = list.reach[c] - length<2>(branches.of(c));
-    const double scale = start_scale(increment.overlap(c), law);
+    const double scale = start_scale(overlap_of(increment, c), law);
     for (std::size_t k = 0; k < width; ++k) {
       // A contact that was open has no spring.
       const double shift = overlap > 0 ? 0.25 * overlap_[c].lane[k] / overlap : 0;
       const double fade = overlap > 0 ? scale / start_scale(overlap, law) : 0;
       force_[c].lane[k] = fade * force_[c].lane[k] - scale * shift * list.start_force[0][c];
-      turn_[c].lane[k] *= scale * scale;
+      rotation_[c].lane[k] *= scale * scale;
       if (!moments) continue;
       moment_[c].lane[k] = fade * moment_[c].lane[k] - scale * shift * list.start_moment[0][c];
       spin_[c].lane[k] *= scale * scale;

@@ -1,6 +1,7 @@
 #include "tangent/sensitivity.hpp"
 
 #include "base/capacity.hpp"
+#include "increment/contact_state.hpp"
 
 #include <algorithm>
 
@@ -83,10 +84,10 @@ bool Sensitivity<D>::solve(Increment<D>& increment, double share, double start_s
     resize_with_capacity(moment_changes_, Dimension<D>::spins * touching.size());
     find_moment_changes<D>(increment, stiffness, change_, history, motion_, moment_changes_);
   }
-  resize_with_capacity(place_, increment.contacts().size());
-  std::fill(place_.begin(), place_.end(), -1);
+  resize_with_capacity(index_, increment.contacts().size());
+  std::fill(index_.begin(), index_.end(), -1);
   for (std::size_t k = 0; k < touching.size(); ++k) {
-    place_[touching[k].index] = static_cast<std::int32_t>(k);
+    index_[touching[k].index] = static_cast<std::int32_t>(k);
   }
   return true;
 }
@@ -105,7 +106,7 @@ bool Sensitivity<2>::complete(Increment<2>& increment, const HistoryChange<2>& h
 
 template <int D>
 void Sensitivity<D>::carry(const Increment<D>& increment) {
-  history_.carry(increment, changes_, moment_changes_, place_);
+  history_.carry(increment, changes_, moment_changes_, index_);
   carry_motion(increment);
   carried_change_ = change_;
   carried_ = true;
@@ -131,12 +132,12 @@ void Sensitivity<D>::carry_motion(const Increment<D>& increment) {
     push_forward<D>(increment.motion().deformation(), increment.motion().start_deformation(), b,
                     carried_motion_);
   }
-  increment.find_supported(held_);
+  find_supported(increment, supported_);
   for (std::size_t k = 0; k < D; ++k) {
     simd::Lanes<width> sum{};
     double count = 0;
     for (const int q : node) {
-      if ((held_[static_cast<std::size_t>(q)] & fixed_bit(k)) == 0) continue;
+      if ((supported_[static_cast<std::size_t>(q)] & fixed_bit(k)) == 0) continue;
       const std::size_t at = static_cast<std::size_t>(q) * b + k;
       sum += load<width>(motion_[at].lane) - load<width>(carried_motion_[at].lane);
       ++count;
@@ -144,7 +145,7 @@ void Sensitivity<D>::carry_motion(const Increment<D>& increment) {
     const simd::Lanes<width> mean = count > 0 ? sum / count : sum;
     for (std::size_t q = 0; q < increment.problem().nodes(); ++q) {
       const std::size_t at = q * b + k;
-      if ((held_[q] & fixed_bit(k)) != 0) {
+      if ((supported_[q] & fixed_bit(k)) != 0) {
         carried_motion_[at] = motion_[at];
       } else {
         simd::store(carried_motion_[at].lane, load<width>(carried_motion_[at].lane) + mean);

@@ -42,7 +42,7 @@ class Sensitivity {
   [[nodiscard]] const DeformationChange<D>& deformation_change() const { return change_; }
   // Change of a touching contact.
   [[nodiscard]] const ContactChange<D>& changes(std::size_t c) const {
-    return changes_[static_cast<std::size_t>(place_[c])];
+    return changes_[static_cast<std::size_t>(index_[c])];
   }
 
  private:
@@ -57,8 +57,8 @@ class Sensitivity {
   std::vector<ByDeformation<D>> carried_motion_;  // at the start of the history
   std::vector<ContactChange<D>> changes_;         // per touching contact
   std::vector<ByDeformation<D>> moment_changes_;  // for laws with moments
-  std::vector<std::int32_t> place_;  // index of a listed contact among the touching; -1: open
-  std::vector<unsigned char> held_;  // see Increment::find_supported
+  std::vector<std::int32_t> index_;       // index of a listed contact among the touching; -1: open
+  std::vector<unsigned char> supported_;  // see Increment::find_supported
   bool carried_ = false;
   bool arbitrary_ = false;
 };

@@ -1,6 +1,8 @@
 // Changes of the contacts of spheres.
 #include "tangent/contact_change.hpp"
 
+#include "increment/contact_state.hpp"
+
 namespace grainlaw::core {
 
 namespace {
@@ -62,7 +64,7 @@ Change change_of(const Loop& loop, const TouchingContact<3>& contact,
       result.branch[k] += load(loop.change[3 * k + m]) * reference[m];
     }
   }
-  Triple turn{};
+  Triple rotation{};
   if (motion != nullptr) {
     const auto* zi = motion + contact.node_i * b;
     const auto* zj = motion + contact.node_j * b;
@@ -72,14 +74,14 @@ Change change_of(const Loop& loop, const TouchingContact<3>& contact,
       spins.i[k] *= contact.lever_i;
       spins.j[k] *= 1 - contact.lever_i;
     }
-    turn = product(contact.point.spin_i, spins.i);
-    add(turn, product(contact.point.spin_j, spins.j));
+    rotation = product(contact.point.spin_i, spins.i);
+    add(rotation, product(contact.point.spin_j, spins.j));
   }
   result.force = product(s.force_by_branch, result.branch);
   result.spin = product(s.spin_by_branch, result.branch);
   if (motion != nullptr) {
-    add(result.force, product(s.force_by_turn, turn));
-    add(result.spin, product(s.spin_by_turn, turn));
+    add(result.force, product(s.force_by_rotation, rotation));
+    add(result.spin, product(s.spin_by_rotation, rotation));
   }
   Triple by_history{};
   if (loop.history.normal != nullptr && law.tangential()) {
@@ -165,7 +167,7 @@ Lanes dot(const Vec<3>& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] +
 Lanes excess_change(const Loop& loop, const TwoContactSpheres::TwoContactSphere& sphere) {
   const auto& motion = loop.increment.motion();
   if (sphere.stopped()) {
-    const Vec<3> branch = loop.increment.branch(sphere.third);
+    const Vec<3> branch = branch_of(loop.increment, sphere.third);
     return sphere.third_side *
            dot(sphere.by_third,
                product(loop.change, grainlaw::core::product<3>(loop.pull_back, branch)));
@@ -177,7 +179,7 @@ Lanes excess_change(const Loop& loop, const TwoContactSpheres::TwoContactSphere&
   constexpr std::size_t b = Dimension<3>::unknowns;
   const std::size_t n = loop.increment.problem().nodes();
   const double* rotation = motion.coordinates().data() + 3 * n + sphere.node;
-  const Vec<3> turned{rotation[0], rotation[n], rotation[2 * n]};
+  const Vec<3> spin{rotation[0], rotation[n], rotation[2 * n]};
   std::array<Triple, 2> outward;
   Triple departure{};  // of the affinely moved start
   Vec<3> point{};
@@ -197,7 +199,7 @@ Lanes excess_change(const Loop& loop, const TwoContactSpheres::TwoContactSphere&
   Triple way = cross(chord, point);
   add(way, cross(sphere.chord, outward[0]));
   const double scale = sphere.way_scale;
-  result += dot(turned, chord) + scale * dot(sphere.departure, way) +
+  result += dot(spin, chord) + scale * dot(sphere.departure, way) +
             dot(sphere.way, product(carried, departure));
   return result;
 }

@@ -3,6 +3,7 @@
 
 #include "base/capacity.hpp"
 #include "contact/contact_point.hpp"
+#include "increment/contact_state.hpp"
 #include "packing/geometry.hpp"
 
 #include <cmath>
@@ -12,14 +13,14 @@ namespace grainlaw::core {
 void HistoryDerivatives<3>::carry(const Increment<3>& increment,
                                   std::span<const ContactChange<3>> changes,
                                   std::span<const ByDeformation<3>> moment_changes,
-                                  std::span<const std::int32_t> place) {
+                                  std::span<const std::int32_t> index) {
   const auto& list = increment.contacts();
   const bool moments = increment.problem().law->moments();
   carried_force_.clear();
   carried_moment_.clear();
   for (std::size_t c = 0; c < list.size(); ++c) {
-    if (!increment.bears_load(c)) continue;
-    const auto k = static_cast<std::size_t>(place[c]);
+    if (!bears_load(increment, c)) continue;
+    const auto k = static_cast<std::size_t>(index[c]);
     const auto keep = [&](const TripleByDeformation& change, std::vector<TripleByDeformation>& to) {
       to.push_back(change);
       for (auto& component : to.back()) {

@@ -27,7 +27,7 @@ class HistoryDerivatives<3> {
  public:
   // Carries and starts the derivatives; see HistoryDerivatives<2>.
   void carry(const Increment<3>& increment, std::span<const ContactChange<3>> changes,
-             std::span<const ByDeformation<3>> moment_changes, std::span<const std::int32_t> place);
+             std::span<const ByDeformation<3>> moment_changes, std::span<const std::int32_t> index);
   void start(const Increment<3>& increment, std::span<const ByDeformation<3>> motion,
              const DeformationChange<3>& change);
   [[nodiscard]] HistoryChange<3> of_list(bool moments) const {

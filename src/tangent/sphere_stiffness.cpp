@@ -18,21 +18,21 @@ struct Columns {
 Columns by_spin(const TouchingContact<3>& contact, const Matrix3& mean_spin, double lever) {
   Matrix3 share{};
   add(share, lever, mean_spin);
-  return {product<3>(contact.stiffness.force_by_turn, share),
-          product<3>(contact.stiffness.spin_by_turn, share)};
+  return {product<3>(contact.stiffness.force_by_rotation, share),
+          product<3>(contact.stiffness.spin_by_rotation, share)};
 }
 
 // Adds -dr of a row node, whose residual has sign x force and radius x spin moment.
-void add_block(BlockColumn<8>* block, double force_sign, double radius, double place_sign,
-               const SphereStiffness& s, const Columns& turn) {
+void add_block(BlockColumn<8>* block, double force_sign, double radius, double branch_sign,
+               const SphereStiffness& s, const Columns& columns) {
   for (std::size_t c = 0; c < 3; ++c) {
-    double* of_place = block[c].lane;
+    double* of_position = block[c].lane;
     double* of_spin = block[3 + c].lane;
     for (std::size_t r = 0; r < 3; ++r) {
-      of_place[r] -= force_sign * place_sign * s.force_by_branch[3 * r + c];
-      of_place[3 + r] -= radius * place_sign * s.spin_by_branch[3 * r + c];
-      of_spin[r] -= force_sign * turn.force_by_spin[3 * r + c];
-      of_spin[3 + r] -= radius * turn.spin_by_spin[3 * r + c];
+      of_position[r] -= force_sign * branch_sign * s.force_by_branch[3 * r + c];
+      of_position[3 + r] -= radius * branch_sign * s.spin_by_branch[3 * r + c];
+      of_spin[r] -= force_sign * columns.force_by_spin[3 * r + c];
+      of_spin[3 + r] -= radius * columns.spin_by_spin[3 * r + c];
     }
   }
 }
@@ -48,15 +48,15 @@ void Stiffness<3>::add_contacts() {
     const std::int32_t edge = edge_of_contact_[contact.index];
     const std::size_t upper = edge < 0 ? i : matrix_.upper(static_cast<std::size_t>(edge));
     const std::size_t lower = edge < 0 ? i : upper + edges;
-    const Columns turn_i = by_spin(contact, contact.point.spin_i, contact.lever_i);
-    const Columns turn_j = by_spin(contact, contact.point.spin_j, 1 - contact.lever_i);
+    const Columns spin_i = by_spin(contact, contact.point.spin_i, contact.lever_i);
+    const Columns spin_j = by_spin(contact, contact.point.spin_j, 1 - contact.lever_i);
     const double radius_i = contact.lever_i * contact.reach;
     const double radius_j = (1 - contact.lever_i) * contact.reach;
     const auto& s = contact.stiffness;
-    add_block(matrix_.block(i), -1, radius_i, -1, s, turn_i);
-    add_block(matrix_.block(i < j ? upper : lower), -1, radius_i, 1, s, turn_j);
-    add_block(matrix_.block(i < j ? lower : upper), 1, radius_j, -1, s, turn_i);
-    add_block(matrix_.block(j), 1, radius_j, 1, s, turn_j);
+    add_block(matrix_.block(i), -1, radius_i, -1, s, spin_i);
+    add_block(matrix_.block(i < j ? upper : lower), -1, radius_i, 1, s, spin_j);
+    add_block(matrix_.block(i < j ? lower : upper), 1, radius_j, -1, s, spin_i);
+    add_block(matrix_.block(j), 1, radius_j, 1, s, spin_j);
   }
 }
 
@@ -64,11 +64,11 @@ void Stiffness<3>::add_contacts() {
 template <>
 void Stiffness<3>::add_moments() {
   const std::size_t edges = matrix_.edges.size();
-  const auto add_to = [](BlockColumn<8>* block, double sign, const Matrix3& by_place,
-                         const Matrix3& by_spin, double place_sign) {
+  const auto add_to = [](BlockColumn<8>* block, double sign, const Matrix3& by_position,
+                         const Matrix3& by_spin, double branch_sign) {
     for (std::size_t c = 0; c < 3; ++c) {
       for (std::size_t r = 0; r < 3; ++r) {
-        block[c].lane[3 + r] -= sign * place_sign * by_place[3 * r + c];
+        block[c].lane[3 + r] -= sign * branch_sign * by_position[3 * r + c];
         block[3 + c].lane[3 + r] -= sign * by_spin[3 * r + c];
       }
     }
@@ -97,26 +97,27 @@ void Stiffness<3>::add_chord_springs(const Increment<3>& increment) {
       for (std::size_t k = 0; k < 3; ++k) columns[l].lane[3 + k] += factor * moment[k] * by[l];
     }
   };
-  for (const auto& held : increment.two_contact_spheres().spheres()) {
-    auto* const own = matrix_.block(held.node);
+  for (const auto& sphere : increment.two_contact_spheres().spheres()) {
+    auto* const own = matrix_.block(sphere.node);
     const auto add_to_neighbour = [&](std::size_t contact, std::size_t neighbour, double factor,
                                       const Vec<3>& by) {
       const std::int32_t edge = edge_of_contact_[contact];
       if (edge == not_in_graph) return;
       const std::size_t upper =
-          edge < 0 ? held.node : matrix_.upper(static_cast<std::size_t>(edge));
-      const bool above = edge < 0 || held.node < neighbour;
-      add_to(matrix_.block(above ? upper : upper + edges), factor * held.stiffness, held.chord, by);
+          edge < 0 ? sphere.node : matrix_.upper(static_cast<std::size_t>(edge));
+      const bool above = edge < 0 || sphere.node < neighbour;
+      add_to(matrix_.block(above ? upper : upper + edges), factor * sphere.stiffness, sphere.chord,
+             by);
     };
-    if (held.stopped()) {
-      add_to(own, -held.stiffness, held.chord, held.by_third);
-      add_to_neighbour(held.third, held.third_neighbour, 1, held.by_third);
+    if (sphere.stopped()) {
+      add_to(own, -sphere.stiffness, sphere.chord, sphere.by_third);
+      add_to_neighbour(sphere.third, sphere.third_neighbour, 1, sphere.by_third);
       continue;
     }
-    add_to(own + 3, held.stiffness, held.chord, held.by_spin);
-    add_to(own, -held.stiffness, held.chord, held.way);
+    add_to(own + 3, sphere.stiffness, sphere.chord, sphere.by_spin);
+    add_to(own, -sphere.stiffness, sphere.chord, sphere.way);
     for (std::size_t k = 0; k < 2; ++k) {
-      add_to_neighbour(held.contact[k], held.neighbour[k], 0.5, held.way);
+      add_to_neighbour(sphere.contact[k], sphere.neighbour[k], 0.5, sphere.way);
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include "base/capacity.hpp"
 #include "base/constants.hpp"
+#include "increment/contact_state.hpp"
 
 namespace grainlaw::core {
 
@@ -25,7 +26,7 @@ void Stiffness<D>::find_touching(const Increment<D>& increment) {
   const auto& law = *increment.problem().law;
   touching_.clear();
   for (std::size_t c = 0; c < list.size(); ++c) {
-    if (increment.surely_open(c)) continue;
+    if (surely_open(increment, c)) continue;
     const auto point = contact_point(list, c, increment.motion().coordinates(),
                                      increment.problem().particles(), law);
     if (point.status == ContactStatus::open) continue;
@@ -75,7 +76,8 @@ void Stiffness<D>::find_graph(const Increment<D>& increment) {
   resize_with_capacity(edge_of_contact_, list.size());
   std::fill(edge_of_contact_.begin(), edge_of_contact_.end(), not_in_graph);
   for (std::size_t c = 0; c < list.size(); ++c) {
-    if (increment.overlap(c) < -0.5 * tuned::graph_gap * list.reach[c] && !list.bonded(c)) continue;
+    if (overlap_of(increment, c) < -0.5 * tuned::graph_gap * list.reach[c] && !list.bonded(c))
+      continue;
     const auto [a, b] = std::minmax(node[static_cast<std::size_t>(list.i[c])],
                                     node[static_cast<std::size_t>(list.j[c])]);
     edge_of_contact_[c] = on_the_diagonal;
@@ -89,11 +91,11 @@ void Stiffness<D>::find_graph(const Increment<D>& increment) {
   graph_.clear();
   for (const auto& [edge, c] : pairs_) {
     if (graph_.empty() || graph_.back() != edge) graph_.push_back(edge);
-    const auto place = static_cast<std::int32_t>(graph_.size()) - 1;
+    const auto index = static_cast<std::int32_t>(graph_.size()) - 1;
     if (c >= 0) {
-      edge_of_contact_[static_cast<std::size_t>(c)] = place;
+      edge_of_contact_[static_cast<std::size_t>(c)] = index;
     } else {
-      edge_of_link_[static_cast<std::size_t>(-c - 1)] = place;
+      edge_of_link_[static_cast<std::size_t>(-c - 1)] = index;
     }
   }
   keep_capacity(graph_);
@@ -179,10 +181,10 @@ void Stiffness<D>::add_drag(const Increment<D>& increment) {
     const double* stiffness = &increment.motion().drag().stiffness(q).x;
     for (std::size_t k = 0; k < D; ++k) block[k].lane[k] += stiffness[k];
     const double radius = increment.motion().node_radius()[q];
-    const auto turn = rotation_by_spin<D>(increment, q);
+    const auto by_spin = rotation_by_spin<D>(increment, q);
     for (std::size_t k = 0; k + D < b; ++k) {
       for (std::size_t l = 0; l + D < b; ++l) {
-        block[D + l].lane[D + k] += radius * radius * stiffness[D + k] * turn[k * spins + l];
+        block[D + l].lane[D + k] += radius * radius * stiffness[D + k] * by_spin[k * spins + l];
       }
     }
   }

@@ -67,6 +67,14 @@ class Imports(unittest.TestCase):
         self.assertAlmostEqual(printed(out, "void ratio"), 0.174999, places=5)
         self.assertAlmostEqual(printed(out, "coordination, all"), 4.155, places=3)
 
+    def test_the_material_that_is_written_has_the_recommended_law_or_that_of_material(self):
+        particles = str(DATA / "rve400_particles.csv")
+        self.run_import(particles, *FRICTION)
+        written = (self.place.path / "result/out.toml").read_text()
+        self.assertRegex(written, r"\[solver\]\nviscous_number = 0\.001\n")
+        self.run_import(particles, "--material", str(DATA / "rve400.toml"))
+        self.assertNotIn("viscous_number", (self.place.path / "result/out.toml").read_text())
+
     def test_the_material_that_is_written_runs(self):
         self.run_import(str(DATA / "rve400_particles.csv"), *FRICTION)
         scene = self.place.write("scene.toml", 'material = "result/out.toml"\nfigure = false\n[[segment]]\nsteps = 1\n'

@@ -1,7 +1,7 @@
 // What solvers tell their points of time: a part of a load step is the shorter for it, so that its drag
 // does not depend on how the step is cut; and that what has drag goes on as it went.
 #include "../data.hpp"
-#include "fe/solver/last_move.hpp"
+#include "fe/solver/last_displacement.hpp"
 #include "fe/solver/newton.hpp"
 #include "fe/solver/relaxation.hpp"
 #include "point/driver.hpp"
@@ -83,26 +83,27 @@ TEST(time_step, a_path_that_is_cut_has_the_drag_of_its_time) {
 }
 
 // Past the peak and back: fewer iterations are of meshes, the forces are those of any guess.
-TEST(last_move, leads_to_the_forces_of_another_guess) {
+TEST(last_displacement, leads_to_the_forces_of_another_guess) {
   Model model = specimen(0.03);
   model.displacements.back().value = {{{0, 0}, {0.9, -3e-3}, {1, -2.9e-3}}, {}};
   const Material material = with_drag(1);
-  const auto forces = [&](bool last_move_first) {
+  const auto forces = [&](bool last_displacement_first) {
     const auto solver = make_newton_solver(
-        model, material, {.tolerance = 1e-8, .last_move_first = last_move_first}, 1);
+        model, material, {.tolerance = 1e-8, .last_displacement_first = last_displacement_first},
+        1);
     solver->set_load_step(1.0 / 30);
     std::vector<double> found;
     for (int step = 1; step <= 30; ++step)
       found.push_back(solver->advance(step / 30.0, step).reactions.back());
     return found;
   };
-  const std::vector<double> tangent = forces(false), last_move = forces(true);
+  const std::vector<double> tangent = forces(false), repeated = forces(true);
   for (std::size_t k = 0; k < tangent.size(); ++k)
-    EXPECT_NEAR(last_move[k], tangent[k], 1e-4 * std::abs(tangent.front())) << k;
+    EXPECT_NEAR(repeated[k], tangent[k], 1e-4 * std::abs(tangent.front())) << k;
 }
 
-TEST(last_move, is_no_guess_where_what_is_prescribed_goes_another_way) {
-  LastMove move;
+TEST(last_displacement, is_no_guess_where_what_is_prescribed_goes_another_way) {
+  LastDisplacement move;
   const Eigen::Vector2d moved(3, 4), down(1, 0), aside(0, 1);
   EXPECT_EQ(move.once_more(down).size(), 0);
   move.keep(moved, down);

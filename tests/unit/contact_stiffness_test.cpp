@@ -105,7 +105,7 @@ std::vector<Case> cases() {
 TEST(contact_stiffness, matches_central_differences_of_the_law) {
   for (const Case& c : cases()) {
     ASSERT_EQ(c.contact.point().status, c.status) << c.name;
-    ASSERT_NE(c.contact.point().turn, 0);
+    ASSERT_NE(c.contact.point().slip_angle, 0);
     const Matrix3 exact = c.contact.stiffness();
     const Matrix3 approximate = differences(c.contact, 1e-6);
     for (std::size_t k = 0; k < 9; ++k) {

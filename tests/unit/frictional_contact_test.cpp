@@ -114,7 +114,7 @@ TEST(frictional_contact, rolling_without_sliding_gives_no_tangential_force) {
   round.x(0) = 3.9 - 3.9 * std::cos(angle);
   round.y(0) = -3.9 * std::sin(angle);
   round.turn(0) = angle / 0.25;
-  EXPECT_NEAR(round.point().turn, 0, 1e-14);
+  EXPECT_NEAR(round.point().slip_angle, 0, 1e-14);
   EXPECT_NEAR(round.point().tangential_force, 0, 1e-11);
 }
 
@@ -123,7 +123,7 @@ TEST(frictional_contact, rigid_rotation_changes_nothing) {
     Discs discs = pair(rough(), 20);
     rotate(discs, angle);
     const auto point = discs.point();
-    EXPECT_NEAR(point.turn, 0, 1e-15);
+    EXPECT_NEAR(point.slip_angle, 0, 1e-15);
     EXPECT_NEAR(point.tangential_force, 20, 1e-11);
     EXPECT_NEAR(point.normal_force, kn * 0.1, 1e-11);
   }

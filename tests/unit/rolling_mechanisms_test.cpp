@@ -68,7 +68,7 @@ struct Sheared {
     mechanisms.find(increment, stiffness.touching());
   }
   bool turn_seen(double least) {
-    const bool turned = mechanisms.turn(increment, least);
+    const bool turned = mechanisms.rotate(increment, least);
     increment.update_forces();
     return turned;
   }

@@ -95,6 +95,28 @@ TEST(spheres, saved_bytes_bring_the_state_back) {
   EXPECT_THROW(static_cast<void>(load_configuration(*material, bytes)), Error);
 }
 
+// The file says where spheres without contacts are; later rounding does.
+TEST(spheres, that_bear_again_are_counted_where_an_increment_left_them_alone) {
+  State<3> state(make_material<3>(describe()));
+  std::vector<int> counts;
+  for (int k = 1; k <= 3; ++k) {
+    counts.push_back(evaluate(state, drained(1e-3 * k)).report.rattlers_loaded);
+    state.commit();
+  }
+  EXPECT_EQ(counts.front(), 0);
+  EXPECT_GT(counts[1] + counts[2], 0);
+}
+
+TEST(spheres, with_drag_have_no_rattlers_that_rounding_places) {
+  MaterialDescription description = describe();
+  description.solver.viscosity.number = 1e-3;
+  State<3> state(make_material<3>(description));
+  for (int k = 1; k <= 3; ++k) {
+    EXPECT_EQ(evaluate(state, drained(1e-3 * k)).report.rattlers_loaded, 0) << k;
+    state.commit();
+  }
+}
+
 // Discs seen as spheres between two walls of symmetry: one deep, in a cell higher than they are.
 TEST(layer_of_spheres, is_the_disc_packing) {
   const std::string data = grainlaw::test::data_file("rve400_");

@@ -44,10 +44,10 @@ bool draw_load_figure(const CsvTable& table, const std::vector<std::string>& con
     scale(curve.x, 1e3 * sign);
     scale(curve.y, 1e-3 * sign);
   }
-  const char* turned = against ? ", against the axis" : "";
+  const char* suffix = against ? ", against the axis" : "";
   Figure figure{"",
-                fmt::format("displacement{} [mm]", turned),
-                {{fmt::format("force{} [k{}]", turned, unit), curves, 1.6}}};
+                fmt::format("displacement{} [mm]", suffix),
+                {{fmt::format("force{} [k{}]", suffix, unit), curves, 1.6}}};
   return draw(figure, stem);
 }
 

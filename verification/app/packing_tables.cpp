@@ -17,10 +17,10 @@ PackingTables read_packing_tables(const std::string& prefix) {
     packing.pairs.emplace_back(packing.number.at(i[c]), packing.number.at(j[c]));
   if (packing.framed()) {
     const std::vector<double>& order = packing.particles["frame_order"];
-    std::map<double, std::size_t> by_place;
+    std::map<double, std::size_t> by_order;
     for (std::size_t p = 0; p < order.size(); ++p)
-      if (order[p] >= 0) by_place[order[p]] = p;
-    for (const auto& [place, particle] : by_place) packing.boundary.push_back(particle);
+      if (order[p] >= 0) by_order[order[p]] = p;
+    for (const auto& [order, particle] : by_order) packing.boundary.push_back(particle);
   }
   const int dimension = packing.particles.has("z") ? 3 : 2;
   for (int row = 0; row < dimension; ++row)

@@ -14,9 +14,9 @@ namespace verification {
 
 ScratchDirectory::ScratchDirectory() {
   std::error_code error;
-  const auto place = std::filesystem::temp_directory_path(error);
+  const auto directory = std::filesystem::temp_directory_path(error);
   std::string pattern =
-      ((error ? std::filesystem::path("/tmp") : place) / "grainlaw_XXXXXX").string();
+      ((error ? std::filesystem::path("/tmp") : directory) / "grainlaw_XXXXXX").string();
   if (::mkdtemp(pattern.data()) == nullptr)
     throw ComputationError(fmt::format("{}: no directory for temporary files (TMPDIR): {}", pattern,
                                        std::strerror(errno)));

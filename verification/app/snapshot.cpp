@@ -35,12 +35,12 @@ Snapshot take_snapshot(const grainlaw_state* state) {
   const bool spheres = snapshot.cell.size() == 9;
   for (const auto& particle : list<grainlaw_particle>(state, grainlaw_state_particles)) {
     const auto& [x, y, z] = particle.position;
-    const auto& turned = particle.rotation;
+    const auto& angles = particle.rotation;
     snapshot.x.push_back(x);
     snapshot.y.push_back(y);
     if (spheres) snapshot.z.push_back(z);
     snapshot.radius.push_back(particle.radius);
-    snapshot.rotation.push_back(spheres ? std::hypot(turned[0], turned[1], turned[2]) : turned[2]);
+    snapshot.rotation.push_back(spheres ? std::hypot(angles[0], angles[1], angles[2]) : angles[2]);
   }
   const auto& h = snapshot.cell;
   for (const auto& touching : list<grainlaw_contact>(state, grainlaw_state_contacts)) {

@@ -35,21 +35,21 @@ std::vector<int> cycles_of(const std::vector<double>& abscissa) {
   const auto [low, high] = std::minmax_element(abscissa.begin(), abscissa.end());
   const double least = 0.05 * (*high - *low);
   std::vector<int> cycles;
-  int turns = 0, direction = 0;
+  int reversals = 0, direction = 0;
   double extreme = abscissa.front();  // since the last turn
   for (const double x : abscissa) {
     const double back = x - extreme;
     if (direction == 0 ? std::abs(back) > least : -direction * back > least) {
-      if (direction != 0) ++turns;
+      if (direction != 0) ++reversals;
       direction = back > 0 ? 1 : -1;
       extreme = x;
     } else if (direction * back > 0) {
       extreme = x;
     }
-    cycles.push_back(1 + turns / 2);
+    cycles.push_back(1 + reversals / 2);
   }
   // What comes after the last turn of a cycle belongs to it.
-  const int last = (turns + 1) / 2;
+  const int last = (reversals + 1) / 2;
   for (int& cycle : cycles) cycle = std::min(cycle, last);
   return last < 2 ? std::vector<int>{} : cycles;
 }

@@ -42,16 +42,16 @@ BrickUnknowns::BrickUnknowns(const BrickModel& model) {
   constexpr int open = -2;
   number.assign(components, open);
   end = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(components));
-  const auto place = [](int node, int component) {
+  const auto dof = [](int node, int component) {
     return static_cast<std::size_t>(3 * node + component);
   };
   for (const auto& condition : model.displacements)
     for (const int node : condition.nodes) {
-      number[place(node, condition.component)] = -1;
+      number[dof(node, condition.component)] = -1;
       end(3 * node + condition.component) = condition.value;
     }
   for (const auto& tie : model.ties) {
-    for (const int node : tie.nodes) number[place(node, tie.component)] = count;
+    for (const int node : tie.nodes) number[dof(node, tie.component)] = count;
     ++count;
   }
   for (int& unknown : number)

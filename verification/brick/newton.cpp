@@ -67,11 +67,13 @@ Attempt BrickNewton::equilibrate(double time, double tolerance, std::vector<doub
     const double share = std::min(1.0, largest_correction / field_.largest_change(correction));
     displacement += share * correction;
     prescribed *= 1 - share;
-    if (field_.evaluate(displacement, GRAINLAW_WANT_TANGENT_EXACT) != GRAINLAW_OK) {
+    const auto status = field_.evaluate(displacement, GRAINLAW_WANT_TANGENT_EXACT);
+    if (status != GRAINLAW_OK) {
       const grainlaw_summary& summary = field_.summary();
       residuals.push_back(std::numeric_limits<double>::quiet_NaN());
       return {.ratio = summary.step_ratio,
-              .reason = fmt::format("point {}: {}", summary.first_failed, summary.message)};
+              .reason = fmt::format("point {}: {}", summary.first_failed, summary.message),
+              .status = status};
     }
     system = field_.assemble(displacement);
     const double residual =

@@ -72,8 +72,8 @@ void run_brick_scene(const SceneFile& file, const Destination& destination, int 
       if (done < scene.steps) Interrupt::check();
     }
   } catch (const StepError& error) {
-    stopped = std::make_exception_ptr(
-        StepError(error.status, error.what() + load_advice(begin, std::max(done, 0))));
+    stopped = std::make_exception_ptr(StepError(
+        error.status, error.what() + load_advice(begin, std::max(done, 0), error.status)));
   } catch (const Interrupted& stop) {
     stopped = std::current_exception();
     end = fmt::format("{} after step {} of {}", stop.text(), done, scene.steps);

@@ -26,8 +26,8 @@ struct Copy {
 std::vector<Copy> find_copies(const FramePacking& frame) {
   std::vector<Copy> copies(frame.size());
   for (std::size_t p = 0; p < copies.size(); ++p) copies[p].first = static_cast<int>(p);
-  const auto at = [&](std::size_t place) {
-    return static_cast<std::size_t>(frame.boundary[place % frame.boundary.size()]);
+  const auto at = [&](std::size_t index) {
+    return static_cast<std::size_t>(frame.boundary[index % frame.boundary.size()]);
   };
   const auto [c0, c1, c2, c3] = frame.corner;
   for (std::size_t q = c1; q <= c2; ++q)

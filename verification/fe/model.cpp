@@ -22,11 +22,11 @@ double initial_modulus(const Material& material) {
 std::vector<PointField::Point> PointField::points_of(const Mesh& mesh) {
   std::vector<Point> points;
   for (const auto& element : mesh.elements) {
-    const std::vector<Eigen::Vector2d> places = mesh.positions(element);
+    const std::vector<Eigen::Vector2d> positions = mesh.positions(element);
     NodeRows centre(0, 2);
     if (mesh.kind == ElementKind::q4fbar)
-      centre = quad_points(ElementKind::q4r, places).front().gradient;
-    for (const QuadPoint& geometry : quad_points(mesh.kind, places))
+      centre = quad_points(ElementKind::q4r, positions).front().gradient;
+    for (const QuadPoint& geometry : quad_points(mesh.kind, positions))
       points.push_back({element, geometry, centre, Tensor::Identity(), Tensor::Zero(), 0, {}});
   }
   return points;

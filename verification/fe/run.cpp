@@ -130,12 +130,14 @@ class Run {
       else
         run_load_steps(*solver_, scene_.solver.duration(), scene_.steps, last, observe, done_ + 1);
     } catch (const ComputationError& error) {
-      if (dynamic_cast<const StepError*>(&error) != nullptr) ++cuts_;  // cut of the smallest part
+      const auto* const step = dynamic_cast<const StepError*>(&error);
+      if (step != nullptr) ++cuts_;  // cut of the smallest part
       try {
         finish(true);
       } catch (const std::exception&) {  // adds nothing to the reported error
       }
-      throw ComputationError(fmt::format("{}: {}{}", file_.string(), error.what(), advice()));
+      throw ComputationError(fmt::format("{}: {}{}", file_.string(), error.what(),
+                                         advice(step == nullptr ? GRAINLAW_OK : step->status)));
     } catch (const Interrupted&) {
       finish();
       throw;
@@ -145,7 +147,7 @@ class Run {
 
  private:
   // What may help where a step failed.
-  [[nodiscard]] std::string advice() const {
+  [[nodiscard]] std::string advice(grainlaw_status status) const {
     if (scene_.solver.kind == SolverKind::dynamics)
       return why_at_start(start_, done_) + (scene_.solver.dynamics.time_step > 0
                                                 ? "; leave out dynamics.time_step, or shorten it"
@@ -155,7 +157,7 @@ class Run {
              "; look at the loads that act from time 0 on, which load steps do not divide; "
              "pressure "
              "presses where it is above 0";
-    return load_advice(start_, done_);
+    return load_advice(start_, done_, status);
   }
 
   // Ends the output; `failed`: in a step after the last complete one, whose cost counts.

@@ -39,11 +39,11 @@ void settle_signs(const SourceTable& table, bool parted, ForeignPacking& packing
   constexpr double rounding = 1e-9;  // where both ways balance
   double sign = parted && table.lammps ? -1 : 1;
   double left = force_left(packing, sign);
-  const double turned = parted ? force_left(packing, -sign) : left;
-  if (std::min(left, turned) > most) {
+  const double reversed = parted ? force_left(packing, -sign) : left;
+  if (std::min(left, reversed) > most) {
     const std::string other =
         parted ? fmt::format(", and {:.3g} of it with the tangential ones on the other particle",
-                             turned)
+                             reversed)
                : std::string();
     table.fail(fmt::format(
         "found forces that leave on a particle {:.3g} of the force of a contact{}; expected at "
@@ -51,9 +51,9 @@ void settle_signs(const SourceTable& table, bool parted, ForeignPacking& packing
         "(ftx, fty, ftz; of LAMMPS p1, p2, p3, its fx, fy, fz are the normal part)",
         left, other, most));
   }
-  if (turned + rounding < 0.5 * left) {
+  if (reversed + rounding < 0.5 * left) {
     sign = -sign;
-    left = turned;
+    left = reversed;
   }
   if (sign < 0) {
     packing.notes.emplace_back(

@@ -14,25 +14,26 @@ namespace {
 
 constexpr double same = 1e-9;  // of a radius: heights that count as one
 
-bool is_flat(const std::vector<Place>& centres, double radius) {
-  const auto [low, high] = std::minmax_element(
-      centres.begin(), centres.end(), [](const Place& a, const Place& b) { return a[2] < b[2]; });
+bool is_flat(const std::vector<Position>& centres, double radius) {
+  const auto [low, high] =
+      std::minmax_element(centres.begin(), centres.end(),
+                          [](const Position& a, const Position& b) { return a[2] < b[2]; });
   return (*high)[2] - (*low)[2] <= same * radius;
 }
 
 // Without names: x y r, x y z r, or id x y z r of whole numbers first.
-std::array<std::size_t, 4> usual_places(std::size_t width) {
+std::array<std::size_t, 4> usual_columns(std::size_t width) {
   if (width == 3) return {1, 2, 0, 3};
   if (width == 4) return {1, 2, 3, 4};
   return {};
 }
 
 // LAMMPS: x, unwrapped xu, scaled xs or xsu.
-bool find_axis(Columns& columns, const std::string& axis, std::size_t place) {
+bool find_axis(Columns& columns, const std::string& axis, std::size_t index) {
   columns.find(axis,
                {axis, "pos_" + axis, "p" + axis, axis + "u", "position_" + axis, "c" + axis,
                 axis + "_pos", axis + "pos", "coord_" + axis},
-               Quantity::length, place);
+               Quantity::length, index);
   if (columns.has(axis)) return false;
   columns.find(axis, {axis + "s", axis + "su"});
   return columns.has(axis);
@@ -62,13 +63,13 @@ void refuse_clumps(const SourceTable& table, const Columns& columns, ForeignPack
 
 void read_centres(const SourceTable& table, const ForeignFiles& files, ForeignPacking& packing) {
   const std::size_t width = table.rows.front().size();
-  const auto places = usual_places(width);
+  const auto columns_of = usual_columns(width);
   Columns columns(table, read_choice("--columns", files.columns));
   columns.find("id", {"id", "atom-id", "b.id", "number"});
-  const bool scaled = find_axis(columns, "x", places[0]);
-  find_axis(columns, "y", places[1]);
-  find_axis(columns, "z", places[2]);
-  columns.find("r", {"r", "radius", "rad"}, Quantity::length, places[3]);
+  const bool scaled = find_axis(columns, "x", columns_of[0]);
+  find_axis(columns, "y", columns_of[1]);
+  find_axis(columns, "z", columns_of[2]);
+  columns.find("r", {"r", "radius", "rad"}, Quantity::length, columns_of[3]);
   if (!columns.has("r")) columns.find("d", {"d", "diameter", "diam"}, Quantity::length);
   if (!(files.density > 0)) columns.find("density", {"density", "rho"}, Quantity::density);
   columns.find("clump", {"clump", "clumpid", "clump_id"});
@@ -88,10 +89,10 @@ void read_centres(const SourceTable& table, const ForeignFiles& files, ForeignPa
     if (!ids.insert(id).second)
       table.fail(table.lines[p],
                  fmt::format("found id {} again, expected one that no other particle has", id));
-    Place centre{columns.real(p, "x"), columns.real(p, "y"),
-                 columns.has("z") ? columns.real(p, "z") : 0};
+    Position centre{columns.real(p, "x"), columns.real(p, "y"),
+                    columns.has("z") ? columns.real(p, "z") : 0};
     if (scaled) {
-      const Place s = centre;
+      const Position s = centre;
       for (std::size_t k = 0; k < 3; ++k) {
         centre[k] = table.origin[k];
         for (std::size_t m = 0; m < 3; ++m) centre[k] += (*table.cell)[3 * k + m] * s[m];
@@ -117,7 +118,7 @@ void read_centres(const SourceTable& table, const ForeignFiles& files, ForeignPa
     table.fail("found centres at different heights z, expected one height with --dimension 2");
   if (packing.dimension == 3 && !columns.has("z")) columns.require({"z"});
   if (packing.dimension == 2)
-    for (Place& centre : packing.centre) centre[2] = 0;
+    for (Position& centre : packing.centre) centre[2] = 0;
   packing.read.push_back(fmt::format("{} {} from {}, {}: {}", packing.radius.size(),
                                      packing.dimension == 3 ? "spheres" : "discs", table.path,
                                      table.kind, columns.text()));

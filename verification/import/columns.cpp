@@ -28,16 +28,16 @@ ColumnChoice read_choice(const std::string& option, const std::string& text) {
 Columns::Columns(const SourceTable& table, ColumnChoice choice)
     : table_(table), choice_(std::move(choice)) {}
 
-double Columns::unit(const std::string& name, std::size_t place, Quantity quantity) const {
+double Columns::unit(const std::string& name, std::size_t index, Quantity quantity) const {
   const std::vector<std::string>& units = table_.column_units;
-  if (quantity == Quantity::number || place >= units.size() || units[place].empty())
+  if (quantity == Quantity::number || index >= units.size() || units[index].empty())
     return table_.unit(quantity);
   const auto fail = [&](const std::string& expected) {
     table_.fail(table_.lines.front(),
-                fmt::format("column {} ({}): found the unit [{}], expected {}", place + 1, name,
-                            units[place], expected));
+                fmt::format("column {} ({}): found the unit [{}], expected {}", index + 1, name,
+                            units[index], expected));
   };
-  const auto unit = in_si(units[place], quantity);
+  const auto unit = in_si(units[index], quantity);
   if (!unit) fail(expected_unit(quantity));
   if ((quantity == Quantity::length && table_.units.length > 0 && table_.units.length != *unit) ||
       (quantity == Quantity::force && table_.units.force > 0 && table_.units.force != *unit))
@@ -46,7 +46,7 @@ double Columns::unit(const std::string& name, std::size_t place, Quantity quanti
 }
 
 void Columns::find(const std::string& name, const std::vector<std::string>& others,
-                   Quantity quantity, std::size_t place) {
+                   Quantity quantity, std::size_t index) {
   const std::vector<std::string>& names = table_.names;
   const std::size_t width = table_.rows.front().size();
   const auto take = [&](std::size_t k) {
@@ -69,7 +69,7 @@ void Columns::find(const std::string& name, const std::vector<std::string>& othe
   for (const std::string& other : others)
     if (const auto found = std::find(names.begin(), names.end(), other); found != names.end())
       return take(static_cast<std::size_t>(found - names.begin()));
-  if (names.empty() && place > 0 && place <= width) take(place - 1);
+  if (names.empty() && index > 0 && index <= width) take(index - 1);
 }
 
 void Columns::require(const std::vector<std::string>& names) const {
@@ -95,12 +95,12 @@ void Columns::close(const std::string& option) const {
 }
 
 std::string_view Columns::field(std::size_t row, const std::string& name) const {
-  return table_.rows[row][found_.at(name).place];
+  return table_.rows[row][found_.at(name).index];
 }
 
 void Columns::complain(std::size_t row, const std::string& name, std::string_view expected) const {
   table_.fail(table_.lines[row],
-              fmt::format("column {} ({}): found '{}', expected {}", found_.at(name).place + 1,
+              fmt::format("column {} ({}): found '{}', expected {}", found_.at(name).index + 1,
                           name, field(row, name), expected));
 }
 
@@ -127,10 +127,10 @@ long Columns::integer(std::size_t row, const std::string& name) const {
 std::string Columns::text() const {
   std::vector<std::string> names, numbers;
   for (const std::string& name : order_) {
-    const std::size_t place = found_.at(name).place;
-    const bool has_unit = place < table_.column_units.size() && !table_.column_units[place].empty();
-    names.push_back(has_unit ? fmt::format("{} [{}]", name, table_.column_units[place]) : name);
-    numbers.push_back(std::to_string(place + 1));
+    const std::size_t index = found_.at(name).index;
+    const bool has_unit = index < table_.column_units.size() && !table_.column_units[index].empty();
+    names.push_back(has_unit ? fmt::format("{} [{}]", name, table_.column_units[index]) : name);
+    numbers.push_back(std::to_string(index + 1));
   }
   return fmt::format("{} (columns {})", fmt::join(names, ", "), fmt::join(numbers, ", "));
 }

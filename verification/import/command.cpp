@@ -40,6 +40,11 @@ void take_neighbours(ForeignFiles& files) {
   take(files.cell, file_ends[2]);
 }
 
+// The law of a material file that the command writes, as docs/material.md recommends.
+constexpr double recommended_viscous_number = 1e-3;
+constexpr const char* law_text =
+    "# solver.viscous_number makes a law in time, without jumps; leave it out for equilibrium.\n";
+
 std::string name_of(const ImportArguments& arguments) {
   std::string name = arguments.name;
   if (name.empty()) {
@@ -96,10 +101,12 @@ double pressure_of(const std::vector<double>& sigma) {
 }
 
 State equilibrium(MaterialSource& source, const ImportArguments& arguments, int dimension) {
-  State state(make_material(source, dimension));
   if (!(arguments.pressure > 0) || source.changes["contact"]["young"].value_or(0.0) == 0)
-    return state;
-  // Forces of linear contacts are as their stiffness.
+    return State(make_material(source, dimension));
+  // Forces of linear contacts are as their stiffness. Particles that do not press are told below.
+  MaterialSource measured = source;
+  measured.changes.insert("solver", toml::table{{"contacts_lost", "stress_free"}});
+  const State state(make_material(measured, dimension));
   const double now = pressure_of(measure(state.get(), GRAINLAW_CAUCHY_STRESS));
   if (!(now > 0))
     throw InputError(
@@ -167,11 +174,13 @@ void run_import(ImportArguments arguments) {
   write_packing(state.get(), stem);
   const PackingStart start = measure_start(state.get(), source);
   source.changes.insert_or_assign("packing", packing_table(name, true));
+  if (arguments.material.empty())
+    source.changes.insert("solver", toml::table{{"viscous_number", recommended_viscous_number}});
   std::ostringstream text;
   text << "# Imported from "
        << terminal_text(std::filesystem::path(arguments.files.particles).filename().string())
        << " by grainlaw import.\n"
-       << source.changes << "\n";
+       << (arguments.material.empty() ? law_text : "") << source.changes << "\n";
   write_file(stem.string() + ".toml", text.str());
 
   print_state(state, start, packing);

@@ -19,8 +19,8 @@ namespace {
 using Vector = Eigen::Vector3d;
 using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-Vector vector_of(const Place& place) { return Vector::Map(place.data()); }
-Place place_of(const Vector& vector) { return {vector.x(), vector.y(), vector.z()}; }
+Vector vector_of(const Position& position) { return Vector::Map(position.data()); }
+Position position_of(const Vector& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
 // Three columns that belong together.
 std::array<std::string, 3> axes(const std::string& name) {
@@ -39,8 +39,8 @@ void find_vector(Columns& columns, const std::string& name, Quantity quantity,
   }
 }
 
-Place vector_at(const Columns& columns, std::size_t row, const std::string& name) {
-  Place result{};
+Position vector_at(const Columns& columns, std::size_t row, const std::string& name) {
+  Position result{};
   const auto names = axes(name);
   for (std::size_t k = 0; k < 3; ++k)
     if (columns.has(names[k])) result[k] = columns.real(row, names[k]);
@@ -71,7 +71,7 @@ Columns force_columns(const SourceTable& table, const ForeignFiles& files) {
 
 // From the axes of this file to those of the particles: LAMMPS has pairs of a general triclinic box in
 // axes of its own.
-Matrix turn_between(const SourceTable& table, const SourceTable& particles) {
+Matrix rotation_between(const SourceTable& table, const SourceTable& particles) {
   constexpr double alike = 1e-4;  // of what is printed with six digits
   if (table.step && particles.step && *table.step != *particles.step)
     table.fail(fmt::format("found contacts of step {}, expected those of step {} as in {}",
@@ -80,17 +80,17 @@ Matrix turn_between(const SourceTable& table, const SourceTable& particles) {
   const Matrix here = table.unit(Quantity::length) * Matrix::Map(table.cell->data());
   const Matrix there = particles.unit(Quantity::length) * Matrix::Map(particles.cell->data());
   if ((here - there).norm() < alike * there.norm()) return Matrix::Identity();
-  const Matrix turn = there * here.inverse();
-  if (!((turn.transpose() * turn - Matrix::Identity()).norm() < alike))
+  const Matrix rotation = there * here.inverse();
+  if (!((rotation.transpose() * rotation - Matrix::Identity()).norm() < alike))
     table.fail(fmt::format("found another box than that of {}, expected the same", particles.path));
-  return turn;
+  return rotation;
 }
 
 using Key = std::tuple<std::size_t, std::size_t, Shift>;
 Key key_of(const ForeignContact& c) {
-  const Shift turned{-c.shift[0], -c.shift[1], -c.shift[2]};
-  return c.i < c.j || (c.i == c.j && c.shift >= turned) ? Key{c.i, c.j, c.shift}
-                                                        : Key{c.j, c.i, turned};
+  const Shift opposite{-c.shift[0], -c.shift[1], -c.shift[2]};
+  return c.i < c.j || (c.i == c.j && c.shift >= opposite) ? Key{c.i, c.j, c.shift}
+                                                          : Key{c.j, c.i, opposite};
 }
 
 class ForceReader {
@@ -101,7 +101,7 @@ class ForceReader {
         particles_(particles),
         packing_(packing),
         columns_(force_columns(table, files)),
-        turn_(turn_between(table, particles)) {
+        rotation_(rotation_between(table, particles)) {
     for (std::size_t p = 0; p < packing.id.size(); ++p) number_[packing.id[p]] = p;
     packing.has_contacts = true;
     packing.has_moments = columns_.has("moment") || columns_.has("moment_x");
@@ -164,8 +164,9 @@ class ForceReader {
     const std::vector<Shift> images = images_in_touch(packing_, i, j);
     if (images.size() == 1) return images.front();
     if (columns_.has("dx"))
-      if (const auto one = image_apart(packing_, i, j, images,
-                                       place_of(turn_ * vector_of(vector_at(columns_, row, "d")))))
+      if (const auto one =
+              image_apart(packing_, i, j, images,
+                          position_of(rotation_ * vector_of(vector_at(columns_, row, "d")))))
         return *one;
     table_.fail(table_.lines[row],
                 fmt::format("found a contact of {} and {}, which touch through {} images of the "
@@ -189,15 +190,15 @@ class ForceReader {
   // Returns what fx, fy, fz are, if not the normal part by its size.
   Vector read_force(std::size_t row, ForeignContact& contact) const {
     const auto vector = [&](const char* name) {
-      return Vector(turn_ * vector_of(vector_at(columns_, row, name)));
+      return Vector(rotation_ * vector_of(vector_at(columns_, row, name)));
     };
     if (columns_.has("kn")) contact.stiffness = columns_.positive(row, "kn");
     if (columns_.has("kt")) contact.tangential_stiffness = columns_.real(row, "kt");
-    contact.moment = place_of(vector("moment_"));
+    contact.moment = position_of(vector("moment_"));
     if (columns_.has("moment")) contact.moment[2] = columns_.real(row, "moment");
     if (columns_.has("bonded")) contact.bonded = columns_.integer(row, "bonded") != 0;
     if (columns_.has("bond_gap")) contact.bond_gap = columns_.real(row, "bond_gap");
-    contact.tangential = place_of(vector("ft"));
+    contact.tangential = position_of(vector("ft"));
     if (!columns_.has("fn")) return vector("f");
     contact.normal = columns_.real(row, "fn");
     return Vector::Zero();
@@ -218,7 +219,7 @@ class ForceReader {
       ForeignContact& contact = packing_.contacts[c];
       const Vector on_j = sign * force_[c], n = normal(contact);
       contact.normal = on_j.dot(n);
-      if (whole) contact.tangential = place_of(on_j - contact.normal * n);
+      if (whole) contact.tangential = position_of(on_j - contact.normal * n);
     }
     if (along < 0)
       packing_.notes.emplace_back("forces in the file act on the first particle of a contact");
@@ -228,7 +229,7 @@ class ForceReader {
   const SourceTable& particles_;
   ForeignPacking& packing_;
   Columns columns_;
-  Matrix turn_;
+  Matrix rotation_;
   std::unordered_map<long, std::size_t> number_;
   std::vector<Vector> force_;  // of each contact, where it is told as one vector
 };

@@ -18,7 +18,7 @@ std::string particles_text(const ForeignPacking& packing) {
   const bool spheres = packing.dimension == 3;
   std::string text = spheres ? "id,x,y,z,r\n" : "id,x,y,r\n";
   for (std::size_t p = 0; p < packing.radius.size(); ++p) {
-    const Place& x = packing.centre[p];
+    const Position& x = packing.centre[p];
     fmt::format_to(std::back_inserter(text), "{},{},{},", packing.id[p], x[0], x[1]);
     if (spheres) fmt::format_to(std::back_inserter(text), "{},", x[2]);
     fmt::format_to(std::back_inserter(text), "{}\n", packing.radius[p]);
@@ -35,7 +35,7 @@ std::string contacts_text(const ForeignPacking& packing) {
   if (packing.names_bonds) text += ",bonded,bond_gap";
   text += "\n";
   for (const ForeignContact& c : packing.contacts) {
-    const Place& t = c.tangential;
+    const Position& t = c.tangential;
     fmt::format_to(out(text), "{},{},{},{},", packing.id[c.i], packing.id[c.j], c.shift[0],
                    c.shift[1]);
     if (spheres) fmt::format_to(out(text), "{},", c.shift[2]);
@@ -75,8 +75,8 @@ std::string cell_text(const ForeignPacking& packing) {
 
 double ForeignPacking::volume() const { return Matrix::Map(cell.data()).determinant(); }
 
-Place ForeignPacking::branch(const ForeignContact& contact) const {
-  Place l;
+Position ForeignPacking::branch(const ForeignContact& contact) const {
+  Position l;
   for (std::size_t k = 0; k < 3; ++k) {
     l[k] = centre[contact.j][k] - centre[contact.i][k];
     for (std::size_t m = 0; m < 3; ++m) l[k] += cell[3 * k + m] * contact.shift[m];
@@ -86,14 +86,14 @@ Place ForeignPacking::branch(const ForeignContact& contact) const {
 }
 
 double ForeignPacking::overlap(const ForeignContact& contact) const {
-  const Place l = branch(contact);
+  const Position l = branch(contact);
   return radius[contact.i] + radius[contact.j] - std::hypot(l[0], l[1], l[2]);
 }
 
 Lattice ForeignPacking::stress() const {
   Lattice sigma{};
   for (const ForeignContact& contact : contacts) {
-    const Place l = branch(contact);
+    const Position l = branch(contact);
     const double length = std::hypot(l[0], l[1], l[2]);
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t m = 0; m < 3; ++m)

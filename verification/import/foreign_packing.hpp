@@ -14,8 +14,8 @@ struct ForeignContact {
   std::size_t i = 0, j = 0;
   std::array<int, 3> shift{};                      // branch x_j - x_i + H shift
   double normal = 0;                               // compression positive [N]
-  Place tangential{};                              // on j [N]
-  Place moment{};                                  // on j [N m]
+  Position tangential{};                           // on j [N]
+  Position moment{};                               // on j [N m]
   double stiffness = 0, tangential_stiffness = 0;  // that the file has, or 0 [N/m]
   bool bonded = false;
   double bond_gap = 0;  // stress-free branch less R_i + R_j [m]
@@ -24,7 +24,7 @@ struct ForeignContact {
 struct ForeignPacking {
   int dimension = 2;
   std::vector<long> id;
-  std::vector<Place> centre;      // [m]
+  std::vector<Position> centre;   // [m]
   std::vector<double> radius;     // [m]
   Lattice cell{};                 // of discs with the thickness at 33
   std::string cell_source;        // where it comes from, for a person
@@ -37,7 +37,7 @@ struct ForeignPacking {
 
   [[nodiscard]] double thickness() const { return cell[8]; }
   [[nodiscard]] double volume() const;  // of the cell [m3]
-  [[nodiscard]] Place branch(const ForeignContact& contact) const;
+  [[nodiscard]] Position branch(const ForeignContact& contact) const;
   [[nodiscard]] double overlap(const ForeignContact& contact) const;
   // Cauchy stress of the forces, -(1/V) sum of f on j (x) branch, tension positive [Pa].
   [[nodiscard]] Lattice stress() const;

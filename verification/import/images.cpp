@@ -48,7 +48,7 @@ std::vector<Shift> images_in_touch(const ForeignPacking& packing, std::size_t i,
 }
 
 std::optional<Shift> image_apart(const ForeignPacking& packing, std::size_t i, std::size_t j,
-                                 const std::vector<Shift>& images, const Place& apart) {
+                                 const std::vector<Shift>& images, const Position& apart) {
   const double near = 0.01 * (packing.radius[i] + packing.radius[j]);
   const Vector d = Vector::Map(apart.data());
   std::optional<Shift> found;

@@ -17,6 +17,6 @@ std::vector<Shift> images_in_touch(const ForeignPacking& packing, std::size_t i,
 
 // The one whose branch is `apart` or its opposite; nothing where none or two are.
 std::optional<Shift> image_apart(const ForeignPacking& packing, std::size_t i, std::size_t j,
-                                 const std::vector<Shift>& images, const Place& apart);
+                                 const std::vector<Shift>& images, const Position& apart);
 
 }  // namespace verification

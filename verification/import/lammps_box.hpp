@@ -15,9 +15,9 @@ double lammps_number(const SourceTable& table, const Lines& lines,
                      const std::vector<std::string_view>& parts, std::size_t k);
 
 struct LammpsBox {
-  Place low{}, high{};
+  Position low{}, high{};
   double xy = 0, xz = 0, yz = 0;
-  std::optional<std::array<Place, 3>> vectors;  // of a general triclinic one; its corner is low
+  std::optional<std::array<Position, 3>> vectors;  // of a general triclinic one; its corner is low
 
   // From the bounds of the box around a tilted one.
   void from_bounds();

@@ -76,7 +76,7 @@ void read_lammps_data(SourceTable& table) {
     const std::vector<std::string_view> parts = words(lines.text().substr(0, hash));
     if (parts.empty()) continue;
     const auto value = [&](std::size_t k) { return lammps_number(table, lines, parts, k); };
-    const auto place = [&](std::string_view word, char first, const char* expected) {
+    const auto axis = [&](std::string_view word, char first, const char* expected) {
       const auto k = static_cast<std::size_t>(word.front() - first);
       if (k > 2) table.fail(lines.number(), fmt::format("found '{}', expected {}", word, expected));
       return k;
@@ -85,7 +85,7 @@ void read_lammps_data(SourceTable& table) {
       atoms = static_cast<std::size_t>(std::max(0.0, value(0)));
       line_of_count = lines.number();
     } else if (parts.size() == 4 && parts[2].ends_with("lo")) {
-      const std::size_t k = place(parts[2], 'x', "xlo, ylo or zlo");
+      const std::size_t k = axis(parts[2], 'x', "xlo, ylo or zlo");
       box.low[k] = value(0);
       box.high[k] = value(1);
       bounded = true;
@@ -95,7 +95,7 @@ void read_lammps_data(SourceTable& table) {
                                                parts[0], parts[1]));
     } else if (parts.size() == 4 && parts[3].size() == 4 && parts[3].ends_with("vec")) {
       if (!box.vectors) box.vectors.emplace();
-      (*box.vectors)[place(parts[3], 'a', "avec, bvec or cvec")] = {value(0), value(1), value(2)};
+      (*box.vectors)[axis(parts[3], 'a', "avec, bvec or cvec")] = {value(0), value(1), value(2)};
       bounded = true;
     } else if (parts.size() == 5 && parts[3] == "abc") {
       box.low = {value(0), value(1), value(2)};

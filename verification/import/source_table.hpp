@@ -15,7 +15,7 @@
 
 namespace verification {
 
-using Place = std::array<double, 3>;
+using Position = std::array<double, 3>;
 using Lattice = std::array<double, 9>;  // H row by row, lattice vectors are its columns [m]
 
 // Which column stands for what: "x" -> "pos_x" (a name of the header) or "3" (the third).
@@ -31,7 +31,7 @@ struct SourceTable {
   std::vector<std::vector<std::string_view>> rows;
   std::vector<std::size_t> lines;  // of the rows
   std::optional<Lattice> cell;     // that the file tells, in its units
-  Place origin{};                  // of that cell
+  Position origin{};               // of that cell
   FileUnits units;
   bool lammps = false;
   std::optional<long> step;        // of LAMMPS
@@ -61,7 +61,7 @@ class Columns {
   // Finds the column as chosen, else by one of the names that other programs have for it. In a
   // table without a header it is, failing both, the one at this place (1, 2, ...; 0: nowhere).
   void find(const std::string& name, const std::vector<std::string>& others,
-            Quantity quantity = Quantity::number, std::size_t place = 0);
+            Quantity quantity = Quantity::number, std::size_t index = 0);
   [[nodiscard]] bool has(const std::string& name) const { return found_.contains(name); }
   // Throws for the first of them that was not found.
   void require(const std::vector<std::string>& names) const;
@@ -80,11 +80,11 @@ class Columns {
                              std::string_view expected) const;
 
   struct Found {
-    std::size_t place = 0;
+    std::size_t index = 0;
     double unit = 1;  // in SI
   };
   // In SI, of its header, else of its file.
-  [[nodiscard]] double unit(const std::string& name, std::size_t place, Quantity quantity) const;
+  [[nodiscard]] double unit(const std::string& name, std::size_t index, Quantity quantity) const;
 
   const SourceTable& table_;
   ColumnChoice choice_;

@@ -11,18 +11,20 @@ namespace {
 
 // Images of one contact, apart by lattice vectors, share its weight.
 void weigh_copies(WrittenPacking& packing) {
-  constexpr double places = 1e6;  // per cell side: resolution of equal midpoints
+  constexpr double resolution = 1e6;  // per cell side: resolution of equal midpoints
   const Eigen::Matrix2d to_cell = packing.cell.inverse();
   std::map<std::tuple<long, long, long, long>, std::vector<std::size_t>> groups;
   for (std::size_t c = 0; c < packing.contacts.size(); ++c) {
     const WrittenContact& contact = packing.contacts[c];
     const Eigen::Vector2d branch = to_cell * packing.branch(contact);
     const Eigen::Vector2d middle = to_cell * packing.centre[contact.i] + 0.5 * branch;
-    const auto place = [&](double s) { return std::lround((s - std::floor(s + 1e-7)) * places); };
-    const long along = std::lround(branch.x() * places);
-    const long up = std::lround(branch.y() * places);
+    const auto rounded = [&](double s) {
+      return std::lround((s - std::floor(s + 1e-7)) * resolution);
+    };
+    const long along = std::lround(branch.x() * resolution);
+    const long up = std::lround(branch.y() * resolution);
     const long sign = along < 0 || (along == 0 && up < 0) ? -1 : 1;
-    groups[{place(middle.x()), place(middle.y()), sign * along, sign * up}].push_back(c);
+    groups[{rounded(middle.x()), rounded(middle.y()), sign * along, sign * up}].push_back(c);
   }
   for (const auto& [key, members] : groups)
     for (const std::size_t c : members)

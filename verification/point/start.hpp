@@ -46,8 +46,8 @@ std::string unusual_stiffness(double stiffness);
 
 // Probable cause of a failure in one of the first steps; "" after them.
 std::string why_at_start(const PackingStart& start, int steps_done);
-// Cure after a load step of a body failed.
-std::string load_advice(const PackingStart& start, int steps_done);
+// Cure after a load step of a body failed; `status`: of the point that refused it, else OK.
+std::string load_advice(const PackingStart& start, int steps_done, grainlaw_status status);
 // Cure after a step of a path failed at this Cauchy stress, components row by row [Pa].
 std::string path_advice(const PackingStart& start, int steps_done, grainlaw_status status,
                         const Segment& segment, const Eigen::VectorXd& cauchy);

@@ -63,9 +63,9 @@ class MeshGauges {
       return 0.5 * (solver.displacement()[2 * bottom[k]] + solver.displacement()[2 * top[k]]);
     };
     const auto elements = static_cast<double>(bottom.size() - 1);
-    const double place = std::clamp(x / domain_->length * elements, 0.0, elements);
-    const auto k = std::min(static_cast<std::size_t>(place), bottom.size() - 2);
-    const double share = place - static_cast<double>(k);
+    const double position = std::clamp(x / domain_->length * elements, 0.0, elements);
+    const auto k = std::min(static_cast<std::size_t>(position), bottom.size() - 2);
+    const double share = position - static_cast<double>(k);
     return (1 - share) * value(k) + share * value(k + 1);
   }
 

@@ -29,9 +29,9 @@ std::string WaveRun::reason() const {
   try {
     std::rethrow_exception(stopped);
   } catch (const Interrupted& stop) {
-    return stop.text();
-  } catch (const std::exception& error) {
-    return error.what();
+    return std::string(": ") + stop.text();
+  } catch (const std::exception&) {
+    return {};
   }
 }
 

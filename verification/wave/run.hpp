@@ -48,7 +48,7 @@ struct WaveRun {
   std::vector<WaveRow> rows;
   std::exception_ptr stopped;  // error or Interrupted; rows are those before
 
-  // Reason of an early end; empty without one.
+  // ": " and what interrupted the run; empty otherwise. An error is told by who catches it.
   [[nodiscard]] std::string reason() const;
 };
 

@@ -45,7 +45,7 @@ from .material import Material
 from .points import State
 from .progress import Listener, Progress
 from .result import Result
-from .unusual import ask
+from .unusual import ask, tell_drag
 
 __all__ = ["Ensemble", "Interrupted", "Loops", "Result", "StepFailed", "Stop", "constant_p", "drained",
            "isotropic", "k0", "oedometric", "path", "shear_constant_stress",
@@ -317,6 +317,7 @@ def _run(name: str, start: Start, planner: Callable[[Lead], Plan], loops: Loops 
             plan = planner(lead)
             _ask_for_units(result, plan, loops, how.stop)
             Course(lead, plan, loops, how.stop, result, progress).run()
+            tell_drag(result.unbalanced)
     except StepError as error:
         where = f"after axial strain {result.axial_strain[-1]:.6g} [-] " if len(result) else ""
         raise StepFailed(f"{where}{error}", error.status, result) from None

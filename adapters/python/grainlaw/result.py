@@ -45,6 +45,8 @@ class Result:
     external_work             (n,) of P on dF since the start of the test [J]
     contacts, sliding         (n,) number of touching contacts; of those at the limit of friction [-]
     broken_bonds              (n,) since F = I [-]
+    unbalanced                (n,) with solver.viscous_number: largest drag on a particle / mean contact
+                              force [-]; else 0
     """
 
     state: State             #: where the test ended; may be led on
@@ -62,7 +64,8 @@ class Result:
         """A row of where the state is."""
         row: dict[str, Any] = {name: self.state.measure(what) for name, what in _MEASURES.items()}
         row.update(F=reached.F, P=reached.P, sigma=cauchy(reached.P, reached.F),
-                   external_work=reached.work, sliding=float(reached.report["sliding"]))
+                   external_work=reached.work, sliding=float(reached.report["sliding"]),
+                   unbalanced=float(reached.report["unbalanced"]))
         if self._tangents:
             row["A"] = reached.A
         self._rows.append(row)

@@ -24,7 +24,7 @@ from grainlaw import laboratory as tests
 from grainlaw.laboratory import Ensemble, Loops, Stop
 from grainlaw.lead import Options
 from grainlaw.progress import duration
-from support import DATA, Case, material
+from support import DATA, MATERIAL, Case, material
 
 SPHERES = os.path.join(DATA, "spheres500.toml")
 PROGRAM = os.environ.get("GRAINLAW_PROGRAM")
@@ -296,6 +296,18 @@ class Elements(Case):
         self.assertEqual({len(column) for column in columns.values()}, {3})
         for name in ("axial_strain", "sigma12", "fabric22", "void_ratio", "sliding"):
             self.assertIn(name, columns)
+
+    def test_drag_is_a_column_and_told_where_it_carries_part_of_the_load(self):
+        self.assertFalse(tests.oedometric(material(), 0.001).unbalanced.any())
+        with open(MATERIAL, encoding="utf-8") as file:
+            sand = grainlaw.Material.parse(file.read() + "[solver]\nviscous_number = 0.3\n", DATA)
+        with self.assertWarnsRegex(UserWarning, "drag carries part of the load") as told:
+            result = tests.drained(sand, 0.02, step=2e-3)
+        much = (result.unbalanced > 0.1).sum()
+        self.assertGreater(much, 0)
+        self.assertIn(f"above 0.1 in {much} steps", str(told.warning))
+        self.assertEqual(told.filename, __file__)
+        self.assertEqual(len(result.columns()["unbalanced"]), len(result))
 
     def test_q_is_below_0_in_extension(self):
         for path in (None, SPHERES):

@@ -30,16 +30,16 @@ void study_rotations(const StudyOptions& options, const Material& material, doub
     const Evaluation still = evaluate(probe.state, probe.deformation, 0);
     for (const double angle : {0.0, 1e-3, 0.5, 1.5, std::numbers::pi}) {
       const Tensor q = rotation(angle);
-      const Tensor turned_deformation = q * probe.deformation;
-      const Evaluation turned = evaluate(probe.state, turned_deformation, 0);
+      const Tensor rotated_deformation = q * probe.deformation;
+      const Evaluation rotated = evaluate(probe.state, rotated_deformation, 0);
       double error = std::numeric_limits<double>::quiet_NaN();
       double asymmetry = error;
-      if (still.status == GRAINLAW_OK && turned.status == GRAINLAW_OK) {
-        error = (turned.stress - q * still.stress).norm() / still.stress.norm();
-        const Tensor sigma = cauchy_stress(turned.stress, turned_deformation);
+      if (still.status == GRAINLAW_OK && rotated.status == GRAINLAW_OK) {
+        error = (rotated.stress - q * still.stress).norm() / still.stress.norm();
+        const Tensor sigma = cauchy_stress(rotated.stress, rotated_deformation);
         asymmetry = std::abs(sigma(0, 1) - sigma(1, 0)) / sigma.norm();
       }
-      table.row({probe.strain, angle, error, asymmetry, grainlaw_status_text(turned.status)});
+      table.row({probe.strain, angle, error, asymmetry, grainlaw_status_text(rotated.status)});
     }
   }
   table.print();

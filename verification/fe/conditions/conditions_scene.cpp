@@ -69,30 +69,31 @@ int normal_component(const Mesh& mesh, const std::vector<int>& nodes) {
 std::vector<double> read_arms(SceneTable& table, const Mesh& mesh, const std::vector<int>& nodes,
                               int normal) {
   const int along = 1 - normal;
-  const auto place = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)](along); };
-  const auto [low, high] = std::minmax_element(nodes.begin(), nodes.end(),
-                                               [&](int a, int b) { return place(a) < place(b); });
-  if (!(place(*high) > place(*low)))
+  const auto position = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)](along); };
+  const auto [low, high] = std::minmax_element(
+      nodes.begin(), nodes.end(), [&](int a, int b) { return position(a) < position(b); });
+  if (!(position(*high) > position(*low)))
     table.fail("rotation", "a platen on one node", "two nodes at least");
-  const double hinge = table.number_or("hinge", 0.5 * (place(*low) + place(*high)), any_number);
+  const double hinge =
+      table.number_or("hinge", 0.5 * (position(*low) + position(*high)), any_number);
   const double sign = normal == 1 ? 1 : -1;
   std::vector<double> arms;
-  for (const int node : nodes) arms.push_back(sign * (place(node) - hinge));
+  for (const int node : nodes) arms.push_back(sign * (position(node) - hinge));
   return arms;
 }
 
 void read_platen(SceneTable& table, Model& model) {
   const std::string set = read_set(table, model.mesh.node_sets);
   const bool rough = table.choice_or("surface", "smooth", {"smooth", "rough"}) == "rough";
-  const bool turns = table.choice_or("rotation", "fixed", {"fixed", "free"}) == "free";
+  const bool rotates = table.choice_or("rotation", "fixed", {"fixed", "free"}) == "free";
   const std::vector<int>& nodes = model.mesh.node_sets[set];
   const int normal = normal_component(model.mesh, nodes);
   if (normal < 0)
     table.fail("on", fmt::format("the bent or inclined set {}", set),
                "a straight side along x or y");
   std::vector<double> arms;
-  if (turns) arms = read_arms(table, model.mesh, nodes, normal);
-  if (!turns && table.has("hinge"))
+  if (rotates) arms = read_arms(table, model.mesh, nodes, normal);
+  if (!rotates && table.has("hinge"))
     table.fail("hinge", "a platen that does not turn", "rotation = \"free\" beside it");
   table.close();
   for (const int i : {0, 1})
@@ -105,18 +106,18 @@ void read_platen(SceneTable& table, Model& model) {
 std::vector<std::pair<int, int>> match(SceneTable& table, const Mesh& mesh,
                                        const std::vector<int>& first,
                                        const std::vector<int>& second) {
-  const auto place = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)]; };
+  const auto position = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)]; };
   const std::string expected = "two sides whose nodes differ by one shift";
   if (first.size() != second.size())
     table.fail("sides", fmt::format("{} and {} nodes", first.size(), second.size()), expected);
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();
-  for (std::size_t k = 0; k < first.size(); ++k) shift += place(second[k]) - place(first[k]);
+  for (std::size_t k = 0; k < first.size(); ++k) shift += position(second[k]) - position(first[k]);
   shift /= static_cast<double>(first.size());
   constexpr double close = 1e-6;  // relative to the shift
   std::vector<std::pair<int, int>> pairs;
   for (const int node : first) {
     const auto partner = std::find_if(second.begin(), second.end(), [&](int other) {
-      return (place(node) + shift - place(other)).norm() <= close * shift.norm();
+      return (position(node) + shift - position(other)).norm() <= close * shift.norm();
     });
     if (partner == second.end() || *partner == node)
       table.fail("sides", fmt::format("node {} without a partner", node + 1), expected);

@@ -40,10 +40,10 @@ Eigen::VectorXd Dofs::reduce_mass(const Eigen::VectorXd& full) const {
 bool Dofs::masses_coupled(const Eigen::VectorXd& full) const {
   std::vector<double> coupling(static_cast<std::size_t>(unknowns)), size = coupling;
   for (std::size_t d = 0; d < unknown.size(); ++d) {
-    if (turn[d].angle < 0 || unknown[d] < 0) continue;
-    const double product = full(static_cast<Eigen::Index>(d)) * turn[d].arm;
-    coupling[static_cast<std::size_t>(turn[d].angle)] += product;
-    size[static_cast<std::size_t>(turn[d].angle)] += std::abs(product);
+    if (platen_rotation[d].angle < 0 || unknown[d] < 0) continue;
+    const double product = full(static_cast<Eigen::Index>(d)) * platen_rotation[d].arm;
+    coupling[static_cast<std::size_t>(platen_rotation[d].angle)] += product;
+    size[static_cast<std::size_t>(platen_rotation[d].angle)] += std::abs(product);
   }
   constexpr double round_off = 1e-9;
   for (std::size_t k = 0; k < coupling.size(); ++k)
@@ -169,11 +169,11 @@ Dofs number_dofs(const Model& model) {
     for (const auto& [program, factor] : offset)
       dofs.prescribed.push_back({static_cast<int>(d), program, factor});
   }
-  dofs.turn.resize(ground);
+  dofs.platen_rotation.resize(ground);
   for (const Tie& tie : model.ties) {
     if (tie.arms.empty()) continue;
     for (std::size_t k = 0; k < tie.nodes.size(); ++k)
-      dofs.turn[dof(tie.nodes[k], tie.component)] = {dofs.unknowns, tie.arms[k]};
+      dofs.platen_rotation[dof(tie.nodes[k], tie.component)] = {dofs.unknowns, tie.arms[k]};
     ++dofs.unknowns;
   }
   if (dofs.prescribed_at(0).any())

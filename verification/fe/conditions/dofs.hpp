@@ -15,7 +15,7 @@ struct Model;
 // programs of prescribed displacements and jumps; tied components share an unknown. Those of a
 // rotating platen also depend on its angle.
 struct Dofs {
-  struct Turn {
+  struct PlatenRotation {
     int angle = -1;  // index of its unknown, -1: none
     double arm = 0;  // [m]
   };
@@ -26,8 +26,8 @@ struct Dofs {
     double factor;
   };
 
-  std::vector<int> unknown;  // [dofs] index of the unknown, -1: none
-  std::vector<Turn> turn;    // [dofs]
+  std::vector<int> unknown;                     // [dofs] index of the unknown, -1: none
+  std::vector<PlatenRotation> platen_rotation;  // [dofs]
   std::vector<Prescribed> prescribed;
   std::vector<Program> programs;  // [m]
   int unknowns = 0;
@@ -36,7 +36,8 @@ struct Dofs {
   template <class Visit>
   void follow(std::size_t dof, Visit&& visit) const {
     if (unknown[dof] >= 0) visit(unknown[dof], 1.0);
-    if (turn[dof].angle >= 0) visit(turn[dof].angle, turn[dof].arm);
+    if (platen_rotation[dof].angle >= 0)
+      visit(platen_rotation[dof].angle, platen_rotation[dof].arm);
   }
 
   // Values of the unknowns as a field over all components, programs zero.

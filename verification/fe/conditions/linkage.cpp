@@ -35,18 +35,18 @@ Linkage::Linkage(std::size_t count, const std::vector<Program>& programs)
   std::iota(parent_.begin(), parent_.end(), std::size_t{0});
 }
 
-Linkage::Place Linkage::find(std::size_t member) const {
-  Place place{member, {}};
-  while (parent_[place.root] != place.root) {
-    add(place.offset, offset_[place.root], 1);
-    place.root = parent_[place.root];
+Linkage::Member Linkage::find(std::size_t member) const {
+  Member found{member, {}};
+  while (parent_[found.root] != found.root) {
+    add(found.offset, offset_[found.root], 1);
+    found.root = parent_[found.root];
   }
-  return place;
+  return found;
 }
 
 bool Linkage::link(std::size_t follower, std::size_t leader, const Offset& offset) {
-  const Place from = find(follower);
-  const Place to = find(leader);
+  const Member from = find(follower);
+  const Member to = find(leader);
   // u[from.root] + from.offset = u[to.root] + to.offset + offset.
   Offset difference = to.offset;
   add(difference, offset, 1);

@@ -23,11 +23,11 @@ class Linkage {
   // earlier links; repeating a link does not.
   bool link(std::size_t follower, std::size_t leader, const Offset& offset);
 
-  struct Place {
+  struct Member {
     std::size_t root;
     Offset offset;  // u[member] = u[root] + offset
   };
-  [[nodiscard]] Place find(std::size_t member) const;
+  [[nodiscard]] Member find(std::size_t member) const;
 
  private:
   [[nodiscard]] bool vanishes(const Offset& offset) const;

@@ -19,9 +19,9 @@ double interpolate(const std::vector<std::array<double, 2>>& points, double time
 }  // namespace
 
 double Sine::at(double time) const {
-  const double turns = (time - start) / period;
-  if (amplitude == 0 || turns <= 0 || turns >= periods) return 0;
-  return amplitude * std::sin(2 * std::numbers::pi * turns);
+  const double elapsed = (time - start) / period;
+  if (amplitude == 0 || elapsed <= 0 || elapsed >= periods) return 0;
+  return amplitude * std::sin(2 * std::numbers::pi * elapsed);
 }
 
 double LinearSegment::at(double time) const {

@@ -16,15 +16,17 @@ namespace {
 constexpr double small = 1e-9;
 
 std::string motion_text(const Eigen::Vector3d& motion, double size, const Eigen::Vector2d& centre) {
-  const double turn = motion(2) / size;  // [rad]
+  const double rotation = motion(2) / size;  // [rad]
   if (std::abs(motion(2)) < 1e-6) {
     if (std::abs(motion(1)) < 1e-6) return "translation along x";
     if (std::abs(motion(0)) < 1e-6) return "translation along y";
     return fmt::format("translation along ({:.3g}, {:.3g})", motion(0), motion(1));
   }
-  const auto shown = [&](double place) { return std::abs(place) < 1e-9 * size ? 0 : place; };
-  return fmt::format("rotation about ({:.6g}, {:.6g})", shown(centre.x() - motion(1) / turn),
-                     shown(centre.y() + motion(0) / turn));
+  const auto shown = [&](double coordinate) {
+    return std::abs(coordinate) < 1e-9 * size ? 0 : coordinate;
+  };
+  return fmt::format("rotation about ({:.6g}, {:.6g})", shown(centre.x() - motion(1) / rotation),
+                     shown(centre.y() + motion(0) / rotation));
 }
 
 }  // namespace
@@ -52,7 +54,7 @@ void check_supports(const Model& model, const std::string& place) {
     const auto row = static_cast<Eigen::Index>(d);
     motions.row(row) = motion(d);
     dofs.follow(d, [&](int k, double factor) {
-      triplets.emplace_back(row, k, k == dofs.turn[d].angle ? factor / size : factor);
+      triplets.emplace_back(row, k, k == dofs.platen_rotation[d].angle ? factor / size : factor);
     });
   }
   Eigen::SparseMatrix<double> follows(count, dofs.unknowns);
@@ -61,8 +63,8 @@ void check_supports(const Model& model, const std::string& place) {
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(normal);
   Eigen::MatrixX3d rest = motions;
   if (dofs.unknowns > 0) rest -= follows * factor.solve(follows.transpose() * motions);
-  const Eigen::Matrix3d held = rest.transpose() * rest;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(held);
+  const Eigen::Matrix3d supports = rest.transpose() * rest;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(supports);
   if (modes.eigenvalues()(0) > small) return;
   int free = 0;
   while (free < 3 && modes.eigenvalues()(free) <= small) ++free;

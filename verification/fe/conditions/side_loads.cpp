@@ -23,10 +23,10 @@ void add_pressure(const Pressure& pressure, double value, const Mesh& mesh,
     for (std::size_t a = 0; a < side.size(); ++a)
       for (std::size_t b = 0; b < side.size(); ++b) {
         const double weight = value * coupling(side.size(), a, b);
-        Eigen::Vector2d place = mesh.nodes[static_cast<std::size_t>(side[b])];
-        if (pressure.follows) place += displacement.segment<2>(2 * side[b]);
-        force(2 * side[a]) -= weight * place.y();
-        force(2 * side[a] + 1) += weight * place.x();
+        Eigen::Vector2d position = mesh.nodes[static_cast<std::size_t>(side[b])];
+        if (pressure.follows) position += displacement.segment<2>(2 * side[b]);
+        force(2 * side[a]) -= weight * position.y();
+        force(2 * side[a] + 1) += weight * position.x();
         if (!pressure.follows || stiffness == nullptr) continue;
         stiffness->emplace_back(2 * side[a], 2 * side[b] + 1, weight);
         stiffness->emplace_back(2 * side[a] + 1, 2 * side[b], -weight);
@@ -36,10 +36,10 @@ void add_pressure(const Pressure& pressure, double value, const Mesh& mesh,
 // Integral of N_a over the reference length of a side [m], by three Gauss points.
 std::array<double, 3> lengths(const Side& side, const Mesh& mesh) {
   constexpr std::array<double, 3> weight{5.0 / 9, 8.0 / 9, 5.0 / 9};
-  const std::array<double, 3> place{-std::sqrt(0.6), 0, std::sqrt(0.6)};
+  const std::array<double, 3> abscissa{-std::sqrt(0.6), 0, std::sqrt(0.6)};
   std::array<double, 3> sum{};
   for (std::size_t q = 0; q < 3; ++q) {
-    const double xi = place[q];
+    const double xi = abscissa[q];
     std::array<double, 3> shape{0.5 * (1 - xi), 0.5 * (1 + xi), 0};
     std::array<double, 3> derivative{-0.5, 0.5, 0};
     if (side.size() == 3) {

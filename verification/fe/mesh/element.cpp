@@ -59,11 +59,11 @@ std::vector<LocalPoint> square_points(int per_direction) {
     for (std::size_t a = 0; a < 4; ++a) points.push_back({square_nodes[a] / std::sqrt(3.0), 1});
     return points;
   }
-  const std::array<double, 3> place{-std::sqrt(0.6), 0, std::sqrt(0.6)};
+  const std::array<double, 3> abscissa{-std::sqrt(0.6), 0, std::sqrt(0.6)};
   const std::array<double, 3> weight{5.0 / 9, 8.0 / 9, 5.0 / 9};
   for (std::size_t j = 0; j < 3; ++j)
     for (std::size_t i = 0; i < 3; ++i)
-      points.push_back({{place[i], place[j]}, weight[i] * weight[j]});
+      points.push_back({{abscissa[i], abscissa[j]}, weight[i] * weight[j]});
   return points;
 }
 

@@ -62,10 +62,10 @@ class Reader {
 
   // Numbers nodes in the order of their tags.
   void number_nodes(const std::set<std::size_t>& used) {
-    std::unordered_map<std::size_t, std::size_t> place;
-    for (std::size_t k = 0; k < content_.node_tags.size(); ++k) place[content_.node_tags[k]] = k;
+    std::unordered_map<std::size_t, std::size_t> index;
+    for (std::size_t k = 0; k < content_.node_tags.size(); ++k) index[content_.node_tags[k]] = k;
     for (const std::size_t tag : used) {
-      const auto& [x, y, z] = content_.node_positions[place.at(tag)];
+      const auto& [x, y, z] = content_.node_positions[index.at(tag)];
       if (std::abs(z) > 1e-12)
         fail(fmt::format("node {} at z = {}", tag, z), "a mesh in the plane z = 0");
       number_[tag] = static_cast<int>(mesh_.nodes.size());

@@ -121,13 +121,13 @@ GmshContent read_gmsh(const std::filesystem::path& path) {
   GRAINLAW_CALL(gmshOpen, path.c_str());
   GmshContent content;
   std::size_t* tags = nullptr;
-  double *places = nullptr, *parameters = nullptr;
-  std::size_t tag_count = 0, place_count = 0, parameter_count = 0;
-  GRAINLAW_CALL(gmshModelMeshGetNodes, &tags, &tag_count, &places, &place_count, &parameters,
+  double *positions = nullptr, *parameters = nullptr;
+  std::size_t tag_count = 0, position_count = 0, parameter_count = 0;
+  GRAINLAW_CALL(gmshModelMeshGetNodes, &tags, &tag_count, &positions, &position_count, &parameters,
                 &parameter_count, -1, -1, 0, 0);
   content.node_tags = gmsh.take(tags, tag_count);
   gmsh.take(parameters, parameter_count);
-  const std::vector<double> flat = gmsh.take(places, place_count);
+  const std::vector<double> flat = gmsh.take(positions, position_count);
   for (std::size_t k = 0; k + 2 < flat.size(); k += 3)
     content.node_positions.push_back({flat[k], flat[k + 1], flat[k + 2]});
   content.surface = elements(gmsh, 2, -1);

@@ -52,7 +52,7 @@ MeshPanel mesh_panel(const Mesh& mesh, const PointField& points,
   panel.values = values(field, points);
   for (double& value : panel.values) value *= field.picture_factor();
   for (const std::vector<int>& element : mesh.elements) {
-    const auto place = [&](const Polygon& local) {
+    const auto to_mesh = [&](const Polygon& local) {
       Polygon placed;
       for (const Eigen::Vector2d& xi : local) {
         const NodeValues shape = type.shape(xi).value;
@@ -65,8 +65,8 @@ MeshPanel mesh_panel(const Mesh& mesh, const PointField& points,
       return placed;
     };
     for (const LocalPoint& point : type.points)
-      panel.patches.push_back(place(local_patch(type, point)));
-    panel.elements.push_back(place(local_outline(type)));
+      panel.patches.push_back(to_mesh(local_patch(type, point)));
+    panel.elements.push_back(to_mesh(local_outline(type)));
   }
   return panel;
 }

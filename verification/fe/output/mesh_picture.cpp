@@ -81,9 +81,9 @@ std::string plot(const MeshPanel& panel, std::size_t number, const std::array<do
                  std::string& data) {
   std::vector<std::string> blocks(levels + 1);
   for (std::size_t p = 0; p < panel.patches.size(); ++p) {
-    const double place = (panel.values[p] - range[0]) / (range[1] - range[0]);
+    const double share = (panel.values[p] - range[0]) / (range[1] - range[0]);
     const int level =
-        std::isfinite(place) ? std::clamp(static_cast<int>(place * levels), 0, levels - 1) : levels;
+        std::isfinite(share) ? std::clamp(static_cast<int>(share * levels), 0, levels - 1) : levels;
     append_closed(blocks[static_cast<std::size_t>(level)], panel.patches[p]);
   }
   std::vector<std::string> items;

@@ -9,16 +9,16 @@ namespace {
 
 std::vector<int> nodes_on_line(SceneTable& table, std::string_view key, const Mesh& mesh) {
   const int axis = key == "x" ? 0 : 1;
-  const double place = table.number(key);
+  const double coordinate = table.number(key);
   double nearest = mesh.nodes.front()(axis), low = nearest, high = nearest;
   for (const Eigen::Vector2d& node : mesh.nodes) {
     low = std::min(low, node(axis));
     high = std::max(high, node(axis));
-    if (std::abs(node(axis) - place) < std::abs(nearest - place)) nearest = node(axis);
+    if (std::abs(node(axis) - coordinate) < std::abs(nearest - coordinate)) nearest = node(axis);
   }
   const double tolerance = 1e-6 * (high - low);
-  if (std::abs(nearest - place) > tolerance)
-    table.fail(key, fmt::format("{} m, where no node lies", place),
+  if (std::abs(nearest - coordinate) > tolerance)
+    table.fail(key, fmt::format("{} m, where no node lies", coordinate),
                fmt::format("a line of nodes, e.g. {} = {:.9g}", key, nearest));
   std::vector<int> nodes;
   for (std::size_t k = 0; k < mesh.nodes.size(); ++k)

@@ -153,9 +153,10 @@ void RunOutput::write(const LoadStep& step, bool ends_before) {
 
 void RunOutput::add_point(std::size_t point, const LoadStep& step, CsvWriter& table) const {
   const PointField& points = solver_.points();
-  const Eigen::Vector2d place =
+  const Eigen::Vector2d position =
       current_position(scene_.model.mesh, points, point, solver_.displacement());
-  std::vector<double> row{static_cast<double>(step.record.step), step.time, place.x(), place.y()};
+  std::vector<double> row{static_cast<double>(step.record.step), step.time, position.x(),
+                          position.y()};
   for (const Field& field : fields()) {
     std::array<double, 4> value{};
     field.value(point_view(points, point), value.data());

@@ -56,7 +56,7 @@ std::string data(std::string_view element, const std::vector<VtkArray>& arrays) 
   return text + fmt::format("</{}>\n", element);
 }
 
-std::string places(const std::vector<double>& points) {
+std::string positions(const std::vector<double>& points) {
   return "<Points>\n" + array("Float64", "points", 3, encoded(points)) + "</Points>\n";
 }
 
@@ -70,7 +70,7 @@ void write_vtu(const std::filesystem::path& path, const VtkMesh& mesh) {
                             array("Int64", "offsets", 1, encoded(mesh.offsets)) +
                             array("UInt8", "types", 1, encoded(mesh.types)) + "</Cells>\n";
   write_file(path, vtk_file("UnstructuredGrid", counts,
-                            places(mesh.points) + cells + data("PointData", mesh.point_data) +
+                            positions(mesh.points) + cells + data("PointData", mesh.point_data) +
                                 data("CellData", mesh.cell_data)));
 }
 
@@ -86,7 +86,7 @@ void write_vtp(const std::filesystem::path& path, const std::vector<double>& poi
                                array("Int64", "connectivity", 1, encoded(connectivity)) +
                                array("Int64", "offsets", 1, encoded(offsets)) + "</Verts>\n";
   write_file(path, vtk_file("PolyData", vtk_counts(count, count, 0),
-                            places(points) + vertices + data("PointData", arrays)));
+                            positions(points) + vertices + data("PointData", arrays)));
 }
 
 void write_pvd(const std::filesystem::path& path, const std::vector<VtkSeriesEntry>& entries) {

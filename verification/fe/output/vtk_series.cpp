@@ -65,10 +65,10 @@ void VtkSeries::add(const LoadStep& step, const Solver& solver) {
          element_means(points, mesh.elements.size(), static_cast<std::size_t>(field.components),
                        at_points.back().values)});
   }
-  std::vector<double> places;
+  std::vector<double> positions;
   for (std::size_t p = 0; p < points.size(); ++p)
-    append(places, current_position(mesh, points, p, displacement));
-  write_vtp(file("points", number, "vtp"), places, at_points);
+    append(positions, current_position(mesh, points, p, displacement));
+  write_vtp(file("points", number, "vtp"), positions, at_points);
 
   VtkMesh grid;
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)

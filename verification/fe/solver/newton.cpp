@@ -3,7 +3,7 @@
 #include "fe/conditions/dofs.hpp"
 #include "fe/solver/elastic_share.hpp"
 #include "fe/solver/forces.hpp"
-#include "fe/solver/last_move.hpp"
+#include "fe/solver/last_displacement.hpp"
 #include "fe/solver/linear_system.hpp"
 
 #include <fmt/format.h>
@@ -81,14 +81,14 @@ class NewtonSolver final : public Solver {
     out.write(time_);
     out.write(displacement_);
     points_.save(out);
-    if (options_.last_move_first) last_move_.save(out);
+    if (options_.last_displacement_first) last_displacement_.save(out);
   }
 
   void restore(CheckpointReader& in) override {
     in.read(time_);
     in.read(displacement_);
     points_.restore(in);
-    if (options_.last_move_first) last_move_.restore(in);
+    if (options_.last_displacement_first) last_displacement_.restore(in);
     system_ = assemble(model_, points_, displacement_, time_);
   }
 
@@ -107,8 +107,9 @@ class NewtonSolver final : public Solver {
     Eigen::VectorXd prescribed = target - dofs_.prescribed_at(time_);
     add_load_increment(system, time);
     residuals.push_back(error(system, prescribed));
-    const Eigen::VectorXd again =
-        options_.last_move_first ? last_move_.once_more(prescribed) : Eigen::VectorXd();
+    const Eigen::VectorXd again = options_.last_displacement_first
+                                      ? last_displacement_.once_more(prescribed)
+                                      : Eigen::VectorXd();
     double best = std::numeric_limits<double>::infinity();
     int best_iteration = 0;
     bool stalled = false;
@@ -152,7 +153,7 @@ class NewtonSolver final : public Solver {
                 options_.tangent == GRAINLAW_WANT_TANGENT_EXACT;
       const bool converged = loaded && residual <= tolerance;
       if (converged || (near && (slow || stalled || made == options_.max_iterations))) {
-        last_move_.keep(displacement - displacement_, target - dofs_.prescribed_at(time_));
+        last_displacement_.keep(displacement - displacement_, target - dofs_.prescribed_at(time_));
         displacement_ = displacement;
         system_ = system;
         time_ = time;
@@ -207,19 +208,21 @@ class NewtonSolver final : public Solver {
   Attempt correct(Eigen::VectorXd& displacement, System& system, const Eigen::VectorXd& correction,
                   double& share, double time, double before, int halvings) {
     for (int halving = 0;; ++halving, share *= 0.5) {
-      const Eigen::VectorXd place = displacement + share * correction;
-      const bool reached = points_.evaluate(place, options_.tangent, threads_) == GRAINLAW_OK;
+      const Eigen::VectorXd tried = displacement + share * correction;
+      const grainlaw_status status = points_.evaluate(tried, options_.tangent, threads_);
+      const bool reached = status == GRAINLAW_OK;
       if (reached) {
-        System found = assemble(model_, points_, place, time);
+        System found = assemble(model_, points_, tried, time);
         const double residual = dofs_.reduce(found.residual).norm() / found.scale;
         if (halvings == 0 || residual <= before) {
-          displacement = place;
+          displacement = tried;
           system = std::move(found);
           return {.converged = true};
         }
       }
       if (halving < halvings) continue;
-      if (!reached) return {.ratio = points_.step_ratio(), .reason = points_.message()};
+      if (!reached)
+        return {.ratio = points_.step_ratio(), .reason = points_.message(), .status = status};
       return {.reason =
                   fmt::format("{} halvings of a correction did not lower the residual", halvings)};
     }
@@ -257,7 +260,7 @@ class NewtonSolver final : public Solver {
   Eigen::SparseMatrix<double> elastic_;  // stiffness at F = I
   System system_;                        // at the committed displacement and load
   double time_ = 0;                      // committed
-  LastMove last_move_;
+  LastDisplacement last_displacement_;
   Eigen::VectorXd farthest_displacement_;  // iterate of the last attempt furthest from equilibrium
   double far_ = -1;                        // its distance [N/m]; -1: none
 };

@@ -33,9 +33,9 @@ struct NewtonOptions {
   // nearly singular tangent of softening points sends Newton across jumps of P. The result may be
   // the edge of a jump instead of an equilibrium: use it with jump_tolerance.
   double elastic_share = 0;
-  // Whether the first guess repeats the last displacement (last_move.hpp) where the prescription
-  // continues; else the committed tangent predicts. The guess is not shortened.
-  bool last_move_first = false;
+  // Whether the first guess repeats the last displacement (last_displacement.hpp) where the
+  // prescription continues; else the committed tangent predicts. The guess is not shortened.
+  bool last_displacement_first = false;
 };
 
 // Throws InputError for contradictory conditions, ComputationError when F = I cannot be evaluated.

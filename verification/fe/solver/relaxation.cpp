@@ -109,7 +109,7 @@ class RelaxationSolver final : public Solver {
     // Extrapolates the committed equilibrium at the velocity of the last part.
     const Eigen::VectorXd origin =
         rest_.displacement + told(time) + (time - rest_.time) * rest_.rate;
-    Eigen::VectorXd place = origin;
+    Eigen::VectorXd displacement = origin;
     Balance now;
     Eigen::VectorXd first_internal;
     Eigen::VectorXd velocity = Eigen::VectorXd::Zero(dofs_.unknowns);
@@ -118,9 +118,9 @@ class RelaxationSolver final : public Solver {
     for (int iteration = 0;; ++iteration) {
       const bool first = iteration == 0;
       const unsigned want = first ? unsigned{GRAINLAW_WANT_TANGENT_ELASTIC} : 0U;
-      if (points_.evaluate(place, want, threads_) != GRAINLAW_OK)
-        return {.ratio = points_.step_ratio(), .reason = points_.message()};
-      now = balance(place, time);
+      if (const auto status = points_.evaluate(displacement, want, threads_); status != GRAINLAW_OK)
+        return {.ratio = points_.step_ratio(), .reason = points_.message(), .status = status};
+      now = balance(displacement, time);
       residuals.push_back(now.residual);
       if (now.residual <= options_.tolerance) break;
       if (first) {
@@ -134,7 +134,7 @@ class RelaxationSolver final : public Solver {
                                 "residual {:.1e} [-])",
                                 iteration, now.residual)};
       // Rayleigh quotient (eq. 26) of the displacement since the start, without the supports'.
-      const Eigen::VectorXd moved = place - origin;
+      const Eigen::VectorXd moved = displacement - origin;
       const double inertia = moved.dot(mass_.cwiseProduct(moved));
       const double work = moved.dot(now.internal - first_internal);
       if (inertia > 0 && work > 0) lowest = std::sqrt(work / inertia);
@@ -144,13 +144,13 @@ class RelaxationSolver final : public Solver {
       const double h = first ? 0.5 * step : step;
       velocity = ((2 - h * damping) * velocity + 2 * h * now.force.cwiseQuotient(unknown_mass_)) /
                  (2 + h * damping);
-      place += step * dofs_.expand(velocity);
+      displacement += step * dofs_.expand(velocity);
       ++iterations;
     }
     points_.commit();
     if (time > rest_.time)
-      rest_.rate = (place - rest_.displacement - told(time)) / (time - rest_.time);
-    rest_.displacement = place;
+      rest_.rate = (displacement - rest_.displacement - told(time)) / (time - rest_.time);
+    rest_.displacement = displacement;
     rest_.imbalance = now.imbalance;
     rest_.time = time;
     return {.converged = true};

@@ -22,7 +22,7 @@ NewtonOptions read_newton(SceneTable table, const MaterialSource& material) {
   options.max_iterations = table.integer_or("max_iterations", options.max_iterations, 1);
   options.line_search = table.integer_or("line_search", 0, 0);
   options.elastic_share = table.number_or("elastic_share", 0, {0, 1, false, "a number in [0, 1]"});
-  options.last_move_first =
+  options.last_displacement_first =
       table.choice_or("first_guess", "tangent", {"tangent", "last_move"}) == "last_move";
   table.close();
   return options;

@@ -40,10 +40,10 @@ Loop loop(const PaperRun& run, const std::string& title) {
 
 // Turns of the shear strain, two to a cycle; the first quarter leads to the first turn.
 double cycles(const std::vector<double>& path, std::size_t until) {
-  int turns = 0;
+  int reversals = 0;
   for (std::size_t k = 1; k < until && k + 1 < path.size(); ++k)
-    turns += (path[k] - path[k - 1]) * (path[k + 1] - path[k]) < 0 ? 1 : 0;
-  return 0.5 * turns;
+    reversals += (path[k] - path[k - 1]) * (path[k + 1] - path[k]) < 0 ? 1 : 0;
+  return 0.5 * reversals;
 }
 
 // A run that was stopped before the paper's number of cycles is not judged.

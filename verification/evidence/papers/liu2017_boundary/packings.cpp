@@ -15,15 +15,15 @@ namespace {
 constexpr std::array<int, 5> sizes{37, 120, 228, 444, 650};
 
 struct Counts {
-  double particles = 0;    // of the frame
-  double fraction = 0;     // volume of discs / volume [-]
-  double copies_once = 0;  // coordination, as the library measures it [-]
-  double no_rattlers = 0;  // the same without rattlers [-]
-  double as_drawn = 0;     // 2 C / N over all discs of the frame, copies as discs of their own [-]
-  double inner = 0;        // mean number of contacts of the discs inside the frame [-]
-  int boundary = 0;        // discs on the frame
-  int unheld = 0;          // of them without a contact within it
-  int spare = 0;           // contact forces and stresses less equations of equilibrium under T
+  double particles = 0;     // of the frame
+  double fraction = 0;      // volume of discs / volume [-]
+  double copies_once = 0;   // coordination, as the library measures it [-]
+  double no_rattlers = 0;   // the same without rattlers [-]
+  double as_drawn = 0;      // 2 C / N over all discs of the frame, copies as discs of their own [-]
+  double inner = 0;         // mean number of contacts of the discs inside the frame [-]
+  int boundary = 0;         // discs on the frame
+  int without_contact = 0;  // of them without a contact within it
+  int spare = 0;            // contact forces and stresses less equations of equilibrium under T
 };
 
 Counts count(const WrittenPacking& packing) {
@@ -34,7 +34,7 @@ Counts count(const WrittenPacking& packing) {
   std::vector<char> framed(size, 0);
   for (const std::size_t p : packing.boundary) {
     framed[p] = 1;
-    counts.unheld += contacts[p] == 0 ? 1 : 0;
+    counts.without_contact += contacts[p] == 0 ? 1 : 0;
   }
   // The unknowns are two components per contact and four of P; every disc has three equations. The
   // sums of these are the balance of the whole: P12 = P21, and two that hold in any case. Inner
@@ -120,7 +120,7 @@ void uniform_stress_at_rest(const PaperStudy& study) {
       end = end.substr(0, end.find(';'));
     }
     table.row({fmt::format("{}", size), static_cast<double>(seed), pressure,
-               static_cast<double>(c.boundary), static_cast<double>(c.unheld), c.as_drawn,
+               static_cast<double>(c.boundary), static_cast<double>(c.without_contact), c.as_drawn,
                c.spare / c.particles, end});
   };
   for (const double pressure : {1.0, 3.0, 10.0, 20.0, 30.0, 50.0, 100.0}) row(37, 14, pressure);

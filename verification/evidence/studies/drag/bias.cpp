@@ -56,9 +56,9 @@ struct Bias {
 Bias bias_of(const Path& path, double step, const Path& rest) {
   double ratio = 0, ratio_size = 0, q = 0, q_size = 0, p = 0, p_size = 0;
   for (std::size_t k = 0; k < path.at.size(); ++k) {
-    const double place = step * static_cast<double>(k + 1) / usual;
-    const double nearest = std::round(place);
-    if (std::abs(place - nearest) > 1e-6 || nearest > static_cast<double>(rest.at.size())) continue;
+    const double level = step * static_cast<double>(k + 1) / usual;
+    const double nearest = std::round(level);
+    if (std::abs(level - nearest) > 1e-6 || nearest > static_cast<double>(rest.at.size())) continue;
     const auto& own = path.at[k];
     const auto& other = rest.at[static_cast<std::size_t>(nearest) - 1];
     if (!own || !other) continue;

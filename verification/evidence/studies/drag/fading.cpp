@@ -35,8 +35,8 @@ void expand(Study& study, Findings& findings, const Packing& packing) {
     int failed = 0, fewest = host.report.contacts, without = 0;
     double least = pressure;
     for (int k = 1; k <= 2 * increments; ++k) {
-      const int place = k <= increments ? k : 2 * increments - k;
-      const double strain = farthest * place / increments;
+      const int level = k <= increments ? k : 2 * increments - k;
+      const double strain = farthest * level / increments;
       if (!host.lead(TensorOf<D>::Identity() + strain * path.rate, 1, 0)) {
         ++failed;
         continue;

@@ -13,7 +13,7 @@
 namespace verification::drag {
 namespace {
 
-constexpr std::array<int, 5> places{28, 36, 44, 52, 60};  // steps of 0.1 %, drained
+constexpr std::array<int, 5> probed{28, 36, 44, 52, 60};  // steps of 0.1 %, drained
 constexpr int packings = 4;
 constexpr int points = 100;
 constexpr double length = 2e-3;         // of a line, as a norm of the change of F
@@ -63,13 +63,13 @@ void walk_line(Lines& lines, State& state, const TensorOf<D>& from, const Tensor
   ++lines.lines;
   std::vector<TensorOf<D>> F, P;
   for (int k = 0; k <= points; ++k) {
-    const TensorOf<D> place = from + length * k / points * direction;
-    const auto found = stress_at<D>(state, place);
+    const TensorOf<D> deformation = from + length * k / points * direction;
+    const auto found = stress_at<D>(state, deformation);
     if (!found) {
       ++lines.failed;
       continue;
     }
-    F.push_back(place);
+    F.push_back(deformation);
     P.push_back(*found);
   }
   std::vector<double> changes;
@@ -120,16 +120,16 @@ void look_along(Lines& lines, Study& study, const Packing& packing) {
   constexpr double step_size = 1e-3;
   std::mt19937 random(static_cast<unsigned>(packing.seed));
   std::normal_distribution<double> normal;
-  const auto is_place = [](const PointStepOf<D>& step) {
-    return std::find(places.begin(), places.end(), step.record.step) != places.end();
+  const auto is_probed = [](const PointStepOf<D>& step) {
+    return std::find(probed.begin(), probed.end(), step.record.step) != probed.end();
   };
   const auto follow = [&](bool from_trial, const PointObserverOf<D>& observe) {
     const Drained path = drained<D>(study.materials(packing, {.from_trial = from_trial}),
-                                    step_size * places.back(), places.back(), {}, observe);
+                                    step_size * probed.back(), probed.back(), {}, observe);
     lines.ended += path.failure.empty() ? 1 : 0;
   };
   follow(false, [&](const PointStepOf<D>& step) {
-    if (!is_place(step)) return;
+    if (!is_probed(step)) return;
     const TensorOf<D> from = step.record.deformation;
     const TensorOf<D> onward = from - step.committed_deformation;
     State state(step.state);
@@ -141,7 +141,7 @@ void look_along(Lines& lines, Study& study, const Packing& packing) {
       walk_line<D>(lines, state, from, direction / direction.norm());
   });
   follow(true, [&](const PointStepOf<D>& step) {
-    if (is_place(step))
+    if (is_probed(step))
       start_twice<D>(lines, step.state, step.committed_deformation, step.record.deformation);
   });
 }

@@ -24,7 +24,7 @@ constexpr double peak_end = 0.06, late = 0.03;                 // after the peak
 // Paths in multiples of the coarsest step.
 struct Path {
   const char* name;
-  std::vector<int> turns;  // strain at the end of each part
+  std::vector<int> reversals;  // strain at the end of each part
 };
 const std::vector<Path>& paths_of_strain() {
   static const std::vector<Path> paths{{"isochoric", {4}}, {"cyclic", {2, -2, 2}}};
@@ -41,11 +41,11 @@ template <int D>
 Answers strain_path(const Material& material, const Path& path, int refinement) {
   Host<D> host(material);
   Answers answers;
-  int place = 0;
-  for (const int turn : path.turns) {
-    for (const int direction = turn > place ? 1 : -1; place != turn; place += direction) {
+  int level = 0;
+  for (const int reversal : path.reversals) {
+    for (const int direction = reversal > level ? 1 : -1; level != reversal; level += direction) {
       for (int k = 1; k <= refinement; ++k) {
-        const double to = place + direction * static_cast<double>(k) / refinement;
+        const double to = level + direction * static_cast<double>(k) / refinement;
         if (!host.lead(isochoric<D>(coarsest * to))) return answers;
       }
       answers.q.push_back(host.q());

@@ -70,7 +70,7 @@ std::string Materials::prefix_of(const Packing& packing) {
     return options_.scene("../../tests/data/" + packing.file + ".toml").replace_extension("");
   const std::string name =
       fmt::format("{}_{}_{}_{}", packing.dimension, packing.count, packing.seed, packing.young);
-  const auto [place, is_new] = made_.try_emplace(name, (scratch_ / name.c_str()).string());
+  const auto [entry, is_new] = made_.try_emplace(name, (scratch_ / name.c_str()).string());
   if (is_new) {
     const Material material = parse(fmt::format(
         "dimension = {}\n{}[packing]\ngenerator = \"compaction\"\ncount = {}\nradii = [{}, {}]\n"
@@ -78,9 +78,9 @@ std::string Materials::prefix_of(const Packing& packing) {
         packing.dimension, packing.dimension == 2 ? fmt::format("thickness = {}\n", thickness) : "",
         packing.count, smallest_radius(), largest_radius(packing.dimension), packing.seed, pressure,
         contact_text(packing)));
-    State(material).write_packing(place->second);
+    State(material).write_packing(entry->second);
   }
-  return place->second;
+  return entry->second;
 }
 
 Material Materials::read(const std::string& prefix, const Packing& packing,

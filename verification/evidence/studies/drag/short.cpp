@@ -77,20 +77,20 @@ void of_time(Study& study, Findings& findings, const Packing& packing) {
     }
   }
   for (const int parts : {1, 10, 100}) {
-    Host<D> held(host);
+    Host<D> resting(host);
     double failed = 0;
     for (int k = 0; k < parts; ++k)
-      failed += held.lead(held.deformation, hold * memory / parts, 0) ? 0 : 1;
+      failed += resting.lead(resting.deformation, hold * memory / parts, 0) ? 0 : 1;
     findings.row({packing.name(), fmt::format("hold of 100 memories in {} parts", parts),
-                  static_cast<double>(parts), held.relaxation_steps / held.evaluations,
-                  (held.stress - host.stress).norm() / host.stress.norm()},
-                 {{failed, 0}, {held.report.unbalanced, largest_rest}});
+                  static_cast<double>(parts), resting.relaxation_steps / resting.evaluations,
+                  (resting.stress - host.stress).norm() / host.stress.norm()},
+                 {{failed, 0}, {resting.report.unbalanced, largest_rest}});
   }
 }
 
 // The rotation by an angle about an axis oblique to all.
 template <int D>
-TensorOf<D> turned(double angle) {
+TensorOf<D> rotated(double angle) {
   if constexpr (D == 2)
     return Eigen::Rotation2Dd(angle).toRotationMatrix();
   else
@@ -103,23 +103,23 @@ void of_turns(Study& study, Findings& findings, const Packing& packing) {
   constexpr int turns = 10, steps = 120;
   constexpr double strain = 0.015;
   const Material material = study.materials(packing, {.tolerance = 1e-10});
-  Host<D> plain(material), turning(material);
+  Host<D> plain(material), rotating(material);
   double failed = 0, worst = 0;
-  const auto rotation = [&](int k) { return turned<D>(2 * std::numbers::pi * turns * k / steps); };
+  const auto rotation = [&](int k) { return rotated<D>(2 * std::numbers::pi * turns * k / steps); };
   for (int k = 1; k <= steps; ++k) {
     const TensorOf<D> F = isochoric<D>(strain * k / steps);
     failed += plain.lead(F) ? 0 : 1;
-    failed += turning.lead(rotation(k) * F) ? 0 : 1;
-    worst = std::max(worst, (turning.stress - rotation(k) * plain.stress).norm());
+    failed += rotating.lead(rotation(k) * F) ? 0 : 1;
+    worst = std::max(worst, (rotating.stress - rotation(k) * plain.stress).norm());
   }
   findings.row({packing.name(), "ten turns while compressed", 2.0 * steps,
-                turning.relaxation_steps / turning.evaluations, worst / plain.stress.norm()},
+                rotating.relaxation_steps / rotating.evaluations, worst / plain.stress.norm()},
                {{failed, 0}, {worst / plain.stress.norm(), largest_rest}});
   failed = 0;
-  for (int k = 1; k <= steps; ++k) failed += turning.lead(rotation(k) * plain.deformation) ? 0 : 1;
-  const double change = (turning.stress - plain.stress).norm() / plain.stress.norm();
+  for (int k = 1; k <= steps; ++k) failed += rotating.lead(rotation(k) * plain.deformation) ? 0 : 1;
+  const double change = (rotating.stress - plain.stress).norm() / plain.stress.norm();
   findings.row({packing.name(), "ten turns in place", 1.0 * steps,
-                turning.relaxation_steps / turning.evaluations, change},
+                rotating.relaxation_steps / rotating.evaluations, change},
                {{failed, 0}, {told}});
 }
 

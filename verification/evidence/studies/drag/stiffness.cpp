@@ -27,13 +27,13 @@ const std::vector<Approach>& approaches() {
   return list;
 }
 
-constexpr std::array turns{0.005, 0.01, 0.015};  // strain
+constexpr std::array ends{0.005, 0.01, 0.015};  // strain
 
 template <int D>
-Host<D> lead_to_turn(const Material& material, const std::vector<double>& parts, double turn) {
+Host<D> lead_to(const Material& material, const std::vector<double>& parts, double end) {
   constexpr double step = 1e-3;
   Host<D> host(material);
-  for (int k = 0; k < static_cast<int>(std::lround(turn / step)); ++k) {
+  for (int k = 0; k < static_cast<int>(std::lround(end / step)); ++k) {
     double done = 0;
     for (const double part : parts) {
       done += part;
@@ -61,12 +61,12 @@ struct Reversal {
 
 template <int D>
 Reversal reverse(Study& study, const Packing& packing, const Host<D>& law, const Host<D>& rest,
-                 double turn) {
+                 double end) {
   const Host<D> same(study.materials.at_rest(law.state, packing));
   const TensorOf<D> origin = law.deformation.inverse();
   Reversal result{{}, {}, 100 * law.report.unbalanced};
   for (std::size_t k = 0; k < reversals.size(); ++k) {
-    const TensorOf<D> back = isochoric<D>(turn - reversals[k]);
+    const TensorOf<D> back = isochoric<D>(end - reversals[k]);
     const double own = secant<D>(law, back, reversals[k]);
     result.own[k] = own / secant<D>(rest, back, reversals[k]);
     result.same[k] = own / secant<D>(same, back * origin, reversals[k]);
@@ -106,13 +106,13 @@ void reverse_all(Study& study) {
     for (const Approach& approach : approaches()) {
       std::vector<Reversal> all;
       for (const Packing& packing : packings) {
-        for (const double turn : turns) {
+        for (const double end : ends) {
           all.push_back(in_dimension(packing.dimension, [&](auto d) {
-            const auto law = lead_to_turn<d>(study.materials(packing, {}), approach.parts, turn);
-            const auto rest = lead_to_turn<d>(study.materials(packing, equilibrium), {1}, turn);
-            return reverse<d>(study, packing, law, rest, turn);
+            const auto law = lead_to<d>(study.materials(packing, {}), approach.parts, end);
+            const auto rest = lead_to<d>(study.materials(packing, equilibrium), {1}, end);
+            return reverse<d>(study, packing, law, rest, end);
           }));
-          const std::string name = fmt::format("{}, at {:g} %", packing.name(), 100 * turn);
+          const std::string name = fmt::format("{}, at {:g} %", packing.name(), 100 * end);
           add_row(findings, name, approach.name, "its path", all.back().own, all.back().unbalanced);
           add_row(findings, name, approach.name, "this packing", all.back().same,
                   all.back().unbalanced);

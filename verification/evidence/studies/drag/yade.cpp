@@ -69,8 +69,8 @@ void compare_curves(Study& study) {
     for (const bool in_time : {false, true}) {
       if (!in_time && dimension == 3) continue;  // `verification/run triaxial`, half an hour
       const std::string law = in_time ? "in time" : "equilibrium";
-      const auto [place, is_new] = paths.try_emplace(curve.packing + law);
-      Drained& path = place->second;
+      const auto [entry, is_new] = paths.try_emplace(curve.packing + law);
+      Drained& path = entry->second;
       if (is_new)
         path = in_dimension(dimension, [&](auto d) {
           return run<d>(study,

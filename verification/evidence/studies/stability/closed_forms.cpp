@@ -24,17 +24,19 @@ struct Branch {
 };
 
 struct Force {
-  double normal = 0;  // [N]
-  double turn = 0;    // of the branch since the last point [rad]
-  double length = 0;  // [m]
+  double normal = 0;    // [N]
+  double rotation = 0;  // of the branch since the last point [rad]
+  double length = 0;    // [m]
 };
 
 // The moment of the tangential forces about a disc that turned by `turn`, twice [N m].
 double moment(const std::array<Branch, 3>& branches, const std::array<Force, 3>& forces,
-              const Contact& contact, double kt, double turn, std::array<double, 3>& tangential) {
+              const Contact& contact, double kt, double rotation,
+              std::array<double, 3>& tangential) {
   double sum = 0;
   for (std::size_t c = 0; c < 3; ++c) {
-    const double trial = branches[c].tangential - kt * forces[c].length * (forces[c].turn - turn);
+    const double trial =
+        branches[c].tangential - kt * forces[c].length * (forces[c].rotation - rotation);
     const double bound = contact.friction * forces[c].normal;
     tangential[c] = std::clamp(trial, -bound, bound);
     sum += forces[c].length * tangential[c];
@@ -105,7 +107,7 @@ std::vector<Tensor> lattice_stress(const std::vector<Point>& points, double dist
       const Vector& before = branches[c].now;
       forces[c].length = now[c].norm();
       forces[c].normal = kn * std::max(0.0, 2 * radius - forces[c].length);
-      forces[c].turn =
+      forces[c].rotation =
           std::atan2(before.x() * now[c].y() - before.y() * now[c].x(), before.dot(now[c]));
     }
     std::array<double, 3> tangential{};

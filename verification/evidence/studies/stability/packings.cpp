@@ -123,11 +123,11 @@ Material PackingStore::with_rattler(const Recipe& recipe, Contact contact) const
   contact.young = recipe.young();
   const std::string name = ensure(recipe);
   TinyPacking packing = read_tiny(directory_ / name);
-  constexpr int places = 400;  // per side, in search of the widest void
+  constexpr int nodes_per_side = 400;  // per side, in search of the widest void
   Disc rattler;
-  for (int a = 0; a < places; ++a)
-    for (int b = 0; b < places; ++b) {
-      const Eigen::Vector2d at = packing.cell * Eigen::Vector2d(a, b) / places;
+  for (int a = 0; a < nodes_per_side; ++a)
+    for (int b = 0; b < nodes_per_side; ++b) {
+      const Eigen::Vector2d at = packing.cell * Eigen::Vector2d(a, b) / nodes_per_side;
       const double radius = 0.5 * clearance(packing, at.x(), at.y());
       if (radius > rattler.radius) rattler = {at.x(), at.y(), radius};
     }

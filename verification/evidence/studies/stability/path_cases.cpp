@@ -43,28 +43,29 @@ void add_large(const Maker& material, Cases& cases) {
 }
 
 // P of the same increments without rotation, turned.
-Check against_unturned(const Maker& material, const Walk& walk, double angle,
-                       const Targets& still) {
+Check against_unrotated(const Maker& material, const Walk& walk, double angle,
+                        const Targets& still) {
   const Walk reference = verification::stability::walk(material(), {.targets = still});
-  std::vector<Tensor> turned;
+  std::vector<Tensor> rotated;
   for (std::size_t k = 0; k < reference.points.size(); ++k)
-    turned.push_back(rotation(angle * static_cast<double>(k)) * reference.points[k].stress);
-  return {stress_distance(walk.points, turned), 1e-4, "the same without rotation, turned"};
+    rotated.push_back(rotation(angle * static_cast<double>(k)) * reference.points[k].stress);
+  return {stress_distance(walk.points, rotated), 1e-4, "the same without rotation, turned"};
 }
 
 void add_rotations(const PackingStore& store, Cases& cases) {
   const Maker material = [store] { return store.generated({}, {.tolerance = 1e-8}); };
   for (const double angle : {0.3, 1.0, 3.0}) {
-    const auto turning = [&](const char* what, const std::function<Tensor(double)>& deformation) {
+    const auto rotating_by = [&](const char* what,
+                                 const std::function<Tensor(double)>& deformation) {
       const Targets targets = rotating(angle, 10, deformation);
       const int steps = static_cast<int>(targets.size());
       const Targets still = along(steps, deformation);
       add(cases, "10 turns", fmt::format("steps of {:g} rad, {}", angle, what), material,
           {.targets = targets},
-          [=](const Walk& walk) { return against_unturned(material, walk, angle, still); });
+          [=](const Walk& walk) { return against_unrotated(material, walk, angle, still); });
     };
-    turning("rigid", unmoved);
-    turning("with shear to 1 %", small_shear);
+    rotating_by("rigid", unmoved);
+    rotating_by("with shear to 1 %", small_shear);
   }
 }
 

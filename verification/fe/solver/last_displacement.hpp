@@ -11,11 +11,11 @@ namespace verification {
 
 // Guess by repetition. Drag expects particles to continue (solver.viscous_number), and the committed
 // tangent is that of an increment. Repeating the last displacement is then the better guess.
-class LastMove {
+class LastDisplacement {
  public:
   // Keeps a displacement of all components [m], and its prescribed part.
-  void keep(Eigen::VectorXd move, Eigen::VectorXd prescribed) {
-    move_ = std::move(move);
+  void keep(Eigen::VectorXd displacement, Eigen::VectorXd prescribed) {
+    displacement_ = std::move(displacement);
     prescribed_ = std::move(prescribed);
   }
 
@@ -29,20 +29,20 @@ class LastMove {
     const double ratio = prescribed.dot(prescribed_) / square;
     const double aside = (prescribed - ratio * prescribed_).norm();
     if (!(ratio > 0 && ratio <= longest && aside <= another_way * prescribed.norm())) return {};
-    return ratio * move_;
+    return ratio * displacement_;
   }
 
   void save(CheckpointWriter& out) const {
-    out.write(move_);
+    out.write(displacement_);
     out.write(prescribed_);
   }
   void restore(CheckpointReader& in) {
-    in.read(move_);
+    in.read(displacement_);
     in.read(prescribed_);
   }
 
  private:
-  Eigen::VectorXd move_, prescribed_;
+  Eigen::VectorXd displacement_, prescribed_;
 };
 
 }  // namespace verification
