@@ -3,16 +3,15 @@
 #include "library_points.hpp"
 #include "material_file.hpp"
 #include "point.hpp"
+#include "told_once.hpp"
 
 #include <grainlaw/calculix.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <exception>
 #include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -52,25 +51,13 @@ class Points {
     return answers_[{element, point}];
   }
 
-  // Prints a text that has not been told yet.
-  void tell(const char* material, const std::string& text) {
-    const std::lock_guard lock(mutex_);
-    if (told_.size() == most_told || !told_.insert(text).second) return;
-    std::printf("\n *ERROR in grainlaw, material %s: %s\n\n", material, text.c_str());
-    if (told_.size() == most_told) {
-      std::printf(" *ERROR in grainlaw, material %s: no more errors are printed\n\n", material);
-    }
-    std::fflush(stdout);
-  }
+  ToldOnce errors;
 
  private:
-  static constexpr std::size_t most_told = 1000;
-
   MaterialFile file_;
   std::mutex mutex_;
   std::optional<grainlaw::Table> table_;
   std::map<std::pair<int, int>, LastAnswer> answers_;
-  std::set<std::string> told_;
 };
 
 Tensor2 from_columns(const double* F) {
@@ -186,7 +173,7 @@ void grainlaw_calculix_evaluate(grainlaw_calculix_material* material, int elemen
         text =
             "element " + std::to_string(element) + ", point " + std::to_string(point) + ": " + text;
       }
-      points->tell(material->name, text);
+      points->errors.tell(material->name, text);
     } catch (const std::exception&) {  // nor for the text
     }
   }
