@@ -47,6 +47,8 @@ struct grainlaw_material {
 };
 
 struct grainlaw_state {
+  explicit grainlaw_state(grainlaw::core::AnyState initial)
+      : grainlaw_state(grainlaw::core::IntegrationPoint{std::move(initial)}) {}
   explicit grainlaw_state(grainlaw::core::IntegrationPoint initial, bool in_set = false)
       : point(std::move(initial)), of_set(in_set) {
     point.keeps_tangents = in_set;

@@ -16,7 +16,7 @@ grainlaw_status grainlaw_state_create(const grainlaw_material* handle, grainlaw_
   if (out == nullptr) return GRAINLAW_NULL_POINTER;
   *out = nullptr;
   if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
-  return api::guarded([&] { *out = new grainlaw_state({AnyState(handle->material)}); });
+  return api::guarded([&] { *out = new grainlaw_state(AnyState(handle->material)); });
 }
 
 grainlaw_status grainlaw_state_clone(const grainlaw_state* handle, grainlaw_state** out) {
