@@ -121,9 +121,9 @@ GRAINLAW_API grainlaw_status grainlaw_material_keys(char* text, size_t* size);
 GRAINLAW_API grainlaw_status grainlaw_material_save(const grainlaw_material*, void* bytes,
                                                     size_t* size);
 
-/* Make the material that was saved: its states give the same bits. message as in
- * grainlaw_material_load. Errors: NULL_POINTER, BAD_BYTES, WRONG_VERSION, OUT_OF_MEMORY. On any error
- * *out is NULL. */
+/* Make the material that was saved: its states give the same bits. A checksum tells damage; bytes of
+ * unknown origin are not for this call. message as in grainlaw_material_load. Errors: NULL_POINTER,
+ * BAD_BYTES, WRONG_VERSION, OUT_OF_MEMORY. On any error *out is NULL. */
 GRAINLAW_API grainlaw_status grainlaw_material_load_saved(const void* bytes, size_t size,
                                                           grainlaw_material** out, char* message,
                                                           size_t message_size);

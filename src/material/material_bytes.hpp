@@ -19,7 +19,7 @@ template <int D>
 [[nodiscard]] std::uint64_t checksum_of_saved(std::span<const std::byte> bytes);
 
 // Makes the material of bytes that save_material() wrote. Throws Error (BAD_BYTES, WRONG_VERSION)
-// for any others.
+// for damaged ones; whoever makes a checksum for others is trusted.
 [[nodiscard]] std::variant<std::shared_ptr<const Material<2>>, std::shared_ptr<const Material<3>>>
 load_saved_material(std::span<const std::byte> bytes);
 

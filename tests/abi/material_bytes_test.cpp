@@ -111,7 +111,7 @@ TEST_F(bad_material_bytes, that_are_damaged_or_of_another_length_are_told) {
   refused(other, GRAINLAW_WRONG_VERSION, "another version");
 }
 
-// With a checksum that is right: refused, or a material; never beyond the bytes.
+// With a checksum that is right.
 TEST_F(bad_material_bytes, that_fit_together_no_more_are_told) {
   std::minstd_rand random(3);
   for (int k = 0; k < 300; ++k) {

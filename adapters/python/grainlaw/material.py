@@ -41,7 +41,8 @@ class Material:
     def load_saved(cls, saved: bytes | bytearray | memoryview, text: str = "",
                    directory: AnyPath = ".") -> Material:
         """The material of the bytes of save(), without its files and without another relaxation.
-        text and directory are those of the file, where they are known."""
+        text and directory are those of the file, where they are known. A checksum tells damage;
+        bytes of unknown origin are not for this call."""
         data = as_bytes(saved, "a saved material")
         material = cls.__new__(cls)
         material._create(lambda out, *rest: library.grainlaw_material_load_saved(
