@@ -3,79 +3,68 @@
 #include "library_points.hpp"
 #include "material_file.hpp"
 #include "point.hpp"
+#include "told_once.hpp"
 
 #include <grainlaw/calculix.h>
 
 #include <algorithm>
-#include <cstdint>
-#include <cstdio>
 #include <exception>
-#include <memory>
+#include <map>
 #include <mutex>
-#include <set>
+#include <optional>
 #include <stdexcept>
 #include <string>
-#include <unordered_map>
+#include <utility>
 
 namespace grainlaw::adapters {
 namespace {
 
 constexpr std::array<std::size_t, 6> order{0, 4, 8, 1, 2, 5};  // 11 22 33 12 13 23
-constexpr double rounding = 1e-12;    // of F, which CalculiX computes from displacements
 constexpr double default_cut = 0.25;  // CalculiX's own, when an increment diverges
 constexpr double largest_cut = 0.5;   // a factor that comes near 1 gains nothing
 constexpr double soft = 1;            // Pa; keeps the host's matrix regular without a material
 
-struct ElementPoint : Point {
-  using Point::Point;
-  bool started = false;
-  // The last answer, and the time step of its increment; CalculiX asks again for what it has just got.
-  Tensor2 asked{};
-  double asked_time = 0;
+// The last answer of a point: CalculiX asks again for what it has just got.
+struct LastAnswer {
+  std::mutex in_use;
+  Tensor2 F0{}, F1{};
+  double time_step = 0;
   bool has_stress = false, has_stiffness = false;
   std::array<double, 6> stress{};
   std::array<double, 21> stiffness{};
 };
 
-class PointMap {
+class Points {
  public:
-  PointMap(const char* name, const char* path, const void* in_library)
+  Points(const char* name, const char* path, const void* in_library)
       : file_(name, path, in_library) {}
 
-  ElementPoint& find(int element, int point) {
+  grainlaw::Table& table() {
     const grainlaw::Material& material = file_.material();
-    const auto key = static_cast<std::uint64_t>(element) << 32 | static_cast<std::uint32_t>(point);
     const std::lock_guard lock(mutex_);
-    std::unique_ptr<ElementPoint>& found = points_[key];
-    if (!found) found = std::make_unique<ElementPoint>(material);
-    return *found;
+    if (!table_) table_.emplace(material);
+    return *table_;
   }
 
-  // Prints a text that has not been told yet.
-  void tell(const char* material, const std::string& text) {
+  LastAnswer& last_answer(int element, int point) {
     const std::lock_guard lock(mutex_);
-    if (told_.size() == most_told || !told_.insert(text).second) return;
-    std::printf("\n *ERROR in grainlaw, material %s: %s\n\n", material, text.c_str());
-    if (told_.size() == most_told) {
-      std::printf(" *ERROR in grainlaw, material %s: no more errors are printed\n\n", material);
-    }
-    std::fflush(stdout);
+    return answers_[{element, point}];
   }
+
+  ToldOnce errors;
 
  private:
-  static constexpr std::size_t most_told = 1000;
-
   MaterialFile file_;
   std::mutex mutex_;
-  std::unordered_map<std::uint64_t, std::unique_ptr<ElementPoint>> points_;
-  std::set<std::string> told_;
+  std::optional<grainlaw::Table> table_;
+  std::map<std::pair<int, int>, LastAnswer> answers_;
 };
 
 Tensor2 from_columns(const double* F) {
   return {F[0], F[3], F[6], F[1], F[4], F[7], F[2], F[5], F[8]};
 }
 
-void keep(ElementPoint& point, const Response& response, bool with_stiffness) {
+void keep(LastAnswer& point, const Response& response, bool with_stiffness) {
   const Tensor2 stress = second_piola_stress(response);
   for (std::size_t a = 0; a < order.size(); ++a) point.stress[a] = stress[order[a]];
   if (!with_stiffness) return;
@@ -99,61 +88,59 @@ void give_soft(double* stress, double* stiffness) {
   }
 }
 
-// Stress and elastic stiffness at the start of the increment, after no time.
-void give_start(ElementPoint& point, double* stress, double* stiffness) {
+// Stress and elastic stiffness at the start of the increment, after no time: at F0 or, where that is
+// of no known state, at the committed F.
+void give_start(grainlaw::Table& table, int element, int point, LastAnswer& last, const Tensor2& F0,
+                double* stress, double* stiffness) {
   give_soft(stress, stiffness);
-  point.set_time_step(0);
-  Response response;
-  const Answer answer = point.evaluate(point.committed(), GRAINLAW_WANT_TANGENT_ELASTIC, response);
-  point.revert();
-  point.has_stress = point.has_stiffness = false;
-  if (answer.status != GRAINLAW_OK) return;
-  keep(point, response, true);
-  std::copy(point.stress.begin(), point.stress.end(), stress);
-  std::copy(point.stiffness.begin(), point.stiffness.end(), stiffness);
+  last.has_stress = last.has_stiffness = false;
+  for (const Tensor2* const from : {&F0, static_cast<const Tensor2*>(nullptr)}) {
+    try {
+      Response response;
+      const PointCall at_start{
+          element, point, nullptr, from, nullptr, 0, GRAINLAW_WANT_TANGENT_ELASTIC};
+      if (evaluate(table, at_start, response).status != GRAINLAW_OK) continue;
+      keep(last, response, true);
+      std::copy(last.stress.begin(), last.stress.end(), stress);
+      std::copy(last.stiffness.begin(), last.stiffness.end(), stiffness);
+      return;
+    } catch (const std::exception&) {  // the first reason is told
+    }
+  }
 }
 
 void cut(double* pnewdt, double ratio) { *pnewdt = *pnewdt > 0 ? std::min(*pnewdt, ratio) : ratio; }
 
-void evaluate(ElementPoint& point, const Tensor2& F0, const Tensor2& F1, double time_step,
-              bool stress_only, double* stress, double* stiffness, double* pnewdt) {
-  const std::lock_guard in_use(point.in_use);
+void evaluate(grainlaw::Table& table, int element, int point, LastAnswer& last, const Tensor2& F0,
+              const Tensor2& F1, double time_step, bool stress_only, double* stress,
+              double* stiffness, double* pnewdt) {
+  const std::lock_guard in_use(last.in_use);
   try {
-    if (!(Point::distance(F0, point.committed()) <= rounding)) {
-      if (!point.started) {
-        throw std::runtime_error(
-            "the first increment does not start at the undeformed configuration; an analysis "
-            "cannot be restarted without its states");
-      }
-      point.set_time_step(point.asked_time);
-      point.accept(F0);
-      point.has_stress = point.has_stiffness = false;
-    }
-    const bool known = point.has_stress && point.asked == F1 && point.asked_time == time_step &&
-                       (stress_only || point.has_stiffness);
+    const bool known = last.has_stress && last.F0 == F0 && last.F1 == F1 &&
+                       last.time_step == time_step && (stress_only || last.has_stiffness);
     if (!known) {
-      point.started = true;
-      point.has_stress = point.has_stiffness = false;
-      point.set_time_step(time_step);
+      last.has_stress = last.has_stiffness = false;
+      const unsigned want = stress_only ? 0u : unsigned{GRAINLAW_WANT_TANGENT_EXACT};
       Response response;
-      const Answer answer = point.evaluate_symmetric(
-          F1, stress_only ? 0u : unsigned{GRAINLAW_WANT_TANGENT_EXACT}, response);
+      const Answer answer =
+          evaluate_symmetric(table, {element, point, nullptr, &F0, &F1, time_step, want}, response);
       if (answer.status != GRAINLAW_OK) {
-        give_start(point, stress, stiffness);
+        give_start(table, element, point, last, F0, stress, stiffness);
         const double ratio = answer.report.step_ratio;
         cut(pnewdt, ratio > 0 ? std::min(ratio, largest_cut) : largest_cut);  // 0: goes on
         return;
       }
-      keep(point, response, !stress_only);
-      point.asked = F1;
-      point.asked_time = time_step;
-      point.has_stress = true;
-      point.has_stiffness = !stress_only;
+      keep(last, response, !stress_only);
+      last.F0 = F0;
+      last.F1 = F1;
+      last.time_step = time_step;
+      last.has_stress = true;
+      last.has_stiffness = !stress_only;
     }
-    std::copy(point.stress.begin(), point.stress.end(), stress);
-    if (!stress_only) std::copy(point.stiffness.begin(), point.stiffness.end(), stiffness);
+    std::copy(last.stress.begin(), last.stress.end(), stress);
+    if (!stress_only) std::copy(last.stiffness.begin(), last.stiffness.end(), stiffness);
   } catch (...) {
-    give_start(point, stress, stiffness);
+    give_start(table, element, point, last, F0, stress, stiffness);
     throw;
   }
 }
@@ -168,13 +155,14 @@ void grainlaw_calculix_evaluate(grainlaw_calculix_material* material, int elemen
                                 double* stress, double* stiffness, double* pnewdt) {
   using namespace grainlaw::adapters;
   const FloatingEnvironment environment;
-  PointMap* points = nullptr;
-  ElementPoint* found = nullptr;
+  Points* points = nullptr;
+  LastAnswer* found = nullptr;
   try {
-    points = &points_of<PointMap>(material);
-    found = &points->find(element, point);
-    evaluate(*found, from_columns(F0), from_columns(F1), time_step_of(dtime), stress_only != 0,
-             stress, stiffness, pnewdt);
+    points = &points_of<Points>(material);
+    grainlaw::Table& table = points->table();
+    found = &points->last_answer(element, point);
+    evaluate(table, element, point, *found, from_columns(F0), from_columns(F1), time_step_of(dtime),
+             stress_only != 0, stress, stiffness, pnewdt);
   } catch (const std::exception& error) {
     if (found == nullptr) give_soft(stress, stiffness);
     cut(pnewdt, default_cut);
@@ -185,14 +173,14 @@ void grainlaw_calculix_evaluate(grainlaw_calculix_material* material, int elemen
         text =
             "element " + std::to_string(element) + ", point " + std::to_string(point) + ": " + text;
       }
-      points->tell(material->name, text);
+      points->errors.tell(material->name, text);
     } catch (const std::exception&) {  // nor for the text
     }
   }
 }
 
 void grainlaw_calculix_release(grainlaw_calculix_material* material) {
-  grainlaw::adapters::release_points<grainlaw::adapters::PointMap>(material);
+  grainlaw::adapters::release_points<grainlaw::adapters::Points>(material);
 }
 
 }  // extern "C"

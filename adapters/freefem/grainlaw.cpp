@@ -4,6 +4,8 @@
 //   int sand = grainlawCreate("sand.toml", n)          n points at F = I; the number of the set
 //   grainlawEvaluate(sand, F, P [, A [, threads]])     number of points that found no equilibrium
 //       F, P [dim^2, n]: component i*dim+J; A [dim^4, n]: dP_iJ/dF_kL at ((i*dim+J)*dim+k)*dim+L
+//   grainlawAnswer(sand, P [, A])                      P and A as they were committed, without an
+//                                                      increment: after grainlawLoad
 //   grainlawSetTimeStep(sand, time)                    how long increments take from now on, for a
 //                                                      material with solver.viscous_rate
 //   grainlawStepRatio(sand), grainlawFirstFailed(sand), grainlawMessage(sand)
@@ -134,6 +136,19 @@ long evaluate(const long& number, const Field& F, const Field& P, const Field& A
   return evaluate(number, F, P, A, 0);
 }
 
+template <class Field>
+long answer(const long& number, const Field& P) {
+  return guarded("grainlawAnswer", [&] { return find(number).answer(view(P), nullptr); });
+}
+
+template <class Field>
+long answer(const long& number, const Field& P, const Field& A) {
+  return guarded("grainlawAnswer", [&] {
+    const Array tangent = view(A);
+    return find(number).answer(view(P), &tangent);
+  });
+}
+
 long set_time_step(const long& number, const double& step) {
   return guarded("grainlawSetTimeStep", [&] { return find(number).set_time_step(step), 0L; });
 }
@@ -224,6 +239,8 @@ void add_array_functions() {
              new OneOperator4_<long, long, Field, Field, Field>(evaluate<Field>));
   Global.Add("grainlawEvaluate", "(",
              new OneOperator5_<long, long, Field, Field, Field, long>(evaluate<Field>));
+  Global.Add("grainlawAnswer", "(", new OneOperator2_<long, long, Field>(answer<Field>));
+  Global.Add("grainlawAnswer", "(", new OneOperator3_<long, long, Field, Field>(answer<Field>));
   Global.Add("grainlawMeasure", "(", new OneOperator3_<long, long, string*, Field>(measure<Field>));
 }
 

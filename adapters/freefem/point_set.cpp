@@ -97,6 +97,16 @@ long PointSet::evaluate(const Array& F, const Array& P, const Array* A, long thr
   return last_.summary.failed;
 }
 
+long PointSet::answer(const Array& P, const Array* A) {
+  const std::size_t n = points_.size();
+  const auto square = static_cast<std::size_t>(dimension() * dimension());
+  expect("P", P, square, n);
+  if (A != nullptr) expect("A", *A, square * square, n);
+  const std::span tangent(A != nullptr ? A->data : nullptr, A != nullptr ? n * square * square : 0);
+  last_ = points_.answer({P.data, n * square}, GRAINLAW_WANT_TANGENT_EXACT, tangent);
+  return last_.summary.failed;
+}
+
 void PointSet::set_time_step(double step) {
   const grainlaw_status status = grainlaw_points_set_time_step(points_.get(), step);
   if (status == GRAINLAW_BAD_ARGUMENT)

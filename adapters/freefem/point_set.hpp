@@ -31,6 +31,10 @@ class PointSet {
   long evaluate(const Array& F, const Array& P, const Array* A, long threads);
   [[nodiscard]] const grainlaw::PointsEvaluation& last() const { return last_; }
 
+  // P[dim^2, n] and, unless null, A[dim^4, n] as they were committed, without an increment: what a
+  // script goes on from after a restart. Returns and last() as evaluate().
+  long answer(const Array& P, const Array* A);
+
   // How long increments take from now on: a material with solver.viscous_rate asks for it.
   void set_time_step(double step);
 

@@ -11,9 +11,8 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
-#include <memory>
-#include <mutex>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -22,7 +21,6 @@ namespace {
 
 constexpr std::size_t message_size = 512;
 constexpr double unreliable_step = 0.5;  // asked for after an approximate answer
-constexpr double same_place = 1e-9;  // of F, between what is committed and what the host recalls
 
 constexpr std::array<std::size_t, 9> tensor_order{0, 4, 8, 1, 3, 2, 6, 5, 7};
 constexpr std::array<std::size_t, 6> symmetric_order{0, 4, 8, 1, 2, 5};
@@ -119,53 +117,24 @@ void write_tangent(const Request& request, int dimension, const Response& respon
   }
 }
 
-// The point in the state the host starts from.
-struct Start {
-  std::shared_ptr<TablePoint> point;
-  std::unique_lock<std::mutex> in_use;
-  bool is_new = false;
-};
+// Releases a new point when the call ends: the host's next one names it by what it was answered.
+class NotKept {
+ public:
+  NotKept(grainlaw::Table& table, long long name) : table_(table), name_(name) {}
+  ~NotKept() { static_cast<void>(grainlaw_table_forget(table_.get(), name_, 0)); }
+  NotKept(const NotKept&) = delete;
+  NotKept& operator=(const NotKept&) = delete;
 
-Start start(PointTable& table, const grainlaw_mgis_state& s0, int dimension, double time_step) {
-  const double name = s0.internal_state_variables[0];
-  const double step = s0.internal_state_variables[1];
-  Start result;
-  if (name == 0 && step == 0) {
-    result.point = table.create(time_step);
-    result.is_new = true;
-  } else {
-    result.point = table.find(name, step);
-  }
-  TablePoint& point = *result.point;
-  result.in_use = std::unique_lock(point.in_use, std::try_to_lock);
-  if (!result.in_use) {
-    throw std::runtime_error(
-        "two threads ask for one state at once; each point needs internal state variables of its "
-        "own, zero at the start");
-  }
-  if (result.is_new) return result;
-  const Tensor2 F0 = read_gradient(s0.gradients, dimension);
-  if (step == static_cast<double>(point.step + 1)) {
-    point.accept(F0);
-    ++point.step;
-    table.keep(result.point);
-  } else if (step != static_cast<double>(point.step)) {
-    throw std::runtime_error("GrainlawStep is " + shown(step, 16) +
-                             ", but the point has gone through " + std::to_string(point.step) +
-                             " increments: only the last one can be retried");
-  } else if (!(Point::distance(F0, point.committed()) <= same_place)) {
-    throw std::runtime_error(
-        "the gradients at the start of the step are not those of the point's state: two points "
-        "hold the same internal state variables, or gradients were not kept with them");
-  }
-  return result;
-}
+ private:
+  grainlaw::Table& table_;
+  long long name_;
+};
 
 void require(const void* pointer, const char* what) {
   if (pointer == nullptr) throw std::runtime_error(std::string(what) + " is a null pointer");
 }
 
-int integrate(PointTable& table, int dimension, grainlaw_mgis_data& data) {
+int integrate(PointTable& points, int dimension, grainlaw_mgis_data& data) {
   require(data.K, "K");
   require(data.s0.gradients, "s0.gradients");
   require(data.s0.internal_state_variables, "s0.internal_state_variables");
@@ -175,18 +144,26 @@ int integrate(PointTable& table, int dimension, grainlaw_mgis_data& data) {
     require(data.s1.thermodynamic_forces, "s1.thermodynamic_forces");
     require(data.s1.internal_state_variables, "s1.internal_state_variables");
   }
-  if (table.material().dimension() > dimension) {
+  grainlaw::Table& table = points.table();
+  if (table.dimension() > dimension) {
     throw std::runtime_error("a packing of spheres needs the hypothesis Tridimensional");
   }
+  const double* const internal = data.s0.internal_state_variables;
+  const bool is_new = internal[0] == 0 && internal[1] == 0;
   const double time_step = time_step_of(data.dt);
-  const Start from = start(table, data.s0, dimension, time_step);
-  TablePoint& point = *from.point;
-  point.set_time_step(time_step);
-  const Tensor2 F =
-      request.prediction ? point.committed() : read_gradient(data.s1.gradients, dimension);
+  const Tensor2 F0 = is_new ? identity : read_gradient(data.s0.gradients, dimension);
+  const long long name =
+      is_new ? points.create(time_step) : points.find(internal[0], internal[1], F0);
+  std::optional<NotKept> not_kept;
+  if (is_new) not_kept.emplace(table, name);
+  double token = internal[1];
+  const Tensor2 F = request.prediction ? F0 : read_gradient(data.s1.gradients, dimension);
+  const PointCall call{
+      name,      0,           &token, is_new ? nullptr : &F0, request.prediction ? nullptr : &F,
+      time_step, request.want};
   Response response;
-  const Answer answer = request.symmetric() ? point.evaluate_symmetric(F, request.want, response)
-                                            : point.evaluate(F, request.want, response);
+  const Answer answer = request.symmetric() ? evaluate_symmetric(table, call, response)
+                                            : evaluate(table, call, response);
   if (answer.status != GRAINLAW_OK) {
     const double ratio = answer.report.step_ratio;
     if (data.rdt != nullptr && ratio > 0) *data.rdt = std::min(*data.rdt, ratio);
@@ -194,18 +171,11 @@ int integrate(PointTable& table, int dimension, grainlaw_mgis_data& data) {
                              (answer.report.message[0] != '\0' ? ": " : "") +
                              answer.report.message);
   }
-  if (from.is_new && !request.prediction) table.add(from.point);  // nothing fails any more
-  if (request.want != 0) {
-    const Tensor2 F0 = from.is_new ? identity : read_gradient(data.s0.gradients, dimension);
-    write_tangent(request, dimension, response, F0, data.K);
-  }
-  if (request.prediction) {
-    point.revert();
-    return 1;
-  }
+  if (request.want != 0) write_tangent(request, dimension, response, F0, data.K);
+  if (request.prediction) return 1;
   write_stress(request, dimension, response, data.s1.thermodynamic_forces);
-  data.s1.internal_state_variables[0] = point.name;
-  data.s1.internal_state_variables[1] = static_cast<double>(point.step + 1);
+  data.s1.internal_state_variables[0] = static_cast<double>(name);
+  data.s1.internal_state_variables[1] = token;
   if (!answer.approximate) return 1;
   if (data.rdt != nullptr) *data.rdt = std::min(*data.rdt, unreliable_step);
   if (data.error_message != nullptr) {

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <random>
 #include <stdexcept>
+#include <string>
 
 namespace grainlaw::adapters {
 namespace {
@@ -42,17 +43,24 @@ PointTable::PointTable(const char* name, const char* path, const void* in_librar
   process_ = (1 + random() % ((1u << 20) - 1)) * (std::uint64_t{1} << serial_bits);
 }
 
-std::shared_ptr<TablePoint> PointTable::create(double time_step) {
-  auto point = std::make_shared<TablePoint>(material());
+grainlaw::Table& PointTable::table() {
+  const grainlaw::Material& material = file_.material();
+  const std::lock_guard lock(mutex_);
+  if (!table_) {
+    bytes_ = 2 * static_cast<double>(grainlaw::State(material).save().size());
+    table_.emplace(material);
+  }
+  return *table_;
+}
+
+long long PointTable::create(double time_step) {
   const std::lock_guard lock(mutex_);
   const std::uint64_t key = process_ + next_;
   if (time_steps_.empty() || time_steps_.back().second != time_step) {
     time_steps_.emplace_back(key, time_step);
   }
   ++next_;
-  point->name = static_cast<double>(key);
-  point->set_time_step(time_step);
-  return point;
+  return static_cast<long long>(key);
 }
 
 double PointTable::first_time_step(std::uint64_t key) const {
@@ -63,74 +71,58 @@ double PointTable::first_time_step(std::uint64_t key) const {
   return std::prev(after)->second;
 }
 
-std::shared_ptr<TablePoint> PointTable::find(double name, double step) {
+long long PointTable::find(double name, double step, const Tensor2& F0) {
   if (!(name >= 1 && name < 0x1p53 && step >= 1 && step < 0x1p53)) unknown();
   const auto key = static_cast<std::uint64_t>(name);
+  const auto element = static_cast<long long>(key);
   {
     const std::lock_guard lock(mutex_);
     ++calls_;
-    if (calls_ - last_scan_ > patience * std::max<std::uint64_t>(points_.size(), 64)) free_idle();
-    if (const auto found = points_.find(key); found != points_.end()) {
-      found->second->last_call = calls_;
-      return found->second;
-    }
+    if (calls_ - last_scan_ > patience * std::max<std::uint64_t>(last_calls_.size(), 64))
+      free_idle();
     const bool ours = key > process_ && key < process_ + next_;
-    if (!ours || step != 1) unknown();
+    const auto [at, is_new] = last_calls_.try_emplace(key, calls_);
+    at->second = calls_;
+    if (!is_new) return element;
+    if (!ours || step != 1) {
+      last_calls_.erase(at);
+      unknown();
+    }
   }
-  // Only its first increment was answered; the caller finds that again from F.
-  auto point = std::make_shared<TablePoint>(material());
-  point->name = name;
-  point->set_time_step(first_time_step(key));
-  add(point);
-  return point;
-}
-
-void PointTable::add(const std::shared_ptr<TablePoint>& point) {
-  const std::lock_guard lock(mutex_);
-  if (bytes_ == 0) bytes_ = static_cast<double>(point->bytes());
-  const auto key = static_cast<std::uint64_t>(point->name);
-  point->last_call = ++calls_;
-  new_.push_back(key);  // may stay alone, should there be no memory for the other
-  points_.emplace(key, point);
-  limit_new();
-}
-
-void PointTable::keep(const std::shared_ptr<TablePoint>& point) {
-  const std::lock_guard lock(mutex_);
-  if (point->kept) return;
-  points_.try_emplace(static_cast<std::uint64_t>(point->name), point);  // freed since it was found
-  point->kept = true;
-  ++kept_;
-}
-
-void PointTable::limit_new() {
-  const double most = std::max(static_cast<double>(kept_), budget_ / 4 / bytes_);
-  while (static_cast<double>(points_.size() - kept_) > std::max(most, 1.0)) {
-    const auto oldest = points_.find(new_.front());
-    new_.pop_front();
-    if (oldest != points_.end() && !oldest->second->kept) points_.erase(oldest);
+  try {
+    Response unused;
+    double token = 0;
+    const Answer answer =
+        evaluate(*table_, {element, 0, &token, nullptr, &F0, first_time_step(key)}, unused);
+    if (answer.status == GRAINLAW_OK) return element;
+    throw std::runtime_error(
+        std::string("the host goes on from a deformation gradient at which the packing finds no "
+                    "equilibrium: ") +
+        grainlaw_status_text(answer.status));
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    last_calls_.erase(key);
+    static_cast<void>(grainlaw_table_forget(table_->get(), element, 0));
+    throw;
   }
 }
 
 void PointTable::free_idle() {
   last_scan_ = calls_;
-  const bool over_budget = static_cast<double>(kept_) * bytes_ > budget_;
-  const std::uint64_t limit = patience * points_.size();
-  for (auto at = points_.begin(); at != points_.end();) {
-    const TablePoint& point = *at->second;
-    const bool drop = calls_ - point.last_call > limit && (!point.kept || over_budget);
-    if (drop && point.kept) --kept_;
-    at = drop ? points_.erase(at) : std::next(at);
-  }
-  std::erase_if(new_, [this](std::uint64_t key) {
-    const auto found = points_.find(key);
-    return found == points_.end() || found->second->kept;
+  if (static_cast<double>(last_calls_.size()) * bytes_ <= budget_) return;
+  const std::uint64_t limit = patience * last_calls_.size();
+  std::erase_if(last_calls_, [&](const auto& entry) {
+    const bool idle = calls_ - entry.second > limit;
+    if (idle)
+      static_cast<void>(
+          grainlaw_table_forget(table_->get(), static_cast<long long>(entry.first), 0));
+    return idle;
   });
 }
 
 std::size_t PointTable::size() const {
   const std::lock_guard lock(mutex_);
-  return points_.size();
+  return table_ ? table_->size() : 0;
 }
 
 }  // namespace grainlaw::adapters

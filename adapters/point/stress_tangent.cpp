@@ -213,4 +213,19 @@ void kirchhoff_by_increment(const Response& r, const Tensor2& F0, Tensor4& out) 
   }
 }
 
+// Without spin the rate of the Kirchhoff stress is its Jaumann rate.
+void jaumann_rate(const Response& r, Tensor4& out) {
+  kirchhoff_by_increment(r, r.F, out);
+  const double J = determinant(r.F);
+  for (std::size_t ij = 0; ij < 9; ++ij) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t l = 0; l <= k; ++l) {
+        double& a = out[9 * ij + at(k, l)];
+        double& b = out[9 * ij + at(l, k)];
+        a = b = (a + b) / (2 * J);
+      }
+    }
+  }
+}
+
 }  // namespace grainlaw::adapters

@@ -51,4 +51,8 @@ void second_piola_by_green(const Response&, Tensor4& out);
 // d(Kirchhoff stress)/d(dF) [Pa], where F = dF F0.
 void kirchhoff_by_increment(const Response&, const Tensor2& F0, Tensor4& out);
 
+// Tangent of Abaqus: Jaumann rate of the Kirchhoff stress over the rate of deformation, over det F [Pa];
+// symmetric in its first and in its last two indices.
+void jaumann_rate(const Response&, Tensor4& out);
+
 }  // namespace grainlaw::adapters

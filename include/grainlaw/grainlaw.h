@@ -1,5 +1,6 @@
 /* grainlaw: a constitutive law made of grains. This is the C ABI and the only header a host needs.
- * It includes points.h (sets of states) and particles.h (particles and contacts).
+ * It includes points.h (sets of states), table.h (states by element) and particles.h (particles and
+ * contacts).
  *
  * A finite element code owns one grainlaw_state per integration point. It passes a total
  * deformation gradient F, and receives the first Piola-Kirchhoff stress P and, on demand, the
@@ -112,6 +113,25 @@ GRAINLAW_API grainlaw_status grainlaw_material_parse(const char* toml_text,
  * bytes needed. Otherwise *size is the capacity on entry, the bytes written on return. Errors:
  * NULL_POINTER, BUFFER_TOO_SMALL, OUT_OF_MEMORY. */
 GRAINLAW_API grainlaw_status grainlaw_material_keys(char* text, size_t* size);
+
+/* Write a material to bytes, with its packing in equilibrium: other ranks make the same material of
+ * them without its files. bytes NULL: set *size to the required size. Otherwise *size is the capacity
+ * on entry, the length on return. Errors: NULL_POINTER, BAD_HANDLE, BUFFER_TOO_SMALL,
+ * OUT_OF_MEMORY. */
+GRAINLAW_API grainlaw_status grainlaw_material_save(const grainlaw_material*, void* bytes,
+                                                    size_t* size);
+
+/* Make the material that was saved: its states give the same bits. A checksum tells damage; bytes of
+ * unknown origin are not for this call. message as in grainlaw_material_load. Errors: NULL_POINTER,
+ * BAD_BYTES, WRONG_VERSION, OUT_OF_MEMORY. On any error *out is NULL. */
+GRAINLAW_API grainlaw_status grainlaw_material_load_saved(const void* bytes, size_t size,
+                                                          grainlaw_material** out, char* message,
+                                                          size_t message_size);
+
+/* Compute a number that two materials share if their saved bytes are the same, as ranks compare it:
+ * packing, law, boundary and solver. Errors: NULL_POINTER, BAD_HANDLE, OUT_OF_MEMORY. */
+GRAINLAW_API grainlaw_status grainlaw_material_fingerprint(const grainlaw_material*,
+                                                           unsigned long long* fingerprint);
 
 /* Dimension 2 or 3; 0 for a null or dead handle. */
 GRAINLAW_API int grainlaw_material_dimension(const grainlaw_material*);
@@ -311,5 +331,6 @@ GRAINLAW_API grainlaw_status grainlaw_state_write_packing(const grainlaw_state*,
 
 #include <grainlaw/particles.h>
 #include <grainlaw/points.h>
+#include <grainlaw/table.h>
 
 #endif

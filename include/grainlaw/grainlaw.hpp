@@ -34,6 +34,17 @@ inline void check(grainlaw_status status, const std::string& message = {}) {
   if (status != GRAINLAW_OK) throw StatusError(status, message);
 }
 
+// Bytes of a function like grainlaw_state_save.
+template <class Handle>
+std::vector<std::byte> saved_by(grainlaw_status save(const Handle*, void*, std::size_t*),
+                                const Handle* handle) {
+  std::size_t size = 0;
+  check(save(handle, nullptr, &size));
+  std::vector<std::byte> bytes(size);
+  check(save(handle, bytes.data(), &size));
+  return bytes;
+}
+
 class Material {
  public:
   // Call grainlaw_material_load or _parse. Throw StatusError with the library's message.
@@ -46,6 +57,23 @@ class Material {
     return create([&](grainlaw_material** out, char* message, std::size_t size) {
       return grainlaw_material_parse(toml_text.c_str(), base_directory.c_str(), out, message, size);
     });
+  }
+
+  // The material that save() wrote. Throws StatusError with the library's message.
+  static Material load_saved(std::span<const std::byte> bytes) {
+    return create([&](grainlaw_material** out, char* message, std::size_t size) {
+      return grainlaw_material_load_saved(bytes.data(), bytes.size(), out, message, size);
+    });
+  }
+
+  [[nodiscard]] std::vector<std::byte> save() const {
+    return saved_by(grainlaw_material_save, get());
+  }
+  // A number that two materials share if their bytes are the same.
+  [[nodiscard]] unsigned long long fingerprint() const {
+    unsigned long long found = 0;
+    check(grainlaw_material_fingerprint(get(), &found));
+    return found;
   }
 
   [[nodiscard]] int dimension() const { return grainlaw_material_dimension(get()); }
@@ -121,11 +149,7 @@ class State {
 
   // Save the committed state to bytes, or load it. Throw StatusError.
   [[nodiscard]] std::vector<std::byte> save() const {
-    std::size_t size = 0;
-    check(grainlaw_state_save(get(), nullptr, &size));
-    std::vector<std::byte> bytes(size);
-    check(grainlaw_state_save(get(), bytes.data(), &size));
-    return bytes;
+    return saved_by<grainlaw_state>(grainlaw_state_save, get());
   }
   void load(std::span<const std::byte> bytes) {
     check(grainlaw_state_load(get(), bytes.data(), bytes.size()));
@@ -181,14 +205,23 @@ struct PointsEvaluation {
   grainlaw_summary summary = grainlaw_summary_default();
   explicit operator bool() const { return status == GRAINLAW_OK; }
 
-  // "point 3: reason"; "" when none failed.
+  // "point 3: reason", in a shared set "rank 1, point 3: reason"; "" when none failed.
   [[nodiscard]] std::string message() const {
-    if (summary.failed == 0) return summary.message;
-    return "point " + std::to_string(summary.first_failed) + ": " + summary.message;
+    const std::string rank = summary.rank < 0 ? ""
+                                              : "rank " + std::to_string(summary.rank) +
+                                                    (summary.failed > 0 ? ", " : ": ");
+    if (summary.failed == 0) return rank + summary.message;
+    return rank + "point " + std::to_string(summary.first_failed) + ": " + summary.message;
   }
 };
 
-// The integration points of one material, numbered from 0. A copy is an independent set.
+// Bytes of some points: those of the k-th from offsets[k] to offsets[k + 1].
+struct SavedPoints {
+  std::vector<std::byte> bytes;
+  std::vector<std::size_t> offsets{0};
+};
+
+// Integration points, numbered from 0. A copy is an independent set.
 class Points {
  public:
   Points(const Material& material, std::size_t count) : dimension_(material.dimension()) {
@@ -219,21 +252,64 @@ class Points {
                                           unsigned want = 0, std::span<double> A = {},
                                           int threads = 0, std::span<grainlaw_status> status = {},
                                           std::span<grainlaw_report> reports = {}) {
-    const auto square = static_cast<std::size_t>(dimension_ * dimension_);
-    const std::size_t n = size();
-    const auto fits = [](std::size_t found, std::size_t need) {
-      return found == 0 || found == need;
-    };
-    if (F.size() != n * square || !fits(P.size(), n * square) ||
-        !fits(A.size(), n * square * square) || !fits(status.size(), n) || !fits(reports.size(), n))
-      throw StatusError(GRAINLAW_BAD_ARGUMENT,
-                        "F, P need dim^2 numbers a point and A dim^4; status and reports one each");
+    if (F.size() != size() * square()) refuse_sizes();
+    return evaluate_numbered(size(), nullptr, F, P, want, A, threads, status, reports);
+  }
+
+  // Evaluate the points of these numbers; F, P, A, status, reports by their order in `which`.
+  [[nodiscard]] PointsEvaluation evaluate_some(std::span<const std::size_t> which,
+                                               std::span<const double> F, std::span<double> P,
+                                               unsigned want = 0, std::span<double> A = {},
+                                               int threads = 0,
+                                               std::span<grainlaw_status> status = {},
+                                               std::span<grainlaw_report> reports = {}) {
+    return evaluate_numbered(which.size(), which.data(), F, P, want, A, threads, status, reports);
+  }
+
+  // P[n*dim*dim] and A[n*dim^4], which may be empty, of the committed states without an increment.
+  [[nodiscard]] PointsEvaluation answer(std::span<double> P, unsigned want = 0,
+                                        std::span<double> A = {}, int threads = 0) {
+    if (!fits(P.size(), size() * square()) || !fits(A.size(), size() * square() * square()))
+      refuse_sizes();
     PointsEvaluation result;
     result.status =
-        grainlaw_points_evaluate(get(), F.data(), want, given(P), given(A), given(status),
-                                 given(reports), threads, &result.summary);
+        grainlaw_points_answer(get(), want, given(P), given(A), threads, &result.summary);
     if (result.status < 0) throw StatusError(result.status, result.message());
     return result;
+  }
+
+  // Processor time of the last evaluation of each point [s].
+  [[nodiscard]] std::vector<double> cost() const {
+    std::vector<double> seconds(size());
+    check(grainlaw_points_cost(get(), seconds.data()));
+    return seconds;
+  }
+
+  // Change the number of points; new ones are of the first material, or of this one.
+  void resize(std::size_t count) { check(grainlaw_points_resize(get(), count, nullptr)); }
+  void resize(std::size_t count, const Material& of_new) {
+    check(grainlaw_points_resize(get(), count, of_new.get()));
+  }
+
+  // Copy points from[which_from[k]], committed and trial, to the points which_to[k].
+  void clone_some(std::span<const std::size_t> which_to, const Points& from,
+                  std::span<const std::size_t> which_from) {
+    if (which_to.size() != which_from.size())
+      throw StatusError(GRAINLAW_BAD_ARGUMENT, "as many points to copy as to copy to are needed");
+    check(grainlaw_points_clone_some(get(), which_to.size(), which_to.data(), from.get(),
+                                     which_from.data()));
+  }
+
+  // Share failures with other ranks; evaluations and commits are then calls of all ranks.
+  void share(int rank, grainlaw_reduce reduce, void* context) {
+    check(grainlaw_points_share(get(), rank, reduce, context));
+  }
+  // Throw on all ranks the error of the first one that tells a status; "" and OK: none here.
+  void agree(grainlaw_status mine, const std::string& text) {
+    std::array<char, 256> message{};
+    text.copy(message.data(), message.size() - 1);
+    const auto agreed = grainlaw_points_agree(get(), mine, message.data(), message.size());
+    check(agreed, message.data());
   }
 
   // Act on all points; commit fails for all where one has no trial.
@@ -243,16 +319,37 @@ class Points {
 
   // Save all committed states to bytes, or load all or none. Throw StatusError.
   [[nodiscard]] std::vector<std::byte> save() const {
-    std::size_t size = 0;
-    check(grainlaw_points_save(get(), nullptr, &size));
-    std::vector<std::byte> bytes(size);
-    check(grainlaw_points_save(get(), bytes.data(), &size));
-    return bytes;
+    return saved_by<grainlaw_points>(grainlaw_points_save, get());
   }
   void load(std::span<const std::byte> bytes) {
     std::array<char, 256> message{};
     const grainlaw_status status =
         grainlaw_points_load(get(), bytes.data(), bytes.size(), message.data(), message.size());
+    check(status, message.data());
+  }
+
+  // Save some committed states to bytes, or load some, all or none. Throw StatusError.
+  [[nodiscard]] SavedPoints save_some(std::span<const std::size_t> which) const {
+    SavedPoints saved;
+    saved.offsets.resize(which.size() + 1);
+    const auto save = [&](void* bytes) {
+      check(grainlaw_points_save_some(get(), which.size(), which.data(), bytes,
+                                      saved.offsets.data()));
+    };
+    if (which.empty()) return saved;
+    save(nullptr);
+    saved.bytes.resize(saved.offsets.back());
+    save(saved.bytes.data());
+    return saved;
+  }
+  void load_some(std::span<const std::size_t> which, const SavedPoints& saved) {
+    if (saved.offsets.size() != which.size() + 1 || saved.offsets.back() > saved.bytes.size())
+      throw StatusError(GRAINLAW_BAD_ARGUMENT,
+                        "offsets need one number more than there are points");
+    std::array<char, 256> message{};
+    const grainlaw_status status =
+        grainlaw_points_load_some(get(), which.size(), which.data(), saved.bytes.data(),
+                                  saved.offsets.data(), message.data(), message.size());
     check(status, message.data());
   }
 
@@ -284,8 +381,98 @@ class Points {
   static T* given(std::span<T> all) {
     return all.empty() ? nullptr : all.data();
   }
+  static bool fits(std::size_t found, std::size_t need) { return found == 0 || found == need; }
+  [[noreturn]] static void refuse_sizes() {
+    throw StatusError(GRAINLAW_BAD_ARGUMENT,
+                      "F, P need dim^2 numbers a point and A dim^4; status and reports one each");
+  }
+  [[nodiscard]] std::size_t square() const {
+    return static_cast<std::size_t>(dimension_ * dimension_);
+  }
+  [[nodiscard]] PointsEvaluation evaluate_numbered(std::size_t n, const std::size_t* which,
+                                                   std::span<const double> F, std::span<double> P,
+                                                   unsigned want, std::span<double> A, int threads,
+                                                   std::span<grainlaw_status> status,
+                                                   std::span<grainlaw_report> reports) {
+    if (F.size() != n * square() || !fits(P.size(), n * square()) ||
+        !fits(A.size(), n * square() * square()) || !fits(status.size(), n) ||
+        !fits(reports.size(), n))
+      refuse_sizes();
+    PointsEvaluation result;
+    result.status =
+        grainlaw_points_evaluate_some(get(), n, which, F.data(), 0, want, given(P), 0, given(A), 0,
+                                      given(status), given(reports), threads, &result.summary);
+    if (result.status < 0) throw StatusError(result.status, result.message());
+    return result;
+  }
 
   std::unique_ptr<grainlaw_points, Destroy> handle_;
+  int dimension_;
+};
+
+// Points found by element and point, for a host that never says commit.
+class Table {
+ public:
+  explicit Table(const Material& material) : dimension_(material.dimension()) {
+    grainlaw_table* handle = nullptr;
+    check(grainlaw_table_create(material.get(), &handle));
+    handle_.reset(handle);
+  }
+
+  [[nodiscard]] std::size_t size() const { return grainlaw_table_size(get()); }
+  [[nodiscard]] int dimension() const { return dimension_; }
+
+  // Call grainlaw_table_evaluate, whose pointers are those of `call`. Throws StatusError for a
+  // status < 0.
+  struct Call {
+    double* token = nullptr;
+    const double* F0 = nullptr;
+    const double* F = nullptr;
+    double time_step = 0;
+    unsigned want = 0;
+    double* P = nullptr;
+    double* A = nullptr;
+  };
+  [[nodiscard]] Evaluation evaluate(long long element, long long point, const Call& call) {
+    Evaluation result;
+    result.status =
+        grainlaw_table_evaluate(get(), element, point, call.token, call.F0, call.F, call.time_step,
+                                call.want, call.P, call.A, &result.report);
+    if (result.status < 0) throw StatusError(result.status, result.report.message);
+    return result;
+  }
+
+  // All components of a measure of a point. Throws StatusError for an unknown one.
+  [[nodiscard]] std::vector<double> measure(long long element, long long point,
+                                            grainlaw_measure what) const {
+    std::size_t count = 0;
+    check(grainlaw_table_measure(get(), element, point, what, nullptr, &count));
+    std::vector<double> value(count);
+    check(grainlaw_table_measure(get(), element, point, what, value.data(), &count));
+    return value;
+  }
+  void forget(long long element, long long point) {
+    check(grainlaw_table_forget(get(), element, point));
+  }
+
+  // Save all points with their tokens to bytes, or load all or none. Throw StatusError.
+  [[nodiscard]] std::vector<std::byte> save() const {
+    return saved_by<grainlaw_table>(grainlaw_table_save, get());
+  }
+  void load(std::span<const std::byte> bytes) {
+    std::array<char, 256> message{};
+    const grainlaw_status status =
+        grainlaw_table_load(get(), bytes.data(), bytes.size(), message.data(), message.size());
+    check(status, message.data());
+  }
+
+  [[nodiscard]] grainlaw_table* get() const { return handle_.get(); }
+
+ private:
+  struct Destroy {
+    void operator()(grainlaw_table* handle) const { grainlaw_table_destroy(handle); }
+  };
+  std::unique_ptr<grainlaw_table, Destroy> handle_;
   int dimension_;
 };
 

@@ -1,9 +1,9 @@
 /* Sets of points: operations of a finite element code on all of its states. Included by grainlaw.h,
  * whose conventions hold here too.
  *
- * A set contains the integration points of one material, numbered from 0; a host with several
- * materials creates one set per material. After a converged load step, or after an evaluation of
- * the set that returned > 0:
+ * A set contains integration points, numbered from 0, of one material; grainlaw_points_resize adds
+ * points of another. After a converged load step, or after an evaluation of the set that returned
+ * > 0:
  *   grainlaw_points_commit(set);
  *   grainlaw_points_revert(set);   and retry with a step smaller by summary.step_ratio */
 #ifndef GRAINLAW_POINTS_H
@@ -15,7 +15,7 @@
 extern "C" {
 #endif
 
-/* Many states of one material. */
+/* Many states of one dimension. */
 typedef struct grainlaw_points grainlaw_points;
 
 /* A set of n states as from grainlaw_state_create; n may be 0, e.g. on a rank without elements.
@@ -45,9 +45,11 @@ typedef struct grainlaw_summary {
   long failed;       /* points whose status is not OK [-] */
   long first_failed; /* number of the first, fatal before recoverable; -1: none */
   char message[256]; /* of that point, or the reason of a refused call; "" after success */
+  int rank; /* whose point that is, in a set that is shared by ranks; -1: none, or unshared */
 } grainlaw_summary;
 
-/* A summary without failures: its size set, step_ratio 1, first_failed -1, zeros elsewhere. */
+/* A summary without failures: its size set, step_ratio 1, first_failed and rank -1, zeros elsewhere.
+ */
 GRAINLAW_API grainlaw_summary grainlaw_summary_default(void);
 
 /* grainlaw_evaluate for all points of a set, in threads as in grainlaw_evaluate_batch.
@@ -74,8 +76,8 @@ GRAINLAW_API grainlaw_status grainlaw_points_commit(grainlaw_points*);
 /* Drop the trials, if any. Errors: NULL_POINTER, BAD_HANDLE. */
 GRAINLAW_API grainlaw_status grainlaw_points_revert(grainlaw_points*);
 
-/* Write the committed states of all points to bytes: each as by grainlaw_state_save, with a version
- * and a checksum of the whole. bytes NULL: set *size to the required size. Otherwise *size is the
+/* Write the committed states of all points to bytes: each as by grainlaw_points_save_some, with a
+ * version and a checksum of the whole. bytes NULL: set *size to the required size. Otherwise *size is the
  * capacity on entry, the length on return. Errors: NULL_POINTER, BAD_HANDLE, BUFFER_TOO_SMALL. */
 GRAINLAW_API grainlaw_status grainlaw_points_save(const grainlaw_points*, void* bytes,
                                                   size_t* size);
@@ -95,6 +97,95 @@ GRAINLAW_API grainlaw_status grainlaw_points_load(grainlaw_points*, const void* 
  * NULL_POINTER, BAD_HANDLE, BAD_ARGUMENT (unknown measure), BUFFER_TOO_SMALL, OUT_OF_MEMORY. */
 GRAINLAW_API grainlaw_status grainlaw_points_measure(const grainlaw_points*, grainlaw_measure what,
                                                      double* values, size_t* count);
+
+/* Write P and A of the committed states, without an increment: P[n*dim*dim] or NULL, A[n*dim^4] or
+ * NULL (needs a bit of want). P has the bits of the evaluation that was committed. A has them too,
+ * where that evaluation was asked for the same tangent; bytes of the set keep it. Elsewhere, e.g. at
+ * F = I, A is that of a copy evaluated at the committed F, in no time. No state changes. threads,
+ * summary and the returned status are those of grainlaw_points_evaluate. */
+GRAINLAW_API grainlaw_status grainlaw_points_answer(grainlaw_points*, unsigned want, double* P,
+                                                    double* A, int threads,
+                                                    grainlaw_summary* summary);
+
+/* Write the processor time that the last evaluation of each point took, seconds[n] [s]; 0 before
+ * any. Copies keep it, bytes do not. Errors: NULL_POINTER, BAD_HANDLE. */
+GRAINLAW_API grainlaw_status grainlaw_points_cost(const grainlaw_points*, double* seconds);
+
+/* ---- points by number ----------------------------------------------------------------------- */
+
+/* Below, which[n] are numbers of points, NULL: 0 to n - 1; n may be 0. Numbers outside the set are
+ * refused (BAD_ARGUMENT), and so is a number that comes twice where its point would change. */
+
+/* grainlaw_points_evaluate for some points. Of point which[k] are F + k * F_stride, P + k * P_stride,
+ * A + k * A_stride, status[k] and reports[k]. Strides count doubles; 0: without gaps, dim*dim and
+ * dim^4. Points that are not asked for keep their trials. Refused as there; BAD_ARGUMENT also for
+ * wrong numbers, and a stride shorter than its tensor. */
+GRAINLAW_API grainlaw_status grainlaw_points_evaluate_some(
+    grainlaw_points*, size_t n, const size_t* which, const double* F, size_t F_stride,
+    unsigned want, double* P, size_t P_stride, double* A, size_t A_stride, grainlaw_status* status,
+    grainlaw_report* reports, int threads, grainlaw_summary* summary);
+
+/* Write the committed states of some points: which[k] from offsets[k] to offsets[k + 1] of bytes.
+ * They are those of grainlaw_state_save, followed by the tangent where one was committed;
+ * grainlaw_state_load takes them. bytes NULL: set offsets[n + 1], from 0 on. Otherwise bytes has
+ * room for offsets[n], and offsets are as they were set. Errors, upon which nothing is written:
+ * NULL_POINTER, BAD_HANDLE, BAD_ARGUMENT, BUFFER_TOO_SMALL (a state needs another number of bytes
+ * than offsets say). */
+GRAINLAW_API grainlaw_status grainlaw_points_save_some(const grainlaw_points*, size_t n,
+                                                       const size_t* which, void* bytes,
+                                                       size_t* offsets);
+
+/* Replace the committed states of some points by saved ones, all or none, and drop their trials.
+ * offsets[n + 1] as of grainlaw_points_save_some, in any order; those of grainlaw_state_save are
+ * taken too. message as in grainlaw_points_load. Errors: NULL_POINTER, BAD_HANDLE, BAD_ARGUMENT,
+ * BAD_BYTES, WRONG_VERSION, WRONG_MATERIAL, OUT_OF_MEMORY. */
+GRAINLAW_API grainlaw_status grainlaw_points_load_some(grainlaw_points*, size_t n,
+                                                       const size_t* which, const void* bytes,
+                                                       const size_t* offsets, char* message,
+                                                       size_t message_size);
+
+/* Change the number of points. Points from n on are released, with the pointers to their states. New
+ * ones are as from grainlaw_state_create, of `material`; NULL: of the set's first material. Errors,
+ * upon which nothing changes: NULL_POINTER, BAD_HANDLE, BAD_ARGUMENT (a material of the other
+ * dimension), OUT_OF_MEMORY. */
+GRAINLAW_API grainlaw_status grainlaw_points_resize(grainlaw_points*, size_t n,
+                                                    const grainlaw_material* material);
+
+/* Make point which_to[k] of `to` an independent copy of which_from[k] of `from`, committed and trial,
+ * with its material; all or none. Both sets may be one: the copies are of the points before the
+ * call. Errors: NULL_POINTER, BAD_HANDLE, BAD_ARGUMENT (also sets of two dimensions),
+ * OUT_OF_MEMORY. */
+GRAINLAW_API grainlaw_status grainlaw_points_clone_some(grainlaw_points* to, size_t n,
+                                                        const size_t* which_to,
+                                                        const grainlaw_points* from,
+                                                        const size_t* which_from);
+
+/* ---- ranks ---------------------------------------------------------------------------------- */
+
+typedef GRAINLAW_ENUM(grainlaw_op){
+    GRAINLAW_MIN = 0, /* smallest of the ranks */
+    GRAINLAW_SUM = 1  /* sum over the ranks */
+} grainlaw_op;
+
+/* Replace values[n] on every rank by what op makes of those of all ranks, e.g. by MPI_Allreduce in
+ * place. */
+typedef void (*grainlaw_reduce)(void* context, double* values, int n, grainlaw_op op);
+
+/* Share the failures of a set with other ranks, each of which has a set of its own and a rank >= 0 of
+ * its own. Evaluations and commits are then calls of all ranks together, a set of no points
+ * included. Status and summary of an evaluation are the same on all: failed counts all points,
+ * step_ratio is the smallest, and the first failed point is that of the lowest rank, fatal before
+ * recoverable. All commit or none. reduce NULL: not shared any more. Copies are not shared. Errors:
+ * NULL_POINTER, BAD_HANDLE, BAD_ARGUMENT (rank < 0). */
+GRAINLAW_API grainlaw_status grainlaw_points_share(grainlaw_points*, int rank,
+                                                   grainlaw_reduce reduce, void* context);
+
+/* Agree on how something else went, e.g. reading a checkpoint: a call of all ranks together. `mine` is
+ * this rank's status, message its text (zero-terminated) or "". Returns the status of the first
+ * failed rank, fatal before recoverable, and message (may be NULL) receives its text, truncated to
+ * message_size bytes; "" when all are OK. Errors: NULL_POINTER, BAD_HANDLE. */
+GRAINLAW_API grainlaw_status grainlaw_points_agree(grainlaw_points*, grainlaw_status mine,
+                                                   char* message, size_t message_size);
 
 #ifdef __cplusplus
 }

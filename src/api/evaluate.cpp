@@ -65,7 +65,9 @@ grainlaw_status grainlaw_evaluate_batch(std::size_t n, grainlaw_state* const* st
   std::vector<std::size_t> order;
   const grainlaw_status checked = api::guarded([&] {
     if (const auto found = check_states({states, n}); found != GRAINLAW_OK) return found;
-    if (const auto found = api::check(arrays, n); found != GRAINLAW_OK) return found;
+    if (const auto found = api::check(arrays, n, states[0]->point.state.dimension());
+        found != GRAINLAW_OK)
+      return found;
     points.reserve(n);
     for (grainlaw_state* const state : States(states, n)) points.push_back(&state->point);
     order.resize(n);
@@ -87,8 +89,7 @@ grainlaw_status grainlaw_state_set_time_step(grainlaw_state* handle, double time
 
 grainlaw_status grainlaw_commit(grainlaw_state* handle) {
   if (const auto status = api::check_owned(handle); status != GRAINLAW_OK) return status;
-  return api::guarded(
-      [&] { return handle->point.state.commit() ? GRAINLAW_OK : GRAINLAW_NO_TRIAL; });
+  return api::guarded([&] { return handle->point.commit() ? GRAINLAW_OK : GRAINLAW_NO_TRIAL; });
 }
 
 grainlaw_status grainlaw_revert(grainlaw_state* handle) {

@@ -3,10 +3,6 @@
 #include "api/guard.hpp"
 
 namespace grainlaw::core::api {
-namespace {
-
-// Cost of a factorisation in relaxation steps, for some hundreds of particles.
-constexpr long steps_per_factorisation = 50;
 
 TangentKind tangent_kind(unsigned want) {
   switch (want) {
@@ -21,8 +17,6 @@ TangentKind tangent_kind(unsigned want) {
   }
 }
 
-}  // namespace
-
 bool known_want(unsigned want) {
   return want == 0 || want == GRAINLAW_WANT_TANGENT_EXACT ||
          want == GRAINLAW_WANT_TANGENT_ELASTIC || want == GRAINLAW_WANT_TANGENT_PERTURBED;
@@ -36,9 +30,7 @@ grainlaw_status evaluate_point(IntegrationPoint& point, const double* F, unsigne
       [&] {
         point.state.check_deformation(F);
         const TangentKind kind = A == nullptr ? TangentKind::none : tangent_kind(want);
-        const grainlaw_status found = point.state.evaluate(F, kind, P, A, report);
-        point.cost = report.relaxation_steps + steps_per_factorisation * report.factorisations;
-        return found;
+        return point.evaluate(F, kind, P, A, report);
       },
       message);
   if (status != GRAINLAW_OK) point.state.revert();

@@ -10,6 +10,9 @@ namespace grainlaw::core::api {
 // Whether `want` is zero or one known bit of GRAINLAW_WANT_*.
 [[nodiscard]] bool known_want(unsigned want);
 
+// The tangent of a known `want`.
+[[nodiscard]] TangentKind tangent_kind(unsigned want);
+
 // Evaluates a point; `want` is known, F, P, A as in grainlaw_evaluate. Overwrites the report; never
 // throws. Any status but OK leaves no trial, so that a host that ignores the status cannot commit
 // an earlier one.

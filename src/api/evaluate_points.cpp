@@ -5,11 +5,18 @@
 
 namespace grainlaw::core::api {
 
-grainlaw_status check(const PointArrays& arrays, std::size_t n) {
+grainlaw_status check(const PointArrays& arrays, std::size_t n, int dimension) {
   if (n == 0) return GRAINLAW_OK;
   if (arrays.F == nullptr) return GRAINLAW_NULL_POINTER;
   if (const auto found = arrays.reports.check(n); found != GRAINLAW_OK) return found;
-  return known_want(arrays.want) ? GRAINLAW_OK : GRAINLAW_BAD_ARGUMENT;
+  const auto square = static_cast<std::size_t>(dimension * dimension);
+  const auto fits = [](std::size_t stride, std::size_t size) {
+    return stride == 0 || stride >= size;
+  };
+  const Strides& strides = arrays.strides;
+  const bool all_fit = fits(strides.F, square) && fits(strides.P, square) &&
+                       fits(strides.A, square * square) && known_want(arrays.want);
+  return all_fit ? GRAINLAW_OK : GRAINLAW_BAD_ARGUMENT;
 }
 
 Summary evaluate_points(PointSpan points, std::span<std::size_t> order, const PointArrays& arrays,
@@ -18,11 +25,16 @@ Summary evaluate_points(PointSpan points, std::span<std::size_t> order, const Po
   const CancellationOff cancellation;
   const auto dimension = static_cast<std::size_t>(points[0]->state.dimension());
   const std::size_t square = dimension * dimension;
+  const auto or_else = [](std::size_t stride, std::size_t size) {
+    return stride == 0 ? size : stride;
+  };
+  const Strides strides{or_else(arrays.strides.F, square), or_else(arrays.strides.P, square),
+                        or_else(arrays.strides.A, square * square)};
   const auto part = [](double* all, std::size_t at) { return all == nullptr ? nullptr : all + at; };
   const auto evaluate = [&](std::size_t k, grainlaw_report& report) {
     const grainlaw_status status =
-        evaluate_point(*points[k], arrays.F + k * square, arrays.want, part(arrays.P, k * square),
-                       part(arrays.A, k * square * square), report);
+        evaluate_point(*points[k], arrays.F + k * strides.F, arrays.want,
+                       part(arrays.P, k * strides.P), part(arrays.A, k * strides.A), report);
     if (arrays.status != nullptr) arrays.status[k] = status;
     if (void* const wanted = arrays.reports.at(k); wanted != nullptr) copy_out(report, wanted);
     return status;

@@ -11,7 +11,12 @@
 
 namespace grainlaw::core::api {
 
-// Arrays of grainlaw_points_evaluate; all but F may be null.
+// Doubles from one point to the next; 0: without gaps.
+struct Strides {
+  std::size_t F = 0, P = 0, A = 0;
+};
+
+// Arrays of grainlaw_points_evaluate_some; all but F may be null.
 struct PointArrays {
   const double* F;
   unsigned want;
@@ -19,10 +24,11 @@ struct PointArrays {
   double* A;
   grainlaw_status* status;
   Reports reports;
+  Strides strides{};
 };
 
-// Returns OK, NULL_POINTER, BAD_REPORT or BAD_ARGUMENT, for n points.
-[[nodiscard]] grainlaw_status check(const PointArrays& arrays, std::size_t n);
+// Returns OK, NULL_POINTER, BAD_REPORT or BAD_ARGUMENT, for n points of this dimension.
+[[nodiscard]] grainlaw_status check(const PointArrays& arrays, std::size_t n, int dimension);
 
 // Evaluates points of one dimension from checked arrays. `order` is a workspace with one number per
 // point.

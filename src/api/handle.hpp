@@ -1,10 +1,13 @@
 // C handles, and detection of dead or foreign ones.
 #pragma once
 
+#include "api/ranks.hpp"
 #include "points/points.hpp"
+#include "points/table.hpp"
 
 #include <grainlaw/grainlaw.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -44,8 +47,13 @@ struct grainlaw_material {
 };
 
 struct grainlaw_state {
-  explicit grainlaw_state(grainlaw::core::AnyState initial, long cost = 0, bool in_set = false)
-      : point{std::move(initial), cost}, of_set(in_set) {}
+  explicit grainlaw_state(grainlaw::core::AnyState initial)
+      : grainlaw_state(grainlaw::core::IntegrationPoint{std::move(initial)}) {}
+  explicit grainlaw_state(grainlaw::core::IntegrationPoint initial, bool in_set = false)
+      : point(std::move(initial)), of_set(in_set) {
+    point.keeps_tangents = in_set;
+    if (!in_set) point.committed_tangent = point.trial_tangent = {};
+  }
 
   grainlaw::core::api::Magic<0x6574'6174'735f'6c67ULL> magic;
   grainlaw::core::IntegrationPoint point;
@@ -53,15 +61,39 @@ struct grainlaw_state {
 };
 
 struct grainlaw_points {
-  explicit grainlaw_points(std::size_t n) : order(n) { points.reserve(n); }
-  void add(grainlaw::core::AnyState initial, long cost = 0) {
-    points.push_back(&states.emplace_back(std::move(initial), cost, true).point);
+  grainlaw_points(grainlaw::core::AnyMaterial first, std::size_t n) : material(std::move(first)) {
+    reserve(n);
   }
+  // Makes room for n points.
+  void reserve(std::size_t n) {
+    points.reserve(n);
+    some.resize(std::max(n, some.size()));
+    order.resize(some.size());
+  }
+  void add(grainlaw::core::IntegrationPoint initial) {
+    points.push_back(&states.emplace_back(std::move(initial), true).point);
+  }
+  // Drops points from n on.
+  void keep(std::size_t n) {
+    while (states.size() > n) states.pop_back();
+    points.resize(n);
+  }
+  [[nodiscard]] int dimension() const { return material.index() == 0 ? 2 : 3; }
 
   grainlaw::core::api::Magic<0x7374'6e69'6f70'6c67ULL> magic;
-  std::deque<grainlaw_state> states;  // stable addresses: hosts borrow them
+  grainlaw::core::AnyMaterial material;  // of points that are added without one
+  std::deque<grainlaw_state> states;     // stable addresses: hosts borrow them
   std::vector<grainlaw::core::IntegrationPoint*> points;
-  std::vector<std::size_t> order;  // workspace of evaluations
+  std::vector<grainlaw::core::IntegrationPoint*> some;  // workspace of calls for some points
+  std::vector<std::size_t> order;                       // workspace of evaluations
+  grainlaw::core::api::Ranks ranks;
+};
+
+struct grainlaw_table {
+  explicit grainlaw_table(grainlaw::core::AnyMaterial material) : table(std::move(material)) {}
+
+  grainlaw::core::api::Magic<0x656c'6261'745f'6c67ULL> magic;
+  grainlaw::core::PointTable table;
 };
 
 namespace grainlaw::core::api {

@@ -1,10 +1,9 @@
-// Sets of points.
+// Sets of points: made, committed, saved, measured.
 #include "points/points.hpp"
 
-#include "api/evaluate_points.hpp"
+#include "api/buffer.hpp"
 #include "api/guard.hpp"
 #include "api/handle.hpp"
-#include "api/report.hpp"
 #include "homogenise/measures.hpp"
 #include "points/serialise_points.hpp"
 
@@ -13,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <memory>
 #include <new>
 #include <vector>
@@ -24,32 +22,14 @@ namespace {
 
 // Creates a set; fill(set) adds its n points.
 template <class Fill>
-grainlaw_status create(grainlaw_points** out, std::size_t n, Fill&& fill) {
+grainlaw_status create(grainlaw_points** out, const AnyMaterial& material, std::size_t n,
+                       Fill&& fill) {
   return api::guarded([&] {
     if (n > std::vector<std::size_t>().max_size()) throw std::bad_alloc();
-    auto set = std::make_unique<grainlaw_points>(n);
+    auto set = std::make_unique<grainlaw_points>(material, n);
     fill(*set);
     *out = set.release();
   });
-}
-
-// Summary of a call that was refused before any evaluation.
-Summary refusal(grainlaw_status status) {
-  Summary summary;
-  summary.status = status;
-  summary.step_ratio = 0;
-  std::strncpy(summary.message, grainlaw_status_text(status), sizeof summary.message - 1);
-  return summary;
-}
-
-void write(const Summary& found, grainlaw_summary* summary) {
-  if (summary == nullptr) return;
-  grainlaw_summary full = grainlaw_summary_default();
-  full.step_ratio = found.step_ratio;
-  full.failed = static_cast<long>(found.failed);
-  if (found.failed > 0) full.first_failed = static_cast<long>(found.first_failed);
-  std::memcpy(full.message, found.message, sizeof full.message);
-  api::copy_out(full, summary);
 }
 
 grainlaw_status measure_points(PointSpan points, grainlaw_measure what, double* values,
@@ -74,21 +54,13 @@ grainlaw_status measure_points(PointSpan points, grainlaw_measure what, double* 
 
 }  // namespace
 
-grainlaw_summary grainlaw_summary_default(void) {
-  grainlaw_summary summary{};
-  summary.size = sizeof summary;
-  summary.step_ratio = 1;
-  summary.first_failed = -1;
-  return summary;
-}
-
 grainlaw_status grainlaw_points_create(const grainlaw_material* handle, size_t n,
                                        grainlaw_points** out) {
   if (out == nullptr) return GRAINLAW_NULL_POINTER;
   *out = nullptr;
   if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
-  return create(out, n, [&](grainlaw_points& set) {
-    for (std::size_t k = 0; k < n; ++k) set.add(AnyState(handle->material));
+  return create(out, handle->material, n, [&](grainlaw_points& set) {
+    for (std::size_t k = 0; k < n; ++k) set.add({AnyState(handle->material)});
   });
 }
 
@@ -96,8 +68,8 @@ grainlaw_status grainlaw_points_clone(const grainlaw_points* handle, grainlaw_po
   if (out == nullptr) return GRAINLAW_NULL_POINTER;
   *out = nullptr;
   if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
-  return create(out, handle->points.size(), [&](grainlaw_points& set) {
-    for (const IntegrationPoint* point : handle->points) set.add(point->state, point->cost);
+  return create(out, handle->material, handle->points.size(), [&](grainlaw_points& set) {
+    for (const IntegrationPoint* point : handle->points) set.add(*point);
   });
 }
 
@@ -113,24 +85,6 @@ const grainlaw_state* grainlaw_points_state(const grainlaw_points* handle, size_
   return point < grainlaw_points_size(handle) ? &handle->states[point] : nullptr;
 }
 
-grainlaw_status grainlaw_points_evaluate(grainlaw_points* handle, const double* F, unsigned want,
-                                         double* P, double* A, grainlaw_status* status,
-                                         grainlaw_report* reports, int threads,
-                                         grainlaw_summary* summary) {
-  if (const auto found = api::check_handle(handle); found != GRAINLAW_OK) return found;
-  if (summary != nullptr && !api::known_summary_size(api::claimed_size(summary)))
-    return GRAINLAW_BAD_REPORT;
-  const std::size_t n = handle->points.size();
-  const api::PointArrays arrays{F, want, P, A, status, api::Reports(reports)};
-  const grainlaw_status checked = api::check(arrays, n);
-  if (checked != GRAINLAW_OK && status != nullptr) std::fill_n(status, n, checked);
-  const Summary found = checked != GRAINLAW_OK
-                            ? refusal(checked)
-                            : api::evaluate_points(handle->points, handle->order, arrays, threads);
-  write(found, summary);
-  return found.status;
-}
-
 grainlaw_status grainlaw_points_set_time_step(grainlaw_points* handle, double time_step) {
   if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
   if (!(time_step >= 0 && std::isfinite(time_step))) return GRAINLAW_BAD_ARGUMENT;
@@ -140,7 +94,9 @@ grainlaw_status grainlaw_points_set_time_step(grainlaw_points* handle, double ti
 
 grainlaw_status grainlaw_points_commit(grainlaw_points* handle) {
   if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
-  return commit_all(handle->points) ? GRAINLAW_OK : GRAINLAW_NO_TRIAL;
+  if (!api::agree(handle->ranks, have_trials(handle->points))) return GRAINLAW_NO_TRIAL;
+  commit_all(handle->points);
+  return GRAINLAW_OK;
 }
 
 grainlaw_status grainlaw_points_revert(grainlaw_points* handle) {
@@ -153,13 +109,8 @@ grainlaw_status grainlaw_points_save(const grainlaw_points* handle, void* bytes,
   if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
   if (size == nullptr) return GRAINLAW_NULL_POINTER;
   return api::guarded([&] {
-    const std::size_t need = saved_size(handle->points);
-    if (bytes != nullptr) {
-      if (*size < need) return GRAINLAW_BUFFER_TOO_SMALL;
-      save_points(handle->points, {static_cast<std::byte*>(bytes), need});
-    }
-    *size = need;
-    return GRAINLAW_OK;
+    return api::save_to(bytes, size, saved_size(handle->points),
+                        [&](auto to) { save_points(handle->points, to); });
   });
 }
 
@@ -185,4 +136,11 @@ grainlaw_status grainlaw_points_measure(const grainlaw_points* handle, grainlaw_
   if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
   if (count == nullptr) return GRAINLAW_NULL_POINTER;
   return api::guarded([&] { return measure_points(handle->points, what, values, count); });
+}
+
+grainlaw_status grainlaw_points_cost(const grainlaw_points* handle, double* seconds) {
+  if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
+  if (seconds == nullptr && !handle->points.empty()) return GRAINLAW_NULL_POINTER;
+  for (const IntegrationPoint* point : handle->points) *seconds++ = point->seconds;
+  return GRAINLAW_OK;
 }

@@ -8,7 +8,7 @@
 
 namespace grainlaw::core::api {
 
-// Size of the fields of version 0.1. Later versions only append, so that a size identifies every
+// Sizes of the fields of the first version. Later versions only append, so that a size identifies every
 // version in between. A larger size belongs to a header newer than this library.
 inline constexpr std::size_t first_report_size =
     offsetof(grainlaw_report, message) + sizeof(grainlaw_report::message);
@@ -17,7 +17,12 @@ inline bool known_report_size(std::size_t size) {
   return size >= first_report_size && size <= sizeof(grainlaw_report);
 }
 
-inline bool known_summary_size(std::size_t size) { return size == sizeof(grainlaw_summary); }
+inline constexpr std::size_t first_summary_size =
+    offsetof(grainlaw_summary, message) + sizeof(grainlaw_summary::message);
+
+inline bool known_summary_size(std::size_t size) {
+  return size >= first_summary_size && size <= sizeof(grainlaw_summary);
+}
 
 // Size that the caller wrote at the start of its report or summary.
 inline std::size_t claimed_size(const void* report) {

@@ -1,9 +1,10 @@
 // States: creation, copies, bytes and measures.
 #include "state/any_state.hpp"
 
+#include "api/buffer.hpp"
 #include "api/guard.hpp"
 #include "api/handle.hpp"
-#include "homogenise/measures.hpp"
+#include "points/serialise_points.hpp"
 
 #include <grainlaw/grainlaw.h>
 
@@ -22,7 +23,7 @@ grainlaw_status grainlaw_state_clone(const grainlaw_state* handle, grainlaw_stat
   if (out == nullptr) return GRAINLAW_NULL_POINTER;
   *out = nullptr;
   if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
-  return api::guarded([&] { *out = new grainlaw_state(handle->point.state, handle->point.cost); });
+  return api::guarded([&] { *out = new grainlaw_state(handle->point); });
 }
 
 void grainlaw_state_destroy(grainlaw_state* handle) {
@@ -34,13 +35,7 @@ grainlaw_status grainlaw_state_save(const grainlaw_state* handle, void* bytes, s
   if (size == nullptr) return GRAINLAW_NULL_POINTER;
   return api::guarded([&] {
     const AnyState& state = handle->point.state;
-    const std::size_t need = state.saved_size();
-    if (bytes != nullptr) {
-      if (*size < need) return GRAINLAW_BUFFER_TOO_SMALL;
-      state.save({static_cast<std::byte*>(bytes), need});
-    }
-    *size = need;
-    return GRAINLAW_OK;
+    return api::save_to(bytes, size, state.saved_size(), [&](auto to) { state.save(to); });
   });
 }
 
@@ -48,8 +43,8 @@ grainlaw_status grainlaw_state_load(grainlaw_state* handle, const void* bytes, s
   if (const auto status = api::check_owned(handle); status != GRAINLAW_OK) return status;
   if (bytes == nullptr) return GRAINLAW_NULL_POINTER;
   return api::guarded([&] {
-    AnyState& state = handle->point.state;
-    state.restore(state.read({static_cast<const std::byte*>(bytes), size}));
+    restore_point(handle->point,
+                  read_point(handle->point, {static_cast<const std::byte*>(bytes), size}));
   });
 }
 
@@ -57,16 +52,5 @@ grainlaw_status grainlaw_state_measure(const grainlaw_state* handle, grainlaw_me
                                        double* value, size_t* count) {
   if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
   if (count == nullptr) return GRAINLAW_NULL_POINTER;
-  return api::guarded([&] {
-    const AnyState& state = handle->point.state;
-    const int components = measure_count(state.dimension(), what);
-    if (components < 0) return GRAINLAW_BAD_ARGUMENT;
-    const auto need = static_cast<std::size_t>(components);
-    if (value != nullptr) {
-      if (*count < need) return GRAINLAW_BUFFER_TOO_SMALL;
-      state.measure(what, value);
-    }
-    *count = need;
-    return GRAINLAW_OK;
-  });
+  return api::guarded([&] { return api::measure_state(handle->point.state, what, value, count); });
 }

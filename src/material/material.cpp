@@ -3,12 +3,12 @@
 #include "base/error.hpp"
 #include "equilibrium/strategy.hpp"
 #include "frame/frame.hpp"
-#include "frame/frame_space.hpp"
 #include "generate/compaction.hpp"
 #include "homogenise/stress.hpp"
 #include "increment/contact_state.hpp"
 #include "material/given_contacts.hpp"
 #include "material/initial_stress.hpp"
+#include "material/space_of.hpp"
 #include "material/start_advice.hpp"
 #include "packing/geometry.hpp"
 #include "packing/row_order.hpp"
@@ -170,15 +170,6 @@ void check_bond_gap(const ContactLaw& law, const Packing& packing) {
   throw Error(GRAINLAW_BAD_MATERIAL,
               fmt::format("contact.bond.gap: found {}, expected at most the largest diameter, {}",
                           law.bond.gap, diameter));
-}
-
-template <int D>
-BoundarySpace<D> space_of(const Packing& packing, const BoundaryOptions& boundary) {
-  if constexpr (D == 2) {
-    return make_boundary_space(packing, boundary);
-  } else {
-    return make_cell_space<D>(packing, boundary);
-  }
 }
 
 }  // namespace

@@ -2,11 +2,14 @@
 
 #include "points/workers.hpp"
 
+#include <time.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <mutex>
 #include <numeric>
+#include <utility>
 
 namespace grainlaw::core {
 
@@ -21,7 +24,57 @@ void sort_by_cost(PointSpan points, std::span<std::size_t> order) {
   });
 }
 
+// Processor time of this thread [s].
+double thread_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+// Cost of a factorisation in relaxation steps, for some hundreds of particles.
+constexpr long steps_per_factorisation = 50;
+
 }  // namespace
+
+grainlaw_status IntegrationPoint::evaluate(const double* F, TangentKind kind, double* P, double* A,
+                                           grainlaw_report& report) {
+  const double start = thread_seconds();
+  trial_tangent.kind = TangentKind::none;
+  const bool keeps = keeps_tangents && kind != TangentKind::none;
+  const auto square = static_cast<std::size_t>(state.dimension() * state.dimension());
+  if (keeps) trial_tangent.values.resize(square * square);
+  const grainlaw_status status = state.evaluate(F, kind, P, A, report);
+  if (keeps && status == GRAINLAW_OK) {
+    std::copy_n(A, square * square, trial_tangent.values.begin());
+    trial_tangent.kind = kind;
+  }
+  cost = report.relaxation_steps + steps_per_factorisation * report.factorisations;
+  seconds = thread_seconds() - start;
+  return status;
+}
+
+bool IntegrationPoint::commit() {
+  if (!state.commit()) return false;
+  std::swap(committed_tangent, trial_tangent);
+  trial_tangent.kind = TangentKind::none;
+  return true;
+}
+
+grainlaw_status IntegrationPoint::answer(TangentKind kind, double* P, double* A,
+                                         grainlaw_report& report) const {
+  if (kind != TangentKind::none && kind == committed_tangent.kind) {
+    std::copy(committed_tangent.values.begin(), committed_tangent.values.end(), A);
+  } else if (kind != TangentKind::none) {
+    AnyState copy(state);
+    copy.revert();
+    copy.set_time_step(0);
+    const std::vector<double> F = copy.committed_deformation();
+    const grainlaw_status status = copy.evaluate(F.data(), kind, nullptr, A, report);
+    if (status != GRAINLAW_OK) return status;
+  }
+  if (P != nullptr) state.committed_stress(P);
+  return GRAINLAW_OK;
+}
 
 void Summary::add(std::size_t point, grainlaw_status found, const grainlaw_report& report) {
   if (found == GRAINLAW_OK) return;
@@ -59,11 +112,13 @@ Summary evaluate_all(PointSpan points, std::span<std::size_t> order, const Evalu
   return summary;
 }
 
-bool commit_all(PointSpan points) noexcept {
+bool have_trials(PointSpan points) noexcept {
   const auto has_trial = [](const IntegrationPoint* point) { return point->state.has_trial(); };
-  if (!std::all_of(points.begin(), points.end(), has_trial)) return false;
-  for (IntegrationPoint* point : points) point->state.commit();
-  return true;
+  return std::all_of(points.begin(), points.end(), has_trial);
+}
+
+void commit_all(PointSpan points) noexcept {
+  for (IntegrationPoint* point : points) point->commit();
 }
 
 void revert_all(PointSpan points) noexcept {

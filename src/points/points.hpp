@@ -8,12 +8,30 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <vector>
 
 namespace grainlaw::core {
 
+// A tangent beside the state that it belongs to.
+struct KeptTangent {
+  TangentKind kind = TangentKind::none;
+  std::vector<double> values;  // [dim^4], meant unless the kind is none [Pa]
+};
+
 struct IntegrationPoint {
   AnyState state;
-  long cost = 0;  // cost of the last evaluation, in relaxation steps
+  long cost = 0;       // of the last evaluation, in relaxation steps
+  double seconds = 0;  // processor time of the last evaluation
+  bool keeps_tangents = false;
+  KeptTangent committed_tangent{}, trial_tangent{};
+
+  // Evaluates as State::evaluate() does; tells its cost and keeps the tangent.
+  grainlaw_status evaluate(const double* F, TangentKind kind, double* P, double* A,
+                           grainlaw_report& report);
+  bool commit();  // returns false without a trial
+
+  // P and A of the committed state; each may be null. A comes from a copy unless it was kept.
+  grainlaw_status answer(TangentKind kind, double* P, double* A, grainlaw_report& report) const;
 };
 
 using PointSpan = std::span<IntegrationPoint* const>;
@@ -40,8 +58,9 @@ using EvaluateOne = std::function<grainlaw_status(std::size_t point, grainlaw_re
 Summary evaluate_all(PointSpan points, std::span<std::size_t> order, const EvaluateOne& evaluate,
                      int threads) noexcept;
 
-// Commits all trials. Returns false and changes nothing when a point has no trial.
-bool commit_all(PointSpan points) noexcept;
+[[nodiscard]] bool have_trials(PointSpan points) noexcept;
+// Commits all trials, which there have to be.
+void commit_all(PointSpan points) noexcept;
 void revert_all(PointSpan points) noexcept;
 
 }  // namespace grainlaw::core

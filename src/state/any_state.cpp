@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace grainlaw::core {
@@ -43,6 +44,7 @@ AnyState::AnyState(const AnyMaterial& material)
 
 AnyState::AnyState(const AnyState& other) = default;
 AnyState::AnyState(AnyState&& other) noexcept = default;
+AnyState& AnyState::operator=(AnyState&& other) noexcept = default;
 AnyState::~AnyState() = default;
 
 void AnyState::check_deformation(const double* F) const {
@@ -58,6 +60,10 @@ void AnyState::set_time_step(double step) {
   std::visit([=](auto& state) { state.set_time_step(step); }, state_);
 }
 
+double AnyState::time_step() const {
+  return std::visit([](const auto& state) { return state.time_step(); }, state_);
+}
+
 bool AnyState::commit() {
   return std::visit([](auto& state) { return state.commit(); }, state_);
 }
@@ -68,6 +74,19 @@ void AnyState::revert() {
 
 bool AnyState::has_trial() const {
   return std::visit([](const auto& state) { return state.has_trial(); }, state_);
+}
+
+std::vector<double> AnyState::committed_deformation() const {
+  return std::visit(
+      [](const auto& state) {
+        const auto& F = state.committed().deformation;
+        return std::vector<double>(F.begin(), F.end());
+      },
+      state_);
+}
+
+void AnyState::committed_stress(double* P) const {
+  std::visit([=](const auto& state) { std::ranges::copy(state.committed().stress, P); }, state_);
 }
 
 std::size_t AnyState::saved_size() const {

@@ -32,6 +32,7 @@ class AnyState {
   explicit AnyState(const AnyMaterial& material);
   AnyState(const AnyState& other);
   AnyState(AnyState&& other) noexcept;
+  AnyState& operator=(AnyState&& other) noexcept;
   ~AnyState();
 
   [[nodiscard]] int dimension() const { return state_.index() == 0 ? 2 : 3; }
@@ -44,9 +45,12 @@ class AnyState {
   grainlaw_status evaluate(const double* F, TangentKind kind, double* P, double* A,
                            grainlaw_report& report);
   void set_time_step(double step);
+  [[nodiscard]] double time_step() const;
   bool commit();
   void revert();
   [[nodiscard]] bool has_trial() const;
+  [[nodiscard]] std::vector<double> committed_deformation() const;  // F [dim*dim]
+  void committed_stress(double* P) const;                           // [dim*dim] [Pa]
 
   // Writes the committed state to saved_size() bytes.
   [[nodiscard]] std::size_t saved_size() const;

@@ -11,7 +11,7 @@
 #include "state/serialise.hpp"
 
 #include "base/error.hpp"
-#include "state/saved_bytes.hpp"
+#include "base/saved_bytes.hpp"
 
 #include <algorithm>
 #include <array>

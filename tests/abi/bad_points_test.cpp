@@ -146,7 +146,8 @@ TEST_F(bad_points, an_evaluation_is_refused_before_any_point_is_touched) {
   found.report[3].size = 8;
   refused(call(F.data(), 0), GRAINLAW_BAD_REPORT, "a report of another size");
   found.report[3].size = sizeof(grainlaw_report);
-  for (const std::size_t size : {std::size_t{0}, sizeof summary - 8, sizeof summary + 8}) {
+  for (const std::size_t size :
+       {std::size_t{0}, offsetof(grainlaw_summary, rank) - 8, sizeof summary + 8}) {
     summary.size = size;
     const grainlaw_summary kept = summary;
     expect_refused(call(F.data(), 0), GRAINLAW_BAD_REPORT, "a summary of another size");

@@ -81,7 +81,7 @@ TEST_F(mgis_bad_input, gradients_at_the_start_that_are_no_numbers) {
       m.s0.internal = m.s1.internal;
       m.s0.gradients[k] = nan;
     });
-    refused("not those of the point's state", [k](Manager& m) { m.s0.gradients[k] = nan; });
+    refused("of the deformation gradient is nan", [k](Manager& m) { m.s0.gradients[k] = nan; });
   }
 }
 
@@ -100,11 +100,11 @@ TEST_F(mgis_bad_input, states_that_are_not_known) {
   refused("name no state of this process", [](Manager& m) { m.s0.internal[0] = -3; });
   refused("name no state of this process", [](Manager& m) { m.s0.internal[1] = nan; });
   refused("name no state of this process", [](Manager& m) { m.s0.internal[1] = 0; });
-  refused("GrainlawStep is 5", [](Manager& m) { m.s0.internal[1] = 5; });
+  refused("the token is 5", [](Manager& m) { m.s0.internal[1] = 5; });
 }
 
 TEST_F(mgis_bad_input, two_points_with_one_state) {
-  refused("two points hold the same internal state variables", [](Manager& m) {
+  refused("two points hold the same token", [](Manager& m) {
     std::copy_n(&m.s0.internal[2], 2, &m.s0.internal[0]);
     m.s0.gradients[0] += 1e-3;
   });

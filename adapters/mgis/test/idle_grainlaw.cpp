@@ -3,10 +3,16 @@
 #include <grainlaw/grainlaw.h>
 
 #include <algorithm>
+#include <map>
+#include <mutex>
+#include <new>
+#include <utility>
 
 struct grainlaw_material {};
-struct grainlaw_state {
-  bool trial = false;
+struct grainlaw_state {};
+struct grainlaw_table {
+  std::mutex mutex;
+  std::map<std::pair<long long, long long>, double> increments;
 };
 
 extern "C" {
@@ -32,26 +38,41 @@ grainlaw_status grainlaw_state_create(const grainlaw_material*, grainlaw_state**
   *out = new grainlaw_state;
   return GRAINLAW_OK;
 }
-grainlaw_status grainlaw_state_clone(const grainlaw_state* state, grainlaw_state** out) {
-  *out = new grainlaw_state(*state);
+void grainlaw_state_destroy(grainlaw_state* state) { delete state; }
+grainlaw_status grainlaw_table_create(const grainlaw_material*, grainlaw_table** out) {
+  *out = new grainlaw_table;
   return GRAINLAW_OK;
 }
-void grainlaw_state_destroy(grainlaw_state* state) { delete state; }
-grainlaw_status grainlaw_evaluate(grainlaw_state* state, const double* F, unsigned want, double* P,
-                                  double* A, grainlaw_report* report) {
-  for (int k = 0; k < 4; ++k) P[k] = -1e5 * F[k];  // S = -1e5 I, symmetric at any F
+void grainlaw_table_destroy(grainlaw_table* table) { delete table; }
+size_t grainlaw_table_size(const grainlaw_table* table) { return table->increments.size(); }
+grainlaw_status grainlaw_table_evaluate(grainlaw_table* table, long long element, long long point,
+                                        double* token, const double*, const double* F, double,
+                                        unsigned want, double* P, double* A,
+                                        grainlaw_report* report) {
+  try {
+    const std::lock_guard lock(table->mutex);
+    double& increments = table->increments[{element, point}];
+    if (token != nullptr) increments = *token;
+  } catch (const std::bad_alloc&) {
+    return GRAINLAW_OUT_OF_MEMORY;
+  }
+  constexpr double start[] = {1, 0, 0, 1};
+  for (int k = 0; k < 4; ++k) P[k] = -1e5 * (F == nullptr ? start : F)[k];  // S = -1e5 I, symmetric
   if (want != 0) std::fill_n(A, 16, 1e8);
   report->step_ratio = 1;
-  state->trial = true;
+  if (token != nullptr) ++*token;
   return GRAINLAW_OK;
 }
-grainlaw_status grainlaw_state_set_time_step(grainlaw_state*, double) { return GRAINLAW_OK; }
-grainlaw_status grainlaw_commit(grainlaw_state* state) {
-  state->trial = false;
+grainlaw_status grainlaw_table_measure(const grainlaw_table*, long long, long long,
+                                       grainlaw_measure, double* value, size_t* count) {
+  constexpr double start[] = {1, 0, 0, 1};
+  *count = 4;
+  if (value != nullptr) std::copy(start, start + 4, value);
   return GRAINLAW_OK;
 }
-grainlaw_status grainlaw_revert(grainlaw_state* state) {
-  state->trial = false;
+grainlaw_status grainlaw_table_forget(grainlaw_table* table, long long element, long long point) {
+  const std::lock_guard lock(table->mutex);
+  table->increments.erase({element, point});
   return GRAINLAW_OK;
 }
 grainlaw_status grainlaw_state_save(const grainlaw_state*, void*, size_t* size) {

@@ -27,7 +27,8 @@ from .abi import Error, status_text, version
 from .material import Material
 from .names import Measure, Status, Tangent
 from .points import Evaluation, State, States
+from .table import Table
 
-__all__ = ["Error", "Evaluation", "Material", "Measure", "State", "States", "Status", "Tangent",
-           "files", "laboratory", "status_text", "steps", "tests", "version"]
+__all__ = ["Error", "Evaluation", "Material", "Measure", "State", "States", "Status", "Table",
+           "Tangent", "files", "laboratory", "status_text", "steps", "tests", "version"]
 __version__ = version()

@@ -10,6 +10,11 @@ from .arguments import LARGEST_INT, whole
 from .names import ABI, VERSION, Report, Status, Summary
 
 
+# grainlaw_reduce: context, values, how many, grainlaw_op.
+REDUCE = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.POINTER(ctypes.c_double), ctypes.c_int,
+                          ctypes.c_int)
+
+
 class Error(Exception):
     """A call the library, or this module before it, refused: status (Status), message, and the
     number of the point where it was one point of several, else None."""
@@ -62,6 +67,9 @@ def _declare(library: ctypes.CDLL) -> None:
         "version": (text,),
         "material_load": (ctypes.c_int, text, out, text, size),
         "material_parse": (ctypes.c_int, text, text, out, text, size),
+        "material_save": (ctypes.c_int, pointer, pointer, count),
+        "material_load_saved": (ctypes.c_int, text, size, out, text, size),
+        "material_fingerprint": (ctypes.c_int, pointer, ctypes.POINTER(ctypes.c_ulonglong)),
         "material_dimension": (ctypes.c_int, pointer),
         "material_destroy": (None, pointer),
         "points_create": (ctypes.c_int, pointer, size, out),
@@ -71,6 +79,18 @@ def _declare(library: ctypes.CDLL) -> None:
         "points_state": (pointer, pointer, size),
         "points_evaluate": (ctypes.c_int, pointer, pointer, ctypes.c_uint, pointer, pointer,
                             pointer, pointer, ctypes.c_int, ctypes.POINTER(Summary)),
+        "points_evaluate_some": (ctypes.c_int, pointer, size, pointer, pointer, size, ctypes.c_uint,
+                                 pointer, size, pointer, size, pointer, pointer, ctypes.c_int,
+                                 ctypes.POINTER(Summary)),
+        "points_answer": (ctypes.c_int, pointer, ctypes.c_uint, pointer, pointer, ctypes.c_int,
+                          ctypes.POINTER(Summary)),
+        "points_cost": (ctypes.c_int, pointer, pointer),
+        "points_save_some": (ctypes.c_int, pointer, size, pointer, pointer, pointer),
+        "points_load_some": (ctypes.c_int, pointer, size, pointer, text, pointer, text, size),
+        "points_resize": (ctypes.c_int, pointer, size, pointer),
+        "points_clone_some": (ctypes.c_int, pointer, size, pointer, pointer, pointer),
+        "points_share": (ctypes.c_int, pointer, ctypes.c_int, REDUCE, pointer),
+        "points_agree": (ctypes.c_int, pointer, ctypes.c_int, text, size),
         "points_commit": (ctypes.c_int, pointer),
         "points_revert": (ctypes.c_int, pointer),
         "points_set_time_step": (ctypes.c_int, pointer, ctypes.c_double),
@@ -78,6 +98,17 @@ def _declare(library: ctypes.CDLL) -> None:
         "points_load": (ctypes.c_int, pointer, pointer, size, text, size),
         "state_save": (ctypes.c_int, pointer, pointer, count),
         "points_measure": (ctypes.c_int, pointer, ctypes.c_int, pointer, count),
+        "table_create": (ctypes.c_int, pointer, out),
+        "table_destroy": (None, pointer),
+        "table_size": (size, pointer),
+        "table_evaluate": (ctypes.c_int, pointer, ctypes.c_longlong, ctypes.c_longlong,
+                           ctypes.POINTER(ctypes.c_double), pointer, pointer, ctypes.c_double,
+                           ctypes.c_uint, pointer, pointer, pointer),
+        "table_measure": (ctypes.c_int, pointer, ctypes.c_longlong, ctypes.c_longlong, ctypes.c_int,
+                          pointer, count),
+        "table_forget": (ctypes.c_int, pointer, ctypes.c_longlong, ctypes.c_longlong),
+        "table_save": (ctypes.c_int, pointer, pointer, count),
+        "table_load": (ctypes.c_int, pointer, text, size, text, size),
         "state_particles": (ctypes.c_int, pointer, pointer, size, count),
         "state_contacts": (ctypes.c_int, pointer, pointer, size, count),
         "state_write_vtk": (ctypes.c_int, pointer, text),
@@ -131,6 +162,30 @@ def c_text(value: str | os.PathLike[str]) -> bytes:
     if b"\0" in encoded:
         raise bad_argument(f"a text for the library holds a zero byte: {value!r}")
     return encoded
+
+
+def saved_by(function: Callable[..., int], handle: Any) -> bytes:
+    """Bytes of a function like grainlaw_state_save."""
+    size = ctypes.c_size_t()
+    check(function(handle, None, ctypes.byref(size)))
+    data = ctypes.create_string_buffer(size.value)
+    check(function(handle, data, ctypes.byref(size)))
+    return data.raw
+
+
+def load_by(function: Callable[..., int], *arguments: Any) -> None:
+    """A call that ends with a buffer for the reason; raises Error with it."""
+    message = ctypes.create_string_buffer(1024)
+    status = function(*arguments, message, len(message))
+    check(status, message.value.decode(errors="replace"))
+
+
+def as_bytes(saved: Any, what: str) -> bytes:
+    """Saved bytes of any type that holds bytes."""
+    try:
+        return bytes(memoryview(saved))
+    except TypeError:
+        raise bad_argument(f"expected {what} as bytes, got {type(saved).__name__}") from None
 
 
 class Handle:

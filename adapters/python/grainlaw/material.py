@@ -8,7 +8,7 @@ import tomllib
 from collections.abc import Callable
 from typing import Any
 
-from .abi import Handle, c_text, check, library
+from .abi import Handle, as_bytes, c_text, check, library, saved_by
 
 AnyPath = str | os.PathLike[str]
 
@@ -17,8 +17,7 @@ class Material:
     """A material file and the packing it names, in equilibrium at F = I. Raises Error with the
     library's message, which names file, line, key and what was expected.
 
-    Pickled as the text of the file and the directory of the packing: whoever loads it reads the
-    packing again from there."""
+    Pickled with its packing in equilibrium: whoever loads it needs no file."""
 
     dimension: int   #: 2 (discs) or 3 (spheres)
     text: str        #: of the file
@@ -38,6 +37,30 @@ class Material:
         material.text, material.directory = text, os.path.abspath(base_directory)
         return material
 
+    @classmethod
+    def load_saved(cls, saved: bytes | bytearray | memoryview, text: str = "",
+                   directory: AnyPath = ".") -> Material:
+        """The material of the bytes of save(), without its files and without another relaxation.
+        text and directory are those of the file, where they are known. A checksum tells damage;
+        bytes of unknown origin are not for this call."""
+        data = as_bytes(saved, "a saved material")
+        material = cls.__new__(cls)
+        material._create(lambda out, *rest: library.grainlaw_material_load_saved(
+            data, len(data), out, *rest))
+        material.text, material.directory = text, os.path.abspath(directory)
+        return material
+
+    def save(self) -> bytes:
+        """The material with its packing in equilibrium as bytes, for other processes."""
+        return saved_by(library.grainlaw_material_save, self._handle)
+
+    @property
+    def fingerprint(self) -> int:
+        """A number that two materials share if their saved bytes are the same: what ranks compare."""
+        found = ctypes.c_ulonglong()
+        check(library.grainlaw_material_fingerprint(self._handle, ctypes.byref(found)))
+        return found.value
+
     @property
     def description(self) -> dict[str, Any]:
         """The keys of the file, as tomllib reads them."""
@@ -47,7 +70,7 @@ class Material:
         return f"<Material of {'discs' if self.dimension == 2 else 'spheres'}, {self.directory}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _parse_again, (self.text, self.directory)
+        return _load_again, (self.save(), self.text, self.directory)
 
     def _create(self, function: Callable[..., int], *arguments: Any) -> None:
         message = ctypes.create_string_buffer(1024)
@@ -62,6 +85,6 @@ class Material:
 
 
 @functools.lru_cache(maxsize=8)
-def _parse_again(text: str, directory: str) -> Material:
-    # Many states that are unpickled share one material, and its packing is made once.
-    return Material.parse(text, directory)
+def _load_again(saved: bytes, text: str, directory: str) -> Material:
+    # Many states that are unpickled share one material.
+    return Material.load_saved(saved, text, directory)

@@ -2,9 +2,10 @@
 from __future__ import annotations
 
 import ctypes
+import functools
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Self
 
@@ -12,7 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import plots
-from .abi import Error, Handle, bad_argument, c_text, check, library, status_text
+from .abi import (REDUCE, Error, Handle, as_bytes, bad_argument, c_text, check, library, load_by,
+                  saved_by, status_text)
 from .arrays import Array, Records
 from .arguments import LARGEST_INT, masked, number, whole
 from .material import AnyPath, Material
@@ -49,7 +51,7 @@ class Evaluation:
     @property
     def ok(self) -> bool:
         """Whether all points are well and may be committed."""
-        return not np.any(self.status)
+        return not np.any(self.status) and self.summary.failed == 0
 
     @property
     def failed(self) -> npt.NDArray[np.intp]:
@@ -69,15 +71,16 @@ class Evaluation:
 
 def _message(summary: Summary) -> str:
     text: str = summary.message.decode(errors="replace")
-    return f"point {summary.first_failed}: {text}" if summary.failed else text
+    where = [f"rank {summary.rank}"] if summary.rank >= 0 else []
+    where += [f"point {summary.first_failed}"] if summary.failed else []
+    return f"{', '.join(where)}: {text}" if where else text
 
 
 class States:
     """Integration points of one material, evaluated together. F, P, A and measures have the number
     of the point as their first axis. A set may have none, as of a process without cells.
 
-    Pickled with their material and their committed states; a trial is not kept, and the packing
-    has to be where it was."""
+    Pickled with their material and their committed states; a trial is not kept."""
 
     material: Material
     dimension: int   #: d, 2 or 3
@@ -118,23 +121,106 @@ class States:
         """Evaluation of all points at the total deformation gradients F (n, d, d) [-], with a
         Tangent or without, on so many threads (0: OMP_NUM_THREADS or all processors). Raises Error
         for arrays of another shape or type and where a point's status is < 0."""
-        n, d = len(self), self.dimension
-        deformation = _numbers(F, (n, d, d))
-        want = 0 if tangent is None else whole("tangent", tangent, 0, LARGEST_INT, bad_argument,
-                                               ", as grainlaw.Tangent.EXACT, or None")
-        threads = whole("threads", threads, -LARGEST_INT, LARGEST_INT, bad_argument, ", 0 for all")
-        P = np.full((n, d, d), np.nan)
-        A = np.full((n, d, d, d, d), np.nan) if want else None
-        status = np.zeros(n, np.intc)
-        reports = np.zeros(n, _report)
-        reports["size"] = _report.itemsize
-        summary = Summary(size=ctypes.sizeof(Summary))
-        result = library.grainlaw_points_evaluate(
-            self._handle, deformation.ctypes.data, want, P.ctypes.data, None if A is None else A.ctypes.data,
-            status.ctypes.data, reports.ctypes.data, threads, ctypes.byref(summary))
-        if result < 0:
-            raise Error(result, _message(summary), summary.first_failed if summary.failed else None)
-        return Evaluation(P, A, status, reports, summary)
+        return self._evaluate(None, len(self), F, tangent, threads)
+
+    def evaluate_some(self, which: npt.ArrayLike, F: npt.ArrayLike, tangent: int | None = None,
+                      threads: int = 0) -> Evaluation:
+        """Evaluation of the points of these numbers (m,) at F (m, d, d) [-]; P, A, status and
+        reports are in their order. Other points keep their trials. Raises as evaluate() does, and
+        for numbers outside the set or twice."""
+        numbers = _points(which)
+        return self._evaluate(numbers, len(numbers), F, tangent, threads)
+
+    def answer(self, tangent: int | None = None, threads: int = 0) -> Evaluation:
+        """P and A of the committed states, without an increment and with the bits that were
+        committed, A where the same tangent was asked for then: what a host goes on from after a
+        restart. status and reports are those of no evaluation."""
+        out = _Outcome(len(self), self.dimension, tangent)
+        result = library.grainlaw_points_answer(
+            self._handle, out.want, out.P.ctypes.data, None if out.A is None else out.A.ctypes.data,
+            _threads(threads), ctypes.byref(out.summary))
+        return out.evaluation(result)
+
+    def _evaluate(self, which: npt.NDArray[np.uintp] | None, n: int, F: npt.ArrayLike,
+                  tangent: int | None, threads: int) -> Evaluation:
+        deformation = _numbers(F, (n, self.dimension, self.dimension))
+        out = _Outcome(n, self.dimension, tangent)
+        result = library.grainlaw_points_evaluate_some(
+            self._handle, n, None if which is None else which.ctypes.data, deformation.ctypes.data,
+            0, out.want, out.P.ctypes.data, 0, None if out.A is None else out.A.ctypes.data, 0,
+            out.status.ctypes.data, out.reports.ctypes.data, _threads(threads),
+            ctypes.byref(out.summary))
+        return out.evaluation(result)
+
+    def cost(self) -> Array:
+        """Processor time of the last evaluation of each point (n,) [s]; 0 before any."""
+        seconds = np.zeros(len(self))
+        check(library.grainlaw_points_cost(self._handle, seconds.ctypes.data))
+        return seconds
+
+    def resize(self, count: int, material: Material | None = None) -> None:
+        """Another number of points: those from `count` on are released, new ones begin at F = I, of
+        the set's material or of this one."""
+        count = whole("number of points", count, 0, sys.maxsize, bad_argument)
+        check(library.grainlaw_points_resize(self._handle, count,
+                                             None if material is None else material._handle))
+
+    def clone_some(self, which: npt.ArrayLike, source: States, which_of_source: npt.ArrayLike
+                   ) -> None:
+        """Make the points `which` copies of those of another set, or of this one, committed and
+        trial."""
+        to, of = _points(which), _points(which_of_source)
+        if len(to) != len(of):
+            raise bad_argument(f"{len(of)} points to copy to {len(to)}: expected as many")
+        check(library.grainlaw_points_clone_some(self._handle, len(to), to.ctypes.data,
+                                                 source._handle, of.ctypes.data))
+
+    def save_some(self, which: npt.ArrayLike) -> list[bytes]:
+        """The committed states of these points, each as bytes that State.load() takes too."""
+        numbers = _points(which)
+        offsets = np.zeros(len(numbers) + 1, np.uintp)
+        call = functools.partial(library.grainlaw_points_save_some, self._handle, len(numbers),
+                                 numbers.ctypes.data)
+        check(call(None, offsets.ctypes.data))
+        data = ctypes.create_string_buffer(max(1, int(offsets[-1])))
+        check(call(data, offsets.ctypes.data))
+        ends = offsets.tolist()
+        return [data.raw[start:end] for start, end in zip(ends, ends[1:])]
+
+    def load_some(self, which: npt.ArrayLike, saved: Sequence[bytes]) -> None:
+        """Replace the committed states of these points by saved ones, each as bytes: all or, on an
+        Error, none."""
+        numbers = _points(which)
+        parts = [as_bytes(one, "a saved point") for one in saved]
+        if len(parts) != len(numbers):
+            raise bad_argument(f"{len(parts)} saved points for {len(numbers)}: expected as many")
+        offsets = np.zeros(len(parts) + 1, np.uintp)
+        np.cumsum([len(part) for part in parts], out=offsets[1:])
+        load_by(library.grainlaw_points_load_some, self._handle, len(numbers), numbers.ctypes.data,
+                b"".join(parts), offsets.ctypes.data)
+
+    def share(self, rank: int, reduce: Callable[[Array, str], npt.ArrayLike] | None) -> None:
+        """Share failures with other ranks: evaluations and commits are then calls of all of them, and
+        agree on status, message and step ratio. reduce(values, "min" or "sum") returns what the
+        ranks' values come to, e.g. by mpi4py's allreduce; None: not shared any more."""
+        def call(_: Any, values: Any, n: int, op: int) -> None:
+            own = np.ctypeslib.as_array(values, (n,))
+            assert reduce is not None
+            own[:] = reduce(own.copy(), "sum" if op else "min")
+
+        callback = REDUCE(call) if reduce else REDUCE(0)
+        rank = whole("rank", rank, 0, LARGEST_INT, bad_argument)
+        check(library.grainlaw_points_share(self._handle, rank, callback, None))
+        self._reduce = callback   # as long as the set may call it
+
+    def agree(self, error: Exception | None = None) -> None:
+        """Tell the ranks of a shared set how something else went, a call of all of them: raises Error
+        with the first text on all where one has an error."""
+        text = "" if error is None else str(error)
+        status = Status.OK if error is None else getattr(error, "status", Status.FILE_ERROR)
+        message = ctypes.create_string_buffer(text.encode()[:255], 256)
+        check(library.grainlaw_points_agree(self._handle, status, message, len(message)),
+              message.value.decode(errors="replace"))
 
     def set_time_step(self, step: float) -> None:
         """How long increments take from now on, in the host's unit, e.g. `LoadSteps.part`: a
@@ -155,18 +241,12 @@ class States:
 
     def save(self) -> bytes:
         """The committed states as bytes, those of grainlaw_points_save."""
-        return _saved(library.grainlaw_points_save, self._handle)
+        return saved_by(library.grainlaw_points_save, self._handle)
 
     def load(self, saved: bytes | bytearray | memoryview) -> None:
         """Replace the committed states by saved ones: all of them or, on an Error, none."""
-        try:
-            saved = bytes(memoryview(saved))
-        except TypeError:
-            raise bad_argument(f"expected saved states as bytes, got {type(saved).__name__}") from None
-        message = ctypes.create_string_buffer(256)
-        status = library.grainlaw_points_load(self._handle, saved, len(saved), message,
-                                              len(message))
-        check(status, message.value.decode(errors="replace"))
+        data = as_bytes(saved, "saved states")
+        load_by(library.grainlaw_points_load, self._handle, data, len(data))
 
     def measure(self, what: int) -> Array:
         """A Measure of the trial, or of the committed state where there is no trial: (n,),
@@ -259,14 +339,17 @@ class State(States):
         """Evaluation at the total deformation gradient F (d, d) [-], with a Tangent or without.
         Raises Error for an array of another shape or type and for a status < 0."""
         d = self.dimension
-        answer = super().evaluate(_numbers(F, (d, d))[None], tangent, threads)
-        A = None if answer.A is None else answer.A[0]
-        return Evaluation(answer.P[0], A, answer.status[0], answer.reports[0], answer.summary)
+        return _of_one(super().evaluate(_numbers(F, (d, d))[None], tangent, threads))
+
+    def answer(self, tangent: int | None = None, threads: int = 1) -> Evaluation:
+        """P and A of the committed state, without an increment and with the bits that were
+        committed."""
+        return _of_one(super().answer(tangent, threads))
 
     def save(self) -> bytes:
         """The committed state as bytes, those of grainlaw_state_save. What C saves can be loaded, and
         C's grainlaw_state_load reads them."""
-        return _saved(library.grainlaw_state_save, self._state(0))
+        return saved_by(library.grainlaw_state_save, self._state(0))
 
     def measure(self, what: int) -> Any:
         """A Measure of the trial, or of the committed state where there is no trial: a number,
@@ -274,18 +357,48 @@ class State(States):
         return super().measure(what)[0]
 
 
-def _saved(function: Callable[..., int], handle: Any) -> bytes:
-    size = ctypes.c_size_t()
-    check(function(handle, None, ctypes.byref(size)))
-    data = ctypes.create_string_buffer(size.value)
-    check(function(handle, data, ctypes.byref(size)))
-    return data.raw
+def _of_one(answer: Evaluation) -> Evaluation:
+    A = None if answer.A is None else answer.A[0]
+    return Evaluation(answer.P[0], A, answer.status[0], answer.reports[0], answer.summary)
 
 
 def _restore(kind: type[States], material: Material, count: int, saved: bytes) -> States:
     states = kind(material, count)
     states.load(saved)
     return states
+
+
+class _Outcome:
+    """Arrays for the library to fill, of n points."""
+
+    def __init__(self, n: int, d: int, tangent: int | None) -> None:
+        self.want = 0 if tangent is None else whole(
+            "tangent", tangent, 0, LARGEST_INT, bad_argument, ", as grainlaw.Tangent.EXACT, or None")
+        self.P = np.full((n, d, d), np.nan)
+        self.A = np.full((n, d, d, d, d), np.nan) if self.want else None
+        self.status = np.zeros(n, np.intc)
+        self.reports = np.zeros(n, _report)
+        self.reports["size"] = _report.itemsize
+        self.summary = Summary(size=ctypes.sizeof(Summary))
+
+    def evaluation(self, result: int) -> Evaluation:
+        if result < 0:
+            point = self.summary.first_failed if self.summary.failed else None
+            raise Error(result, _message(self.summary), point)
+        return Evaluation(self.P, self.A, self.status, self.reports, self.summary)
+
+
+def _threads(threads: int) -> int:
+    return whole("threads", threads, -LARGEST_INT, LARGEST_INT, bad_argument, ", 0 for all")
+
+
+def _points(which: npt.ArrayLike) -> npt.NDArray[np.uintp]:
+    numbers = np.asarray(which)
+    if numbers.size == 0 and numbers.ndim == 1:
+        return np.zeros(0, np.uintp)
+    if numbers.ndim != 1 or numbers.dtype.kind not in "iu" or int(numbers.min()) < 0:
+        raise bad_argument(f"numbers of points {which!r}: expected whole numbers from 0 on, one axis")
+    return np.ascontiguousarray(numbers, np.uintp)
 
 
 def _numbers(F: npt.ArrayLike, shape: tuple[int, ...]) -> Array:

@@ -40,6 +40,7 @@ int main(void) {
   SUMMARY_FIELD(failed)
   SUMMARY_FIELD(first_failed)
   SUMMARY_FIELD(message)
+  SUMMARY_FIELD(rank)
   PARTICLE_FIELD(position)
   PARTICLE_FIELD(rotation)
   PARTICLE_FIELD(radius)

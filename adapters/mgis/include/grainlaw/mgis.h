@@ -79,13 +79,9 @@ typedef struct grainlaw_mgis_behaviour {
 GRAINLAW_API int grainlaw_mgis_integrate(grainlaw_mgis_behaviour*, int dimension,
                                          grainlaw_mgis_data*);
 
-/* States in memory now: those of the points, and trials of first increments that were retried. The
- * budget for idle states is GRAINLAW_IDLE_MEMORY [MiB, default 1024]. A state is idle when it has
- * not been asked for during four calls per state in memory. Freed are
- * - trials of first increments when they are idle, or take more than a quarter of the budget; one
- *   that the host still comes back to is made again;
- * - states that went through an increment, when they are idle and all together exceed the budget.
- */
+/* States in memory now: those of points that went through an increment. They are freed when they are
+ * idle and all together exceed the budget GRAINLAW_IDLE_MEMORY [MiB, default 1024]. A state is idle
+ * when it has not been asked for during four calls per state in memory. */
 GRAINLAW_API size_t grainlaw_mgis_states(const grainlaw_mgis_behaviour*);
 
 /* Free all states at the end of an analysis; the next starts anew. No thread may be inside. */

@@ -1,4 +1,4 @@
-#include "state/saved_bytes.hpp"
+#include "base/saved_bytes.hpp"
 
 #include "base/error.hpp"
 
