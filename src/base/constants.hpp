@@ -205,7 +205,7 @@ template <int D>
 GRAINLAW_TUNED(double, drag_stiffness, (D == 2 ? 1.0 : 2.0));
 // Share of a contact's stiffness that the springs have without forces [-]; chosen.
 GRAINLAW_TUNED(double, drag_floor, 5e-4);
-// The same where forces may fade [-]; chosen.
+// That share where forces may fade [-]; chosen.
 GRAINLAW_TUNED(double, fading_drag_floor, 1.5e-3);
 // Share of their stiffness that the springs have where the strain turns back [-]; chosen.
 GRAINLAW_TUNED(double, drag_of_reversal, 0.1);

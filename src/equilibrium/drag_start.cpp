@@ -45,8 +45,8 @@ struct Straining {
   bool timed = false;   // by the host
 };
 
-// Share of stiffness and of rates that drag keeps, which is 1 where the strain rate does not reverse,
-// and the derivative of its logarithm by the strain.
+// Share of its stiffness and rates that drag keeps as the strain rate reverses, and the derivative of
+// the share's logarithm by the strain.
 template <int D>
 struct Reversal {
   double share = 1;
