@@ -241,6 +241,12 @@ GRAINLAW_TUNED(double, hand_over, (D == 2 ? 5e-4 : 2e-5));
 GRAINLAW_TUNED(double, hand_over_power, 1.2);
 // Ratio of tolerance to hand_over above which relaxation alone is faster [-]; reach.
 GRAINLAW_TUNED(double, worth_newton, 0.5);
+// Tiny increments: their tolerance over the relative change of a contact's force [-], and the strain
+// that counts as none, by rounding [-]. Most steps of a relaxation before Newton, of which one
+// iteration costs as many [steps]; error.
+GRAINLAW_TUNED(double, share_of_increment, 0.03);
+GRAINLAW_TUNED(double, least_strain, 1e-13);
+GRAINLAW_TUNED(long, steps_of_tiny_increment, 100);
 // Factors by which later rounds lower the residual of the hand-over [-]; sweep.
 GRAINLAW_TUNED(double, tighter, 0.3);
 GRAINLAW_TUNED(double, much_tighter, 0.1);

@@ -2,6 +2,7 @@
 
 #include "base/constants.hpp"
 #include "equilibrium/drag_start.hpp"
+#include "equilibrium/tiny_increment.hpp"
 #include "reference/servo.hpp"
 
 #include <algorithm>
@@ -90,8 +91,7 @@ bool has_drag(const Request<D>& request) {
 // Tolerance, raised to what rounding leaves [-]. It changes while forces fade.
 template <int D>
 double reachable(const Request<D>& request, const Increment<D>& increment) {
-  const double rounding = increment.scale().relative_rounding();
-  return std::max(request.tolerance, std::min(rounding, tuned::largest_rounding));
+  return std::max(request.tolerance, least_tolerance(increment));
 }
 
 // Solves one sub-increment in rounds of relaxation and Newton. Later rounds go on from the last
@@ -113,6 +113,7 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
   if (request.trying == Trying::whole && increment.scale().below_rounding())
     return is_free(request, increment);
   double target = reachable(request, increment);
+  if (whole && solve_tiny(request, target, w)) return true;
   double hand_over = hand_over_of<D>(increment.problem().nodes());
   if (has_drag(request)) hand_over = tuned::drag_hand_over;
   const bool coarse = target > tuned::worth_newton * hand_over;
