@@ -48,8 +48,15 @@ GRAINLAW_TUNED(double, mass_factor, 0.8);
 // Ratio of pseudo-mass to stiffness for components of F that are found [-]; method.
 GRAINLAW_TUNED(double, deformation_mass_factor, 0.8);
 // Steps between updates of the masses [steps]. Older masses exceed the stability limit because
-// contacts have closed since; sweep.
-GRAINLAW_TUNED(long, mass_interval, 10);
+// contacts have closed since; sweep, of spheres spheres.
+template <int D>
+GRAINLAW_TUNED(long, mass_interval, (D == 2 ? 10 : 15));
+// Gap of contacts that take part in steps of spheres, besides a mean overlap: multiples of the largest
+// displacement between the last two updates [-]; chosen.
+GRAINLAW_TUNED(double, near_moves, 2);
+// Residual above which steps of spheres are in single precision, whose rounding is a tenth of it [-];
+// method.
+GRAINLAW_TUNED(double, single_precision, 1e-5);
 // Steps between updates of the masses while contacts hardly change, a multiple of mass_interval
 // [steps]; sweep.
 GRAINLAW_TUNED(long, long_interval, 30);
@@ -194,6 +201,11 @@ GRAINLAW_TUNED(double, derivative_residual, 1e-9);
 // methods often stall below it, and factors cost more than the rest is worth; error.
 GRAINLAW_TUNED(double, derivative_share, 1e-3);
 GRAINLAW_TUNED(double, loose_derivative_residual, 1e-6);
+// Reduction of the residual in a cycle of BiCGStab in single precision, the most products of a cycle,
+// and the reduction above which cycles stall [-]; timed.
+GRAINLAW_TUNED(double, reduction_of_cycle, 1e-3);
+GRAINLAW_TUNED(int, products_of_cycle, 100);
+GRAINLAW_TUNED(double, slow_cycle, 0.5);
 // Most products of one Krylov method before the next one starts, several times the usual number
 // [products]; timed.
 GRAINLAW_TUNED(int, most_products, 400);
@@ -225,11 +237,18 @@ GRAINLAW_TUNED(double, drag_hand_over, 1e-4);
 // ---- Strategy --------------------------------------------------------------------------------
 
 // Residual at which a relaxation hands over to Newton for usual_nodes [-], and exponent with which
-// it falls. Newton's region of convergence shrinks with the packing size; sweep.
-GRAINLAW_TUNED(double, hand_over, 5e-4);
+// it falls. Newton's region of convergence shrinks with the packing size; sweep, of spheres spheres.
+template <int D>
+GRAINLAW_TUNED(double, hand_over, (D == 2 ? 5e-4 : 2e-5));
 GRAINLAW_TUNED(double, hand_over_power, 1.2);
 // Ratio of tolerance to hand_over above which relaxation alone is faster [-]; reach.
 GRAINLAW_TUNED(double, worth_newton, 0.5);
+// Tiny increments: their tolerance over the relative change of a contact's force [-], and the strain
+// that counts as none, by rounding [-]. Most steps of a relaxation before Newton, of which one
+// iteration costs as many [steps]; error.
+GRAINLAW_TUNED(double, share_of_increment, 0.03);
+GRAINLAW_TUNED(double, least_strain, 1e-13);
+GRAINLAW_TUNED(long, steps_of_tiny_increment, 100);
 // Factors by which later rounds lower the residual of the hand-over [-]; sweep.
 GRAINLAW_TUNED(double, tighter, 0.3);
 GRAINLAW_TUNED(double, much_tighter, 0.1);

@@ -1,11 +1,14 @@
-// Vector registers of two, four or eight doubles by the compiler's vector types. Functions are
+// Vector registers of two, four or eight doubles, or twice as many floats, by the compiler's vector
+// types. Functions are
 // compiled once per instruction set, and the best one is chosen when the program starts.
 #pragma once
 
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <new>
+#include <type_traits>
 #include <vector>
 
 // All functions that pass vectors by value are inlined, so the ABI warning is void.
@@ -80,23 +83,28 @@ inline bool four_lanes() {
     return simd::four_lanes() ? function##_of_four arguments : function##_of_two arguments;  \
   }
 
-template <std::size_t width>
+template <std::size_t width, class Real = double>
 struct Vector {
-  typedef double type __attribute__((vector_size(width * sizeof(double))));
-  typedef long long bits __attribute__((vector_size(width * sizeof(double))));
+  using Integer = std::conditional_t<sizeof(Real) == 4, int, long long>;
+  typedef Real type __attribute__((vector_size(width * sizeof(Real))));
+  typedef Integer bits __attribute__((vector_size(width * sizeof(Real))));
 };
-template <std::size_t width>
-using Lanes = typename Vector<width>::type;
+template <std::size_t width, class Real = double>
+using Lanes = typename Vector<width, Real>::type;
 using Record = Lanes<4>;
+template <class Vector>
+using Element = std::remove_cvref_t<decltype(Vector{}[0])>;
+template <class Vector>
+inline constexpr std::size_t width_of = sizeof(Vector) / sizeof(Element<Vector>);
 
-template <std::size_t width>
-GRAINLAW_INLINE Lanes<width> load(const double* from) {
-  Lanes<width> value;
+template <std::size_t width, class Real>
+GRAINLAW_INLINE Lanes<width, Real> load(const Real* from) {
+  Lanes<width, Real> value;
   std::memcpy(&value, from, sizeof value);
   return value;
 }
 template <class Vector>
-GRAINLAW_INLINE void store(double* to, const Vector& value) {
+GRAINLAW_INLINE void store(Element<Vector>* to, const Vector& value) {
   std::memcpy(to, &value, sizeof value);
 }
 
@@ -142,8 +150,14 @@ GRAINLAW_INLINE void transpose(Lanes<8>& a, Lanes<8>& b, Lanes<8>& c, Lanes<8>& 
 template <class Vector>
 GRAINLAW_INLINE Vector square_root(const Vector& a) {
   Vector root;
-#pragma GCC unroll 8
-  for (std::size_t k = 0; k < sizeof a / sizeof(double); ++k) root[k] = __builtin_sqrt(a[k]);
+#pragma GCC unroll 16
+  for (std::size_t k = 0; k < width_of<Vector>; ++k) {
+    if constexpr (sizeof a[0] == sizeof(float)) {
+      root[k] = __builtin_sqrtf(a[k]);
+    } else {
+      root[k] = __builtin_sqrt(a[k]);
+    }
+  }
   return root;
 }
 template <class Vector>
@@ -156,25 +170,26 @@ GRAINLAW_INLINE Vector smallest(const Vector& a, const Vector& b) {
 }
 template <class Vector>
 GRAINLAW_INLINE Vector magnitude(const Vector& a) {
-  using Bits = typename simd::Vector<sizeof a / sizeof(double)>::bits;
-  return (Vector)((Bits)a & 0x7fffffffffffffffLL);
+  using Of = simd::Vector<width_of<Vector>, Element<Vector>>;
+  constexpr auto all_but_sign = std::numeric_limits<typename Of::Integer>::max();
+  return (Vector)((typename Of::bits)a & all_but_sign);
 }
 // Changes the sign of the components where `sign` is -0.
 template <class Vector>
 GRAINLAW_INLINE Vector flip(const Vector& a, const Vector& sign) {
-  using Bits = typename simd::Vector<sizeof a / sizeof(double)>::bits;
+  using Bits = typename simd::Vector<width_of<Vector>, Element<Vector>>::bits;
   return (Vector)((Bits)a ^ (Bits)sign);
 }
 template <class Vector>
 GRAINLAW_INLINE double sum(const Vector& a) {
   double total = 0;
-  for (std::size_t k = 0; k < sizeof a / sizeof(double); ++k) total += a[k];
+  for (std::size_t k = 0; k < width_of<Vector>; ++k) total += a[k];
   return total;
 }
 template <class Vector>
 GRAINLAW_INLINE double most(const Vector& a) {
   double value = a[0];
-  for (std::size_t k = 1; k < sizeof a / sizeof(double); ++k) value = a[k] > value ? a[k] : value;
+  for (std::size_t k = 1; k < width_of<Vector>; ++k) value = a[k] > value ? a[k] : value;
   return value;
 }
 

@@ -127,12 +127,13 @@ GRAINLAW_INLINE void put_records(const Columns<width>& from, double* to) {
 }
 
 // Sum over contacts by their positions in a group, with equal bits for any width.
-template <std::size_t width>
+template <std::size_t width, class Real = double>
 struct GroupSum {
-  static constexpr std::size_t parts = ContactList<2>::group / width;
-  Lanes<width> part[parts] = {};
+  static constexpr std::size_t parts =
+      ContactList<2>::group * sizeof(double) / sizeof(Real) / width;
+  Lanes<width, Real> part[parts] = {};
 
-  GRAINLAW_INLINE void add(std::size_t c, const Lanes<width>& value) {
+  GRAINLAW_INLINE void add(std::size_t c, const Lanes<width, Real>& value) {
     part[c / width % parts] += value;
   }
   GRAINLAW_INLINE double total() const {

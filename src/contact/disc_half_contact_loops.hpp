@@ -20,7 +20,7 @@ constexpr std::size_t lanes = HalfContacts<2>::lanes;
 static_assert(lanes == ContactList<2>::group);
 
 struct Loop {
-  std::span<const HalfContactSlots::Rows> groups;
+  std::span<const HalfContactRows> groups;
   HalfContacts<2>::Nodes* nodes;
   const HalfContacts<2>::Bounds* bounds;
   const HalfContacts<2>::Drag* drags = nullptr;
@@ -46,7 +46,7 @@ GRAINLAW_INLINE Relinearised relinearise_loop(const Loop& loop) {
   GroupSum<width> force, touching;
   const double* own_records = loop.records;
   for (std::size_t g = 0; g < loop.groups.size(); ++g) {
-    const HalfContactSlots::Rows rows = loop.groups[g];
+    const HalfContactRows rows = loop.groups[g];
     HalfContacts<2>::Nodes& nodes = loop.nodes[g];
     const HalfContacts<2>::Bounds& bounds = loop.bounds[g];
     for (std::size_t k = 0; k < lanes; k += width, own_records += 4 * width) {
@@ -119,7 +119,7 @@ GRAINLAW_INLINE StepMeasures step_loop(const Loop& loop) {
   double* last_displacements = loop.last_displacements;
   const double* own_records = loop.records;
   for (std::size_t g = 0; g < loop.groups.size(); ++g) {
-    const HalfContactSlots::Rows rows = loop.groups[g];
+    const HalfContactRows rows = loop.groups[g];
     const HalfContacts<2>::Nodes& nodes = loop.nodes[g];
     for (std::size_t k = 0; k < lanes;
          k += width, last_displacements += 4 * width, own_records += 4 * width) {

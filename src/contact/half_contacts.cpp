@@ -21,7 +21,8 @@ double spin_of(const MassRecord<3>& stiffness) { return stiffness.spin_x; }
 
 template <int D>
 void HalfContacts<D>::arrange(const ContactList<D>& list, const Packing& packing,
-                              std::span<const LeastMass<D>> least_masses, bool at_rest) {
+                              std::span<const LeastMass<D>> least_masses,
+                              std::span<const ParticleRecord<D>> particles, bool at_rest) {
   const auto& radius = packing.radius;
   particles_ = packing.size();
   const double sum = std::accumulate(radius.begin(), radius.end(), 0.0);
@@ -30,15 +31,29 @@ void HalfContacts<D>::arrange(const ContactList<D>& list, const Packing& packing
     resize_with_capacity(velocity_, particles_);
     for (std::size_t p = 0; p < particles_; ++p) velocity_[p] = velocity(p);
   }
-  slots_.sort(std::span(list.i).first(list.size()), std::span(list.j).first(list.size()),
-              particles_, packing.order);
-  resize_with_capacity(nodes_, slots_.groups().size());
-  std::fill(nodes_.begin(), nodes_.end(), Nodes{});
-  bound_masses(least_masses);
-  for (auto* records : {&positions_, &displacements_, &last_displacements_}) {
-    resize_with_capacity(*records, lanes * nodes_.size());
-    std::fill(records->begin(), records->end(), ParticleRecord<D>{});
+  if constexpr (D == 3) {
+    measure_moves();
+    if (at_rest) moved_ = 0;
+    find_near(list, particles);
   }
+  slots_.sort(std::span(list.i).first(list.size()), std::span(list.j).first(list.size()),
+              particles_, packing.order, near_);
+  const std::size_t groups = slots_.groups().size();
+  resize_with_capacity(bounds_, groups);
+  bound_masses(least_masses);
+  resize_with_capacity(positions_, lanes * groups);
+  std::fill(positions_.begin(), positions_.end(), ParticleRecord<D>{});
+  const auto begin = [&]<class Real>(Steps<Real>& steps) {
+    resize_with_capacity(steps.nodes, groups);
+    std::fill(steps.nodes.begin(), steps.nodes.end(), typename Columns::template NodesOf<Real>{});
+    for (auto* records : {&steps.displacements, &steps.last_displacements}) {
+      resize_with_capacity(*records, lanes * groups);
+      std::fill(records->begin(), records->end(), typename Columns::template Displacement<Real>{});
+    }
+    resize_with_capacity(steps.half_contacts, slots_.row_count());
+  };
+  begin(steps_);
+  if constexpr (D == 3) begin(single_);
   if (!at_rest) {
     for (std::size_t p = 0; p < particles_; ++p) set_velocity(p, velocity_[p]);
   }
@@ -53,7 +68,6 @@ template <int D>
 void HalfContacts<D>::bound_masses(std::span<const LeastMass<D>> least_masses) {
   Bounds padding{};
   for (auto* column : {&padding.least, &padding.least_spin}) std::fill_n(*column, lanes, 1.0);
-  resize_with_capacity(bounds_, nodes_.size());
   std::fill(bounds_.begin(), bounds_.end(), padding);
   for (std::size_t p = 0; p < particles_; ++p) {
     const std::size_t slot = slots_.slot(p);
@@ -74,12 +88,22 @@ void HalfContacts<D>::list_half_contacts(const ContactList<D>& list, double long
   std::fill_n(padding.normal[0], lanes, 1.0);
   resize_with_capacity(starts_, slots_.row_count());
   std::fill(starts_.begin(), starts_.end(), padding);
-  resize_with_capacity(half_contacts_, slots_.row_count());
-  std::fill(half_contacts_.begin(), half_contacts_.end(), HalfContact{});
+  if constexpr (D == 2) {
+    std::fill(steps_.half_contacts.begin(), steps_.half_contacts.end(),
+              typename Columns::HalfContact{});
+  }
+  auto& partners = [this]() -> auto& {
+    if constexpr (D == 2) {
+      return steps_.half_contacts;
+    } else {
+      return starts_;
+    }
+  }
+  ();
   std::int32_t first = 0;
   for (const auto& group : slots_.groups()) {
     for (std::size_t row = group.first; row < group.first + group.count; ++row) {
-      std::iota(half_contacts_[row].other, half_contacts_[row].other + lanes, first);
+      std::iota(partners[row].other, partners[row].other + lanes, first);
     }
     first += lanes;
   }
@@ -98,41 +122,51 @@ void HalfContacts<D>::list_half_contacts(const ContactList<D>& list, double long
       start.force[m][k] = (D == 3 ? sign : 1) * list.start_force[m][c];
     }
     if constexpr (D == 2) start.spin[k] = list.start_roll[c];
-    HalfContact& half = half_contacts_[row];
-    half.other[k] = static_cast<std::int32_t>(slots_.slot(at(other)));
-    half.normal_stiffness[k] = list.normal_stiffness[c];
+    partners[row].other[k] = static_cast<std::int32_t>(slots_.slot(at(other)));
+    partners[row].normal_stiffness[k] = list.normal_stiffness[c];
   };
-  for (std::size_t c = 0; c < list.size(); ++c) {
-    add(c, list.i[c], list.j[c], -1);
-    add(c, list.j[c], list.i[c], 1);
-  }
+  const auto add_all = [&](auto&& wanted) {
+    for (std::size_t c = 0; c < list.size(); ++c) {
+      if (!wanted(c)) continue;
+      add(c, list.i[c], list.j[c], -1);
+      add(c, list.j[c], list.i[c], 1);
+    }
+  };
+  if (near_.empty()) return add_all([](std::size_t /*c*/) { return true; });
+  add_all([this](std::size_t c) { return near_[c] != 0; });
+  add_all([this](std::size_t c) { return near_[c] == 0; });
 }
 
 template <int D>
 void HalfContacts<D>::add_drag(std::span<const ParticleRecord<D>> particles,
                                const NodeDrag<D>& drag, double factor) {
-  resize_with_capacity(drags_, nodes_.size());
-  std::fill(drags_.begin(), drags_.end(), Drag{});
-  for (std::size_t p = 0; p < particles_; ++p) {
-    const std::size_t slot = slots_.slot(p);
-    const std::size_t k = slot % lanes;
-    Drag& of = drags_[slot / lanes];
-    of.stiffness[k] = drag.stiffness[p].x;
-    of.stiffness_spin[k] = spin_of(drag.stiffness[p]);
-    for (std::size_t c = 0; c < components; ++c) {
-      of.distance[c][k] = component(drag.expected[p], c) - component(particles[p], c);
+  with_steps([&]<class Real>(Steps<Real>& steps) {
+    resize_with_capacity(steps.drags, steps.nodes.size());
+    std::fill(steps.drags.begin(), steps.drags.end(), typename Columns::template DragOf<Real>{});
+    for (std::size_t p = 0; p < particles_; ++p) {
+      const std::size_t slot = slots_.slot(p);
+      const std::size_t k = slot % lanes;
+      auto& of = steps.drags[slot / lanes];
+      of.stiffness[k] = static_cast<Real>(drag.stiffness[p].x / steps.stiffness);
+      of.stiffness_spin[k] = static_cast<Real>(spin_of(drag.stiffness[p]) / steps.stiffness);
+      for (std::size_t c = 0; c < components; ++c) {
+        const double distance = component(drag.expected[p], c) - component(particles[p], c);
+        of.distance[c][k] = static_cast<Real>(distance / steps.length);
+      }
+      auto& nodes = steps.nodes[slot / lanes];
+      const Real share = static_cast<Real>(factor);
+      nodes.mass[k] += share * of.stiffness[k];
+      nodes.gain[k] = 1 / nodes.mass[k];
+      nodes.mass_spin[k] += share * of.stiffness_spin[k];
+      nodes.gain_spin[k] = 1 / nodes.mass_spin[k];
     }
-    Nodes& nodes = nodes_[slot / lanes];
-    nodes.mass[k] += factor * of.stiffness[k];
-    nodes.gain[k] = 1 / nodes.mass[k];
-    nodes.mass_spin[k] += factor * of.stiffness_spin[k];
-    nodes.gain_spin[k] = 1 / nodes.mass_spin[k];
-  }
+  });
 }
 
 #define GRAINLAW_FOR(D)                                                                           \
   template void HalfContacts<D>::arrange(const ContactList<D>&, const Packing&,                   \
-                                         std::span<const LeastMass<D>>, bool);                    \
+                                         std::span<const LeastMass<D>>,                           \
+                                         std::span<const ParticleRecord<D>>, bool);               \
   template void HalfContacts<D>::add_drag(std::span<const ParticleRecord<D>>, const NodeDrag<D>&, \
                                           double);
 GRAINLAW_FOR(2)

@@ -20,44 +20,78 @@
 namespace grainlaw::core {
 
 // Columns of half contacts and their nodes, one lane for each node of a group. The lanes of registers
-// do not decide their number, so that results do not depend on these.
+// do not decide their number, so that results do not depend on these. Steps of spheres may be in
+// single precision, of which the widest registers have sixteen lanes.
 template <int D>
 struct HalfContactColumns {
-  static constexpr std::size_t lanes = HalfContactSlots::lanes;
+  static constexpr std::size_t lanes = D == 2 ? 8 : 16;
   static constexpr std::size_t components = Dimension<D>::unknowns;  // of a displacement
   static constexpr std::size_t tangents = Dimension<D>::tangents;
-  using Doubles = double[lanes];
+  template <class Real>
+  using Lanes = Real[lanes];
+  using Doubles = Lanes<double>;
 
+  template <class Real>
   struct Masses {
-    Doubles mass, mass_spin, gain, gain_spin;  // gain = 1 / mass
+    Lanes<Real> mass, mass_spin, gain, gain_spin;  // gain = 1 / mass
   };
+  template <class Real>
   struct Motion {
-    Doubles moved[components], velocity[components];
+    Lanes<Real> moved[components], velocity[components];
   };
   struct Rotations {
     Doubles spin;  // R_i theta_i + R_j theta_j there
+  };
+  struct Partners {
+    std::int32_t other[lanes];
+    Doubles normal_stiffness;
   };
   template <int>
   struct Nothing {};
 
   // Discs have their displacements in records alone.
-  struct alignas(64) Nodes : Masses, std::conditional_t<D == 3, Motion, Nothing<0>> {};
+  template <class Real>
+  struct alignas(64) NodesOf : Masses<Real>,
+                               std::conditional_t<D == 3, Motion<Real>, Nothing<0>> {};
   struct alignas(64) Bounds {
     Doubles least, least_spin, inverse_radius;  // lower bounds of the masses; 1 / R
   };
-  struct alignas(64) Drag {
-    Doubles stiffness, stiffness_spin;
-    Doubles distance[components];  // to the expected position
+  template <class Real>
+  struct alignas(64) DragOf {
+    Lanes<Real> stiffness, stiffness_spin;
+    Lanes<Real> distance[components];  // to the expected position
   };
   // Columns of ContactList<D>, with the node as j.
-  struct alignas(64) Start : std::conditional_t<D == 2, Rotations, Nothing<1>> {
+  struct alignas(64) Start : std::conditional_t<D == 2, Rotations, Partners> {
     Doubles offset[D], inverse_reach, normal[D], force[tangents];
   };
-  struct alignas(32) HalfContact {
+  template <class Real>
+  struct alignas(D == 2 ? 32 : 64) HalfContactOf {
     std::int32_t other[lanes];
-    Doubles normal[D], normal_stiffness;
-    Doubles normal_force, trial[tangents], stretch;  // at the positions: kn overlap, trial force, s
+    Lanes<Real> normal[D], normal_stiffness;
+    // At the positions: kn overlap, trial force, s.
+    Lanes<Real> normal_force, trial[tangents], stretch;
   };
+  template <class Real>
+  struct alignas(8 * sizeof(Real)) SphereDisplacement {
+    Real component[8];
+  };
+  template <class Real>
+  using Displacement = std::conditional_t<D == 2, ParticleRecord<D>, SphereDisplacement<Real>>;
+
+  // What steps change and read, in units of a length [m] and a stiffness [N/m].
+  template <class Real>
+  struct Steps {
+    double length = 1, stiffness = 1;
+    simd::Column<NodesOf<Real>> nodes;
+    simd::Column<DragOf<Real>> drags;  // empty: none
+    simd::Column<HalfContactOf<Real>> half_contacts;
+    // Records of the nodes, and of those that pad the last group.
+    simd::Column<Displacement<Real>> displacements, last_displacements;
+  };
+  using Nodes = NodesOf<double>;
+  using Drag = DragOf<double>;
+  using HalfContact = HalfContactOf<double>;
 };
 
 // What a step of a relaxation measures of the state before it.
@@ -81,16 +115,22 @@ class HalfContacts : public HalfContactColumns<D> {
   using Columns = HalfContactColumns<D>;
   using Columns::components;
   using Columns::lanes;
+  template <class Real>
+  using Steps = typename Columns::template Steps<Real>;
+  template <class Real>
+  using SphereDisplacement = typename Columns::template SphereDisplacement<Real>;
   using typename Columns::Bounds;
-  using typename Columns::Drag;
-  using typename Columns::HalfContact;
-  using typename Columns::Nodes;
   using typename Columns::Start;
 
   // Lists the half contacts, which have no weights. least_masses: kn of translations [N/m], that of
-  // spins, and 1 / R. Particles are at rest, or keep the velocities of the last list.
+  // spins, and 1 / R. Particles are at rest, or keep the velocities of the last list. Spheres sort
+  // the contacts that are near at these positions first.
   void arrange(const ContactList<D>& list, const Packing& packing,
-               std::span<const LeastMass<D>> least_masses, bool at_rest);
+               std::span<const LeastMass<D>> least_masses,
+               std::span<const ParticleRecord<D>> particles, bool at_rest);
+
+  // Sets the precision of the steps from the next relinearise() on, for spheres.
+  void step_in_single_precision(bool single);
 
   // Computes forces at these positions, and masses of `factor` times the larger of
   // sum_stiffnesses() and least_masses. Displacements restart from 0.
@@ -113,20 +153,45 @@ class HalfContacts : public HalfContactColumns<D> {
 
   [[nodiscard]] Velocity velocity(std::size_t particle) const;
   void set_velocity(std::size_t particle, const Velocity& velocity);
+  void find_near(const ContactList<D>& list, std::span<const ParticleRecord<D>> particles);
+  void measure_moves();
   void bound_masses(std::span<const LeastMass<D>> least_masses);
   void list_half_contacts(const ContactList<D>& list, double longest_reach);
 
+  // Calls act() with the steps of the present precision.
+  template <class Act>
+  decltype(auto) with_steps(Act&& act) {
+    if constexpr (D == 3) {
+      if (single_precision_) return act(single_);
+    }
+    return act(steps_);
+  }
+  template <class Act>
+  decltype(auto) with_steps(Act&& act) const {
+    if constexpr (D == 3) {
+      if (single_precision_) return act(single_);
+    }
+    return act(steps_);
+  }
+
   std::size_t particles_ = 0;
   double curvature_ = 0;  // 1 / mean branch [1/m]
-  HalfContactSlots slots_;
-  simd::Column<Nodes> nodes_;
+  HalfContactSlots<lanes> slots_;
   simd::Column<Bounds> bounds_;
-  simd::Column<Drag> drags_;  // empty: none
   simd::Column<Start> starts_;
-  simd::Column<HalfContact> half_contacts_;
-  // Records of the nodes, and of those that pad the last group.
-  simd::Column<ParticleRecord<D>> positions_, displacements_, last_displacements_;
+  simd::Column<ParticleRecord<D>> positions_;  // of the nodes, and of those that pad the last group
+  Steps<double> steps_;
+  Steps<float> single_;  // of spheres
+  bool single_precision_ = false;
   std::vector<Velocity> velocity_;  // by particles, while listing
+  // Near contacts of spheres have gaps below a margin; rows up to the last near one take part in
+  // steps.
+  std::vector<double> overlap_;  // by contacts, while listing
+  std::vector<char> near_;
+  std::vector<HalfContactRows> near_rows_;
+  double mean_stiffness_ = 0;  // [N/m]
+  double mean_overlap_ = 0;    // [m]
+  double moved_ = 0;           // largest displacement between the last two relinearisations [m]
 };
 
 }  // namespace grainlaw::core

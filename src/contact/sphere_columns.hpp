@@ -9,31 +9,35 @@ using namespace simd;
 using disc_loops::GroupSum;
 
 // Vectors with a component per register.
-template <std::size_t width>
+template <std::size_t width, class Real = double>
 struct Triple {
-  Lanes<width> x, y, z;
+  Lanes<width, Real> x, y, z;
 };
 
-template <std::size_t width>
-GRAINLAW_INLINE Lanes<width> dot(const Triple<width>& a, const Triple<width>& b) {
+template <std::size_t width, class Real>
+GRAINLAW_INLINE Lanes<width, Real> dot(const Triple<width, Real>& a, const Triple<width, Real>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-template <std::size_t width>
-GRAINLAW_INLINE Triple<width> cross(const Triple<width>& a, const Triple<width>& b) {
+template <std::size_t width, class Real>
+GRAINLAW_INLINE Triple<width, Real> cross(const Triple<width, Real>& a,
+                                          const Triple<width, Real>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-template <std::size_t width>
-GRAINLAW_INLINE Triple<width> sum(const Triple<width>& a, const Triple<width>& b) {
+template <std::size_t width, class Real>
+GRAINLAW_INLINE Triple<width, Real> sum(const Triple<width, Real>& a,
+                                        const Triple<width, Real>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 // Computes a + factor b.
-template <std::size_t width>
-GRAINLAW_INLINE Triple<width> sum(const Triple<width>& a, const Lanes<width>& factor,
-                                  const Triple<width>& b) {
+template <std::size_t width, class Real>
+GRAINLAW_INLINE Triple<width, Real> sum(const Triple<width, Real>& a,
+                                        const std::type_identity_t<Lanes<width, Real>>& factor,
+                                        const Triple<width, Real>& b) {
   return {a.x + factor * b.x, a.y + factor * b.y, a.z + factor * b.z};
 }
-template <std::size_t width>
-GRAINLAW_INLINE Triple<width> product(const Lanes<width>& factor, const Triple<width>& a) {
+template <std::size_t width, class Real>
+GRAINLAW_INLINE Triple<width, Real> product(const std::type_identity_t<Lanes<width, Real>>& factor,
+                                            const Triple<width, Real>& a) {
   return {factor * a.x, factor * a.y, factor * a.z};
 }
 

@@ -15,7 +15,8 @@ namespace {
 using namespace simd;
 using namespace node_step;
 
-static_assert(tuned::long_interval % tuned::mass_interval == 0);
+static_assert(tuned::long_interval % tuned::mass_interval<2> == 0);
+static_assert(tuned::long_interval % tuned::mass_interval<3> == 0);
 static_assert(tuned::extrapolation_interval % tuned::long_interval == 0);
 
 GRAINLAW_CLONES void find_gains(const double* mass, double* gain, std::size_t doubles) {
@@ -57,11 +58,14 @@ void Relaxation<D>::refresh() {
   if (by_half_contacts_) {
     if (relisted || !arranged_) {
       memory_.half_contacts.arrange(increment_.contacts(), *problem_.packing,
-                                    increment_.masses().least(), at_rest_);
+                                    increment_.masses().least(), motion_.records(), at_rest_);
       arranged_ = true;
       at_rest_ = false;
     }
     refresh_start_ = refresh_max_ = residual_;
+    if constexpr (D == 3) {
+      memory_.half_contacts.step_in_single_precision(residual_ > tuned::single_precision);
+    }
     return increment_.relinearise(memory_.half_contacts);
   }
   increment_.sum_masses();
@@ -214,9 +218,17 @@ template <int D>
 bool Relaxation<D>::run(double tolerance, long steps, double least_force) {
   motion_.load_records();
   arranged_ = false;
-  refresh();
-  increment_.update_forces();
-  if (increment_.residual_norm() < tolerance) return true;
+  if (D == 3 && by_half_contacts_) {
+    increment_.keep_neighbours();
+    increment_.update_forces();
+    residual_ = increment_.residual_norm();
+    if (residual_ < tolerance) return true;
+    refresh();
+  } else {
+    refresh();
+    increment_.update_forces();
+    if (increment_.residual_norm() < tolerance) return true;
+  }
   for (const long last = steps_ + steps;;) {
     step();
     const bool stop =
@@ -224,7 +236,7 @@ bool Relaxation<D>::run(double tolerance, long steps, double least_force) {
         (steps_ % tuned::floor_window == 0 &&
          (increment_.scale().mean_force() < least_force || flutters() || increment_.runs_away()));
     const bool over = residual_ < tolerance || stop;
-    if (over || (steps_ % tuned::mass_interval == 0 && !may_skip_refresh())) {
+    if (over || (steps_ % tuned::mass_interval<D> == 0 && !may_skip_refresh())) {
       if (by_half_contacts_) memory_.half_contacts.displace(motion_.records());
       motion_.store_records();
       refresh();

@@ -2,6 +2,7 @@
 
 #include "base/constants.hpp"
 #include "equilibrium/drag_start.hpp"
+#include "equilibrium/tiny_increment.hpp"
 #include "increment/contact_state.hpp"
 #include "reference/servo.hpp"
 
@@ -46,9 +47,10 @@ int limit_of(int count, int least, std::size_t nodes) {
   return std::min(count, std::max(least, static_cast<int>(fewer)));
 }
 
+template <int D>
 double hand_over_of(std::size_t nodes) {
-  return tuned::hand_over * std::pow(std::min(1.0, tuned::usual_nodes / static_cast<double>(nodes)),
-                                     tuned::hand_over_power);
+  const double share = tuned::usual_nodes / static_cast<double>(nodes);
+  return tuned::hand_over<D> * std::pow(std::min(1.0, share), tuned::hand_over_power);
 }
 
 // Mean force below which the packing counts as free of stress [N]. Bonds need no force and exclude
@@ -90,8 +92,7 @@ bool has_drag(const Request<D>& request) {
 // Tolerance, raised to what rounding leaves [-]. It changes while forces fade.
 template <int D>
 double reachable(const Request<D>& request, const Increment<D>& increment) {
-  const double rounding = increment.scale().relative_rounding();
-  return std::max(request.tolerance, std::min(rounding, tuned::largest_rounding));
+  return std::max(request.tolerance, least_tolerance(increment));
 }
 
 // Solves one sub-increment in rounds of relaxation and Newton. Later rounds go on from the last
@@ -113,7 +114,8 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
   if (request.trying == Trying::whole && increment.scale().below_rounding())
     return is_free(request, increment);
   double target = reachable(request, increment);
-  double hand_over = hand_over_of(increment.problem().nodes());
+  if (whole && solve_tiny(request, target, w)) return true;
+  double hand_over = hand_over_of<D>(increment.problem().nodes());
   if (has_drag(request)) hand_over = tuned::drag_hand_over;
   const bool coarse = target > tuned::worth_newton * hand_over;
   if (coarse) hand_over = target;

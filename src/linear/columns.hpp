@@ -1,4 +1,5 @@
-// Elements of block matrices and of vectors over their nodes: whole registers of 4 or 8 doubles.
+// Elements of block matrices and of vectors over their nodes: whole registers of 4 or 8 doubles,
+// or of as many floats.
 #pragma once
 
 #include "base/simd.hpp"
@@ -18,15 +19,15 @@ using BlockSize = std::conditional_t<width == 4, SizeOfFour, SizeOfEight>;
 constexpr std::size_t rows_of(std::size_t b) { return b <= 4 ? 4 : 8; }
 
 // Column of a block, or the entries of a vector at a node. Padding rows are zero.
-template <std::size_t width>
-struct alignas(width * sizeof(double)) BlockColumn {
-  double lane[width] = {};
+template <std::size_t width, class Real = double>
+struct alignas(width * sizeof(Real)) BlockColumn {
+  Real lane[width] = {};
 };
 
 // Entry of several vectors, one vector per lane: right-hand sides or solutions.
-template <std::size_t width>
-struct alignas(width * sizeof(double)) Together {
-  double lane[width] = {};
+template <std::size_t width, class Real = double>
+struct alignas(width * sizeof(Real)) Together {
+  Real lane[width] = {};
 };
 
 }  // namespace grainlaw::core

@@ -16,23 +16,20 @@ namespace {
 
 constexpr std::size_t b = Dilu::size;
 constexpr std::size_t width = Dilu::width;
-using Block = Dilu::Block;
+using Block = Dilu::Block<double>;
 using Triangle = Dilu::Triangle;
 using V = Lanes<width>;
 
 std::size_t at(std::int32_t place) { return static_cast<std::size_t>(place); }
 
-struct Values {
+struct Factorisation {
   const BlockMatrix<width>& matrix;
   const BlockColumn<width>* regularisation;
   const std::int32_t* node;
-  BlockColumn<width>* scale;
   const std::size_t *block_of_lower, *block_of_upper;
   const std::int32_t* upper_of_lower;
-  Block* inverse;
-  Block* diagonal;
-  Triangle& lower;
-  Triangle& upper;
+  const Triangle &lower, &upper;
+  Dilu::Values<double>& to;
 };
 
 GRAINLAW_INLINE Block scaled(const BlockColumn<width>* a, const BlockColumn<width>& row,
@@ -78,48 +75,52 @@ Block inverse_of(const Block& given) {
   return result;
 }
 
-void find_scale(const Values& v) {
+void find_scale(const Factorisation& v) {
   for (std::size_t q = 0; q < v.matrix.nodes; ++q) {
     const std::size_t node = at(v.node[q]);
-    v.scale[q] = {};
+    v.to.scale[q] = {};
     for (std::size_t k = 0; k < b; ++k) {
       const double value =
           std::abs(v.matrix.block(node)[k].lane[k]) + v.regularisation[node].lane[k];
-      v.scale[q].lane[k] = 1 / std::sqrt(value);
+      v.to.scale[q].lane[k] = 1 / std::sqrt(value);
     }
   }
 }
 
-GRAINLAW_CLONES void factorise_rows(const Values& v) {
+GRAINLAW_CLONES void factorise_rows(const Factorisation& v) {
   const auto& matrix = v.matrix;
   for (std::size_t q = 0; q < matrix.nodes; ++q) {
     const std::size_t node = at(v.node[q]);
-    const auto& row = v.scale[q];
+    const auto& row = v.to.scale[q];
     const Block own = scaled(matrix.block(node), row, row);
     Block pivot = own;
     for (std::size_t k = 0; k < b; ++k) {
       pivot.column[k].lane[k] += v.regularisation[node].lane[k] * row.lane[k] * row.lane[k];
     }
     for (std::size_t k = v.lower.begin[q]; k < v.lower.begin[q + 1]; ++k) {
-      v.lower.block[k] =
-          scaled(matrix.block(v.block_of_lower[k]), row, v.scale[at(v.lower.node[k])]);
-      add_product(pivot, 1, v.lower.block[k], v.upper.block[at(v.upper_of_lower[k])]);
+      v.to.lower[k] =
+          scaled(matrix.block(v.block_of_lower[k]), row, v.to.scale[at(v.lower.node[k])]);
+      add_product(pivot, 1, v.to.lower[k], v.to.upper[at(v.upper_of_lower[k])]);
     }
-    const Block inverse = v.inverse[q] = inverse_of(pivot);
+    const Block inverse = v.to.inverse[q] = inverse_of(pivot);
     for (std::size_t k = v.lower.begin[q]; k < v.lower.begin[q + 1]; ++k) {
-      const Block block = v.lower.block[k];
-      v.lower.block[k] = {};
-      add_product(v.lower.block[k], -1, inverse, block);
+      const Block block = v.to.lower[k];
+      v.to.lower[k] = {};
+      add_product(v.to.lower[k], -1, inverse, block);
     }
     for (std::size_t k = v.upper.begin[q]; k < v.upper.begin[q + 1]; ++k) {
-      v.upper.block[k] = {};
-      add_product(v.upper.block[k], -1, inverse,
-                  scaled(matrix.block(v.block_of_upper[k]), row, v.scale[at(v.upper.node[k])]));
+      v.to.upper[k] = {};
+      add_product(v.to.upper[k], -1, inverse,
+                  scaled(matrix.block(v.block_of_upper[k]), row, v.to.scale[at(v.upper.node[k])]));
     }
-    v.diagonal[q] = {};
-    add_product(v.diagonal[q], 1, inverse, own);
-    for (std::size_t k = 0; k < b; ++k) v.diagonal[q].column[k].lane[k] -= 2;
+    v.to.diagonal[q] = {};
+    add_product(v.to.diagonal[q], 1, inverse, own);
+    for (std::size_t k = 0; k < b; ++k) v.to.diagonal[q].column[k].lane[k] -= 2;
   }
+}
+
+GRAINLAW_CLONES void round_to_single(const double* from, std::size_t count, float* to) {
+  for (std::size_t k = 0; k < count; ++k) to[k] = static_cast<float>(from[k]);
 }
 
 }  // namespace
@@ -132,7 +133,6 @@ void Dilu::list_rows() {
     resize_with_capacity(triangle->begin, nodes_ + 1);
     std::fill(triangle->begin.begin(), triangle->begin.end(), 0);
     resize_with_capacity(triangle->node, edges_.size());
-    resize_with_capacity(triangle->block, edges_.size());
   }
   for (const auto& [p, q] : edges_) {
     ++upper_.begin[at(std::min(place[at(p)], place[at(q)])) + 1];
@@ -162,32 +162,47 @@ void Dilu::list_rows() {
 }
 
 void Dilu::factorise(const BlockMatrix<width>& matrix, std::span<const Column> regularisation) {
+  const auto size = [this](auto& values) {
+    for (auto* column : {&values.scale, &values.half, &values.rest}) {
+      resize_with_capacity(*column, nodes_);
+    }
+    for (auto* blocks : {&values.inverse, &values.diagonal}) resize_with_capacity(*blocks, nodes_);
+    for (auto* blocks : {&values.lower, &values.upper}) {
+      resize_with_capacity(*blocks, edges_.size());
+    }
+    for (auto* several : {&values.half_together, &values.rest_together}) {
+      reserve_with_capacity(*several, b * nodes_);
+    }
+  };
   const bool known = nodes_ == matrix.nodes && edges_ == matrix.edges;
   if (!known) {
     nodes_ = matrix.nodes;
     copy_with_capacity(matrix.edges, edges_);
     list_rows();
-    resize_with_capacity(scale_, nodes_);
-    resize_with_capacity(inverse_, nodes_);
-    resize_with_capacity(diagonal_, nodes_);
-    resize_with_capacity(half_, nodes_);
-    resize_with_capacity(rest_, nodes_);
-    reserve_with_capacity(half_together_, b * nodes_);
-    reserve_with_capacity(rest_together_, b * nodes_);
+    size(double_);
+    size(single_);
   }
-  const Values values{matrix,
-                      regularisation.data(),
-                      order_.node().data(),
-                      scale_.data(),
-                      block_of_lower_.data(),
-                      block_of_upper_.data(),
-                      upper_of_lower_.data(),
-                      inverse_.data(),
-                      diagonal_.data(),
-                      lower_,
-                      upper_};
-  find_scale(values);
-  factorise_rows(values);
+  const Factorisation factorisation{matrix,
+                                    regularisation.data(),
+                                    order_.node().data(),
+                                    block_of_lower_.data(),
+                                    block_of_upper_.data(),
+                                    upper_of_lower_.data(),
+                                    lower_,
+                                    upper_,
+                                    double_};
+  find_scale(factorisation);
+  factorise_rows(factorisation);
+  const auto round = [](const auto& from, auto& to) {
+    round_to_single(reinterpret_cast<const double*>(from.data()),
+                    from.size() * sizeof from[0] / sizeof(double),
+                    reinterpret_cast<float*>(to.data()));
+  };
+  round(double_.scale, single_.scale);
+  round(double_.inverse, single_.inverse);
+  round(double_.diagonal, single_.diagonal);
+  round(double_.lower, single_.lower);
+  round(double_.upper, single_.upper);
 }
 
 }  // namespace grainlaw::core

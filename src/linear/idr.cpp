@@ -230,7 +230,7 @@ void Krylov<Entry>::enter_next_space(Dilu& dilu) {
 }
 
 template <class Entry>
-int Krylov<Entry>::idr(Dilu& dilu, std::span<const Entry> b, std::span<Entry> x,
+int Krylov<Entry>::idr(Dilu& dilu, std::span<const Right> b, std::span<Right> x,
                        const Scalars& tolerance, int most_products) {
   start(dilu, b, tolerance);
   start_shadows();
@@ -251,7 +251,7 @@ int Krylov<Entry>::idr(Dilu& dilu, std::span<const Entry> b, std::span<Entry> x,
     enter_next_space(dilu);
     ++products;
   }
-  dilu.backward<Entry>(solution_, x);
+  finish(dilu, x);
   return products;
 }
 

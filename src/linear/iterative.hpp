@@ -16,7 +16,7 @@ struct IterativeOptions {
   int products;      // most products of one method before the next one
 };
 
-// BiCGStab, followed by IDR where that stalls.
+// Cycles of BiCGStab in single precision with residuals in double, followed by IDR where they stall.
 class Iterative {
  public:
   static constexpr std::size_t width = Dilu::width;
@@ -34,17 +34,18 @@ class Iterative {
   int products = 0;  // of all solves
 
  private:
-  template <class Entry>
-  struct Memory {
+  template <class Entry, class Single>
+  struct MemoryOf {
+    Krylov<Single> single;
     Krylov<Entry> krylov;
     std::vector<Entry> rest, step, tried;
   };
   template <class Entry>
-  Memory<Entry>& memory();
+  auto& memory();
 
   Dilu dilu_;
-  Memory<Column> one_;
-  Memory<Together<width>> several_;
+  MemoryOf<Column, BlockColumn<width, float>> one_;
+  MemoryOf<Together<width>, Together<width, float>> several_;
 };
 
 }  // namespace grainlaw::core

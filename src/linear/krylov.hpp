@@ -11,23 +11,28 @@
 
 namespace grainlaw::core {
 
-// Solver of A x = b. Entry is BlockColumn<8> for one vector, Together<8> for several. It stops when
+// Number per lane; for one vector all lanes agree.
+struct alignas(64) LaneScalars {
+  double lane[Dilu::width] = {};
+};
+
+// Solver of A x = b. Entry is BlockColumn<8> for one vector, Together<8> for several, with floats for
+// iterates in single precision, which reduce the residual by at most 1e-5. It stops when
 // the norm of the preconditioned residual is below tolerance x that of b, or after most_products
 // (IDR up to four more). It returns the number of products, and the caller checks the residual.
 // After a breakdown x is the last iterate. A may be singular if b is in its range.
 template <class Entry>
 class Krylov {
  public:
-  // Number per lane; for one vector all lanes agree.
-  struct alignas(64) Scalars {
-    double lane[Dilu::width] = {};
-  };
+  using Scalars = LaneScalars;
+  using Right = InDouble<Entry>;
 
-  // BiCGStab [vandervorst1992]: little work besides the products, but it may stall.
-  int bicgstab(Dilu& dilu, std::span<const Entry> b, std::span<Entry> x, const Scalars& tolerance,
+  // BiCGStab [vandervorst1992] in single precision: little work besides the products, but it may
+  // stall.
+  int bicgstab(Dilu& dilu, std::span<const Right> b, std::span<Right> x, const Scalars& tolerance,
                int most_products);
-  // IDR(4) [vangijzen2011]: more work besides the products, but steadier.
-  int idr(Dilu& dilu, std::span<const Entry> b, std::span<Entry> x, const Scalars& tolerance,
+  // IDR(4) [vangijzen2011] in double precision: more work besides the products, but steadier.
+  int idr(Dilu& dilu, std::span<const Right> b, std::span<Right> x, const Scalars& tolerance,
           int most_products);
 
   // Reserves memory for so many nodes, untouched until it is needed.
@@ -38,7 +43,8 @@ class Krylov {
   using Vector = std::vector<Entry>;
   using Four = std::array<Scalars, shadows>;
 
-  void start(Dilu& dilu, std::span<const Entry> b, const Scalars& tolerance);
+  void start(Dilu& dilu, std::span<const Right> b, const Scalars& tolerance);
+  void finish(Dilu& dilu, std::span<Right> x);
   [[nodiscard]] bool any_left() const;
   void see_residual(const Scalars& square);
   // Quotient; 0 in converged lanes and where the method breaks down.
@@ -58,6 +64,7 @@ class Krylov {
   std::array<Four, shadows> matrix_{};  // of shadows by images
   Four right_{};                        // of shadows by the residual
   Scalars omega_{};
+  Scalars largest_{};                     // entry of b, the unit of iterates in single precision
   Scalars enough_{};                      // square of the target residual
   std::array<bool, Dilu::width> left_{};  // lanes that have not converged
 };

@@ -10,8 +10,11 @@ namespace grainlaw::core {
 template <class Entry>
 struct lanes_of;
 
-template <>
-struct lanes_of<BlockColumn<8>> {
+template <class Entry>
+inline constexpr bool in_single = sizeof(Entry) == Dilu::width * sizeof(float);
+
+template <class Real>
+struct lanes_of<BlockColumn<8, Real>> {
   static constexpr std::size_t entries = 1;  // per node
   static constexpr std::size_t shadows = 8;  // numbers of a shadow per entry
   static void reduce(double* sums) {
@@ -24,8 +27,8 @@ struct lanes_of<BlockColumn<8>> {
   }
 };
 
-template <>
-struct lanes_of<Together<8>> {
+template <class Real>
+struct lanes_of<Together<8, Real>> {
   static constexpr std::size_t entries = Dilu::size;
   static constexpr std::size_t shadows = 1;
   static void reduce(double* /*sums*/) {}

@@ -30,7 +30,8 @@ struct Scene {
   }
 
   void arrange(bool at_rest) {
-    half_contacts.arrange(contacts, material->packing, increment.masses().least(), at_rest);
+    half_contacts.arrange(contacts, material->packing, increment.masses().least(), records(),
+                          at_rest);
   }
 
   ContactTotals relinearise() {
@@ -140,7 +141,8 @@ TEST(half_contacts, give_every_particle_its_force_in_whatever_order_they_lie) {
   for (std::size_t p = reversed.size(); p > 0; --p) {
     reversed.order.push_back(static_cast<std::int32_t>(p - 1));
   }
-  scene.half_contacts.arrange(scene.contacts, reversed, scene.increment.masses().least(), true);
+  scene.half_contacts.arrange(scene.contacts, reversed, scene.increment.masses().least(),
+                              scene.records(), true);
   scene.relinearise();
   EXPECT_EQ(largest_difference(scene.step(), expected), 0);
 }

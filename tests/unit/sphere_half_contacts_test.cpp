@@ -41,7 +41,8 @@ struct Scene {
   }
 
   void arrange(bool at_rest) {
-    half_contacts.arrange(contacts, material->packing, increment.masses().least(), at_rest);
+    half_contacts.arrange(contacts, material->packing, increment.masses().least(), records(),
+                          at_rest);
   }
 
   ContactTotals relinearise() {
@@ -147,29 +148,72 @@ TEST(sphere_half_contacts, give_every_particle_its_force_in_whatever_order_they_
   for (std::size_t p = reversed.size(); p > 0; --p) {
     reversed.order.push_back(static_cast<std::int32_t>(p - 1));
   }
-  scene.half_contacts.arrange(scene.contacts, reversed, scene.increment.masses().least(), true);
+  scene.half_contacts.arrange(scene.contacts, reversed, scene.increment.masses().least(),
+                              scene.records(), true);
   scene.relinearise();
   EXPECT_EQ(largest_difference(scene.step(), expected), 0);
 }
 
+// Places after steps, a new list or a change of precision, and another step.
+enum class Between { nothing, new_list, precisions };
+std::vector<std::array<double, components>> moved(Between between, bool single = false) {
+  Scene scene(rough());
+  scene.half_contacts.step_in_single_precision(single);
+  scene.relinearise();
+  const auto& law = scene.material->law;
+  for (int k = 0; k < 5; ++k) scene.half_contacts.step(law, 0.9, gain);
+  scene.half_contacts.displace(scene.records());
+  if (between == Between::new_list) scene.arrange(false);
+  if (between == Between::precisions) scene.half_contacts.step_in_single_precision(!single);
+  scene.relinearise();
+  scene.half_contacts.step(law, 0.9, gain);
+  scene.half_contacts.displace(scene.records());
+  std::vector<std::array<double, components>> places;
+  for (const auto& at : scene.records()) {
+    auto& place = places.emplace_back();
+    std::copy_n(&at.x, components, place.begin());
+  }
+  return places;
+}
+
 TEST(sphere_half_contacts, keep_their_velocities_in_a_new_list) {
-  const auto moved = [](bool anew) {
-    Scene scene(rough());
-    const auto& law = scene.material->law;
-    for (int k = 0; k < 5; ++k) scene.half_contacts.step(law, 0.9, gain);
-    scene.half_contacts.displace(scene.records());
-    if (anew) scene.arrange(false);
-    scene.relinearise();
-    scene.half_contacts.step(law, 0.9, gain);
-    scene.half_contacts.displace(scene.records());
-    std::vector<std::array<double, components>> places;
-    for (const auto& at : scene.records()) {
-      auto& place = places.emplace_back();
-      std::copy_n(&at.x, components, place.begin());
+  for (const bool single : {false, true}) {
+    EXPECT_EQ(moved(Between::new_list, single), moved(Between::nothing, single));
+  }
+}
+
+TEST(sphere_half_contacts, keep_their_velocities_when_the_precision_changes) {
+  const auto start = Scene(rough()).places();
+  const auto expected = moved(Between::nothing);
+  double largest = 0;
+  for (std::size_t p = 0; p < expected.size(); ++p) {
+    for (std::size_t c = 0; c < components; ++c) {
+      largest = std::max(largest, std::abs(expected[p][c] - component(start[p], c)));
     }
-    return places;
-  };
-  EXPECT_EQ(moved(true), moved(false));
+  }
+  for (const bool single : {false, true}) {
+    const auto found = moved(Between::precisions, single);
+    for (std::size_t p = 0; p < expected.size(); ++p) {
+      for (std::size_t c = 0; c < components; ++c) {
+        EXPECT_NEAR(found[p][c], expected[p][c], 1e-5 * largest);
+      }
+    }
+  }
+}
+
+// Single precision has units of the packing, so that neither large nor small numbers are lost.
+TEST(sphere_half_contacts, have_nearly_the_forces_of_the_law_in_single_precision) {
+  for (const auto& description : {rough(), locked(rough())}) {
+    for (const double stiffness : {0.0, 1e4}) {
+      Scene scene(description, stiffness);
+      const auto expected = scene.residual();
+      scene.half_contacts.step_in_single_precision(true);
+      scene.relinearise();
+      const double force = scene.totals.force / scene.totals.weights;
+      EXPECT_LE(largest_difference(scene.step(), expected), 1e-5 * force);
+      EXPECT_GT(largest_difference(scene.step(), expected), 0);
+    }
+  }
 }
 
 }  // namespace

@@ -1,21 +1,25 @@
+// Stress error against CPU time of increments of YADE's spheres, beside YADE.
 #include "evidence/studies/spheres/spheres.hpp"
 
 #include "evidence/studies/statistics.hpp"
 
 #include "app/cpu_time.hpp"
+#include "app/progress.hpp"
 #include "app/table.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace verification::spheres {
 namespace {
+
+constexpr int increments = 20;
+constexpr double exactly = 1e-11;  // tolerance of what errors are measured against [-]
 
 // YADE's 500 spheres.
 grainlaw::Material reference(const StudyOptions& options, double tolerance, double viscous_number) {
@@ -38,69 +42,175 @@ viscous_number = {}
       options.scene("../../tests/data/spheres500.toml").parent_path().string());
 }
 
-// What an increment takes with YADE 2023.02a on one core of a Zen 3 [ms], by its stress error: as it is used
-// (damping 0.2, half the critical step), with the best setting found, and to 1e-8.
-struct Peer {
+// F after so many increments, which need not be whole.
+Tensor3 isochoric(double number) {
+  const double axial = 1 - increment * number;
+  const double lateral = 1 / std::sqrt(axial);
+  return {lateral, 0, 0, 0, lateral, 0, 0, 0, axial};
+}
+Tensor3 triaxial(double number) { return deformation_after(number); }
+Tensor3 shear(double number) { return deformation_after(number, true); }
+
+struct Path {
   const char* name;
-  double error, cpu;
+  Tensor3 (*deformation)(double number);
 };
-constexpr std::array<Peer, 3> yade{
-    {{"as used", 4e-5, 153}, {"best setting", 2.5e-4, 32}, {"to 1e-8", 1e-8, 2780}}};
+constexpr std::array<Path, 3> paths{
+    {{"isochoric", isochoric}, {"triaxial", triaxial}, {"shear", shear}}};
+
+// What an increment takes in YADE 2023.02a, by its stress error. As used: damping 0.1, whole step, to
+// an unbalanced force of 1e-3. Best setting found: damping 0.5, ramp of 30 steps. `bar` is what its
+// time over ours should be, `least` on each path.
+struct Peer {
+  const char* setting;
+  double error;
+  int steps;
+  bool tangent;  // ours with the exact tangent
+  double bar, least;
+};
+constexpr std::array<Peer, 3> peers{{{"as used", 4e-5, 340, false, 40, 35},
+                                     {"best setting", 2.5e-4, 70, false, 9, 8},
+                                     {"to 1e-8", 1e-8, 6180, true, 80, 70}}};
+
+double difference(const Tensor3& P, const Tensor3& right) {
+  double error = 0;
+  double size = 0;
+  for (std::size_t m = 0; m < 9; ++m) {
+    error += std::pow(P[m] - right[m], 2);
+    size += std::pow(right[m], 2);
+  }
+  return std::sqrt(error / size);
+}
+
+// Stresses after each increment, and the states before it.
+struct Lead {
+  std::vector<Tensor3> stress;
+  std::vector<std::vector<std::byte>> before;
+};
+
+Lead lead_along(const grainlaw::Material& material, const Path& path, int parts) {
+  grainlaw::State state(material);
+  Lead lead;
+  for (int k = 1; k <= increments; ++k) {
+    lead.before.push_back(state.save());
+    Tensor3 P{};
+    for (int part = 1; part <= parts; ++part) {
+      const Tensor3 F = path.deformation(k - 1 + static_cast<double>(part) / parts);
+      if (state.evaluate(F, P).status != GRAINLAW_OK) return lead;
+      state.commit();
+    }
+    lead.stress.push_back(P);
+  }
+  return lead;
+}
+
+struct Measured {
+  std::vector<double> error, off_path;  // against equilibrium, and against the finer path [-]
+  std::vector<double> cpu, cpu_exact;   // [ms]
+
+  void add(const Measured& other) {
+    const auto append = [](std::vector<double>& to, const std::vector<double>& from) {
+      to.insert(to.end(), from.begin(), from.end());
+    };
+    append(error, other.error);
+    append(off_path, other.off_path);
+    append(cpu, other.cpu);
+    append(cpu_exact, other.cpu_exact);
+  }
+};
+
+Measured measure(const grainlaw::Material& material, const Path& path, const Lead& start,
+                 const Lead& equilibrium, const Lead& finer) {
+  grainlaw::State state(material);
+  Measured measured;
+  for (std::size_t k = 0; k < start.stress.size() && k < equilibrium.stress.size(); ++k) {
+    state.load(start.before[k]);
+    const Tensor3 F = path.deformation(static_cast<double>(k + 1));
+    Tensor3 P{};
+    Tangent3 A{};
+    const double begin = cpu_seconds();
+    if (state.evaluate(F, P).status != GRAINLAW_OK) break;
+    const double between = cpu_seconds();
+    if (state.evaluate(F, P, GRAINLAW_WANT_TANGENT_EXACT, A).status != GRAINLAW_OK) break;
+    measured.cpu_exact.push_back(1e3 * (cpu_seconds() - between));
+    measured.cpu.push_back(1e3 * (between - begin));
+    measured.error.push_back(difference(P, equilibrium.stress[k]));
+    if (k < finer.stress.size()) measured.off_path.push_back(difference(P, finer.stress[k]));
+  }
+  return measured;
+}
+
+// Our least time at an error as small as the peer's [ms]; 0: none is.
+double time_at(const std::vector<Measured>& by_tolerance, const Peer& peer) {
+  double least = 0;
+  for (const Measured& measured : by_tolerance) {
+    if (median(measured.error) > peer.error) continue;
+    const double cpu = median(peer.tangent ? measured.cpu_exact : measured.cpu);
+    if (least == 0 || cpu < least) least = cpu;
+  }
+  return least;
+}
 
 }  // namespace
 
-// Isochoric increments of 0.1 %, each from the state that was solved to 1e-11.
-void measure_error(const StudyOptions& options) {
-  constexpr int increments = 20;
+void measure_error(const StudyOptions& options, double yade_step, int finer_parts) {
+  constexpr std::array<double, 6> tolerances{1e-2, 1e-3, 3e-4, 1e-4, 1e-6, 1e-8};
+  constexpr std::array<double, 2> numbers{0, 1e-3};
   Table table(
-      "stress error and CPU time of an increment of 500 spheres of YADE's, medians of 20 isochoric "
-      "increments of 0.1 %; over YADE's time for an error as small, measured elsewhere",
-      {"viscous_number[-]", "tolerance[-]", "stress_error[-]", "cpu[ms]", "cpu_with_tangent[ms]",
-       "yade_as_used/cpu[-]", "yade_best/cpu[-]", "yade_1e-8/cpu_with_tangent[-]"});
-  for (const double number : {0.0, 1e-3}) {
-    const auto exact = reference(options, 1e-11, number);
-    for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-6, 1e-8}) {
-      const auto coarse = reference(options, tolerance, number);
-      grainlaw::State lead(exact);
-      grainlaw::State state(coarse);
-      std::vector<double> errors, plain, with_tangent;
-      for (int k = 1; k <= increments; ++k) {
-        const double axial = 1 - increment * k;
-        const double lateral = 1 / std::sqrt(axial);
-        const Tensor3 F{lateral, 0, 0, 0, lateral, 0, 0, 0, axial};
-        Tensor3 right{}, P{};
-        Tangent3 A{};
-        if (lead.evaluate(F, right).status != GRAINLAW_OK) break;
-        const double start = cpu_seconds();
-        if (state.evaluate(F, P).status != GRAINLAW_OK) break;
-        const double between = cpu_seconds();
-        if (state.evaluate(F, P, GRAINLAW_WANT_TANGENT_EXACT, A).status != GRAINLAW_OK) break;
-        plain.push_back(1e3 * (between - start));
-        with_tangent.push_back(1e3 * (cpu_seconds() - between));
-        double error = 0;
-        double size = 0;
-        for (std::size_t m = 0; m < 9; ++m) {
-          error += std::pow(P[m] - right[m], 2);
-          size += std::pow(right[m], 2);
-        }
-        errors.push_back(std::sqrt(error / size));
-        lead.commit();
-        state.load(lead.save());
+      fmt::format("increments of 0.1 % of 500 spheres of YADE's, {} of each path, from "
+                  "states solved to {:g}; stress errors against equilibrium at the same F "
+                  "from the same start (with drag from equilibrium on the whole path), and "
+                  "against a path of equilibria in increments {} times finer",
+                  increments, exactly, finer_parts),
+      {"path", "viscous_number[-]", "tolerance[-]", "error[-]", "off_finer_path[-]",
+       "cpu_median[ms]", "cpu_mean[ms]", "with_tangent_median[ms]", "with_tangent_mean[ms]"});
+  std::array<std::vector<Measured>, paths.size() + 1> equilibria;  // by tolerance; the last: all
+  equilibria.back().resize(tolerances.size());
+  Progress progress("spheres, error");
+  double done = 0;
+  for (std::size_t p = 0; p < paths.size(); ++p) {
+    const auto exact = reference(options, exactly, 0);
+    const Lead equilibrium = lead_along(exact, paths[p], 1);
+    const Lead finer = finer_parts > 0 ? lead_along(exact, paths[p], finer_parts) : Lead{};
+    for (const double number : numbers) {
+      const Lead own =
+          number > 0 ? lead_along(reference(options, exactly, number), paths[p], 1) : equilibrium;
+      for (std::size_t t = 0; t < tolerances.size(); ++t) {
+        progress.update(done++ / (paths.size() * numbers.size() * tolerances.size()),
+                        paths[p].name);
+        const auto material = reference(options, tolerances[t], number);
+        const Measured measured = measure(material, paths[p], own, equilibrium, finer);
+        table.row({paths[p].name, fmt::format("{:g}", number), fmt::format("{:g}", tolerances[t]),
+                   median(measured.error), median(measured.off_path), median(measured.cpu),
+                   average(measured.cpu), median(measured.cpu_exact), average(measured.cpu_exact)});
+        if (number > 0) continue;
+        equilibria[p].push_back(measured);
+        equilibria.back()[t].add(measured);
       }
-      const double cpu = median(plain);
-      const double exact_cpu = median(with_tangent);
-      const double error = median(errors);
-      const auto ratio = [&](const Peer& peer, double own) -> Table::Cell {
-        if (error > peer.error && peer.error > 1e-8) return std::string{};
-        if (peer.error <= 1e-8 && tolerance > 1e-8) return std::string{};
-        return peer.cpu / own;
-      };
-      table.row({fmt::format("{:g}", number), fmt::format("{:g}", tolerance), error, cpu, exact_cpu,
-                 ratio(yade[0], cpu), ratio(yade[1], cpu), ratio(yade[2], exact_cpu)});
     }
   }
   table.write(std::filesystem::path(options.output) / "study_spheres_error.csv");
   table.print();
+
+  constexpr double particles = 500;
+  Table verdict(
+      fmt::format("YADE's time over ours at an error against equilibrium as small, "
+                  "medians; a step of YADE takes {:.0f} ns a sphere",
+                  yade_step),
+      {"path", "yade_setting", "error[-]", "yade[ms]", "our_cpu[ms]", "ratio[-]", "bar[-]", "met"});
+  for (std::size_t p = 0; p < equilibria.size(); ++p) {
+    const bool all = p == paths.size();
+    for (const Peer& peer : peers) {
+      const double theirs = 1e-6 * yade_step * particles * peer.steps;
+      const double ours = time_at(equilibria[p], peer);
+      const double ratio = ours > 0 ? theirs / ours : 0;
+      const double bar = all ? peer.bar : peer.least;
+      verdict.row({all ? "all" : paths[p].name, peer.setting, peer.error, theirs, ours, ratio, bar,
+                   ratio >= bar ? "yes" : "no"});
+    }
+  }
+  verdict.write(std::filesystem::path(options.output) / "study_spheres_yade.csv");
+  verdict.print();
 }
 
 }  // namespace verification::spheres

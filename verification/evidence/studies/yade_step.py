@@ -1,10 +1,10 @@
 """What a step costs in YADE on this machine: CPU time per particle [ns], on the packing of tests/data.
 
-    yade -n -x -j1 yade_step.py DATA_DIRECTORY
+    yade -n -x -j1 yade_step.py DATA_DIRECTORY discs|spheres
 
-The discs of rve400_*.csv strained by 0.1 % in a periodic cell at constant area, as in the increments
-whose times scenes/reference/yade_cost.csv has: damping 0.1, linear contacts with friction, collisions by
-sweep and prune. Prints one line; needs Debian's package yade.
+The 400 discs of rve400_*.csv or the spheres of spheres500_*.csv strained by 0.1 % in a periodic cell at
+constant area or volume, as in the increments whose numbers of steps are known: damping 0.1, linear contacts
+with friction, collisions by sweep and prune. Prints one line; needs Debian's package yade.
 """
 
 import csv
@@ -27,7 +27,9 @@ from yade.wrapper import (
 )
 
 WARM_UP, STEPS, ROUNDS = 300, 2000, 3
-YOUNG, RATIO, FRICTION, DENSITY = 6e8, 0.8, 0.5, 2650.0
+RATIO, FRICTION, DENSITY = 0.8, 0.5, 2650.0
+discs = sys.argv[2] == "discs"
+name, YOUNG = ("rve400", 6e8) if discs else ("spheres500", 1e8)
 
 
 def rows(name):
@@ -35,21 +37,31 @@ def rows(name):
         return list(csv.DictReader(file))
 
 
-cell = {key: float(value) for key, value in rows("rve400_cell.csv")[0].items()}
-particles = rows("rve400_particles.csv")
-thickness = cell["thickness"]
+cell = {key: float(value) for key, value in rows(f"{name}_cell.csv")[0].items()}
+particles = rows(f"{name}_particles.csv")
+thickness = cell["thickness"] if discs else 0
 O.periodic = True
-O.cell.hSize = Matrix3(cell["H00"], cell["H01"], 0, cell["H10"], cell["H11"], 0, 0, 0, thickness)
+if discs:
+    cell |= {"H02": 0, "H12": 0, "H20": 0, "H21": 0, "H22": thickness}
+O.cell.hSize = Matrix3(*(cell[f"H{i}{j}"] for i in range(3) for j in range(3)))
 material = O.materials.append(
     FrictMat(young=YOUNG, poisson=RATIO, frictionAngle=FRICTION, density=DENSITY)
 )
+
+
+def mass_of(radius):
+    return DENSITY * math.pi * radius**2 * (thickness if discs else 4 / 3 * radius)
+
+
 for particle in particles:
     radius = float(particle["r"])
-    centre = (float(particle["x"]), float(particle["y"]), thickness / 2)
+    z = thickness / 2 if discs else float(particle["z"])
+    centre = (float(particle["x"]), float(particle["y"]), z)
     body = O.bodies[O.bodies.append(sphere(centre, radius, material=material))]
-    body.state.mass = DENSITY * math.pi * radius**2 * thickness
-    body.state.inertia = Vector3(1, 1, 1) * body.state.mass * radius**2 / 2
-    body.state.blockedDOFs = "zXY"
+    body.state.mass = mass_of(radius)
+    body.state.inertia = Vector3(1, 1, 1) * body.state.mass * radius**2 * (0.5 if discs else 0.4)
+    if discs:
+        body.state.blockedDOFs = "zXY"
 O.engines = [
     ForceResetter(),
     InsertionSortCollider([Bo1_Sphere_Aabb()]),
@@ -61,10 +73,11 @@ O.engines = [
     NewtonIntegrator(damping=0.1),
 ]
 least = min(float(particle["r"]) for particle in particles)
-O.dt = 0.3 * math.sqrt(DENSITY * math.pi * least**2 * thickness / (YOUNG * least))
+O.dt = 0.3 * math.sqrt(mass_of(least) / (YOUNG * least))
 O.run(WARM_UP, True)
 rate = 1e-3 / (ROUNDS * STEPS * O.dt)
-O.cell.velGrad = Matrix3(rate, 0, 0, 0, -rate, 0, 0, 0, 0)
+lateral = rate if discs else rate / 2
+O.cell.velGrad = Matrix3(lateral, 0, 0, 0, -rate if discs else lateral, 0, 0, 0, 0 if discs else -rate)
 best = math.inf
 for _ in range(ROUNDS):
     start = time.process_time()

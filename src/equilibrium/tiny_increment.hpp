@@ -1,0 +1,19 @@
+// Increments that change forces by less than the tolerance.
+#pragma once
+
+#include "equilibrium/request.hpp"
+
+namespace grainlaw::core {
+
+// Tolerance that rounding leaves [-].
+template <int D>
+double least_tolerance(const Increment<D>& increment) {
+  return std::min(increment.scale().relative_rounding(), tuned::largest_rounding);
+}
+
+// Solves an increment from its affine start so that its own change of the forces is right, where
+// `tolerance` is too coarse for that. Returns whether the residual ends below `tolerance`.
+template <int D>
+bool solve_tiny(const Request<D>& request, double tolerance, Workspace<D>& w);
+
+}  // namespace grainlaw::core
