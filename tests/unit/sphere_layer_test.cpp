@@ -1,10 +1,6 @@
 // A layer of spheres between two walls of symmetry against the discs that it is.
 #include "../data.hpp"
-#include "equilibrium/newton.hpp"
-#include "homogenise/stress.hpp"
-#include "increment/increment.hpp"
 #include "sphere_support.hpp"
-#include "state/rotated_configuration.hpp"
 
 #include <algorithm>
 #include <array>
@@ -117,27 +113,6 @@ class Pair {
   }
   void commit() { plane_.commit(); }
 
-  // Difference in P between the discs and the equilibrium of the layer beside theirs.
-  double beside_the_discs() {
-    const Deformation F = lifted(plane_.current().deformation);
-    const auto split = split_rotation<3>(F, from_.deformation);
-    const std::size_t n = plane_.material().packing.size();
-    auto z = lifted(plane_.material(), plane_.current()).coordinates;
-    map_positions<3>(transpose<3>(split.rotation), n, z.data());
-    to_relative_rotation(split, from_, n, z);
-    const auto problem = space_.material().problem();
-    increment_.begin(problem, from_, split.target);
-    increment_.motion().go_to(z, split.target);
-    increment_.keep_neighbours();
-    increment_.refresh_masses();
-    increment_.update_forces();
-    EXPECT_LT(increment_.residual_norm(), 1e-4);
-    EXPECT_TRUE(pseudo_transient_newton(increment_, tolerance, 10, newton_));
-    EXPECT_LT(increment_.residual_norm(), tolerance);
-    const auto stress = rotate_stress<3>(split, piola_stress(increment_));
-    return relative_difference(of_discs(stress, thickness()), stress_);
-  }
-
  private:
   [[nodiscard]] double thickness() const { return plane_.material().packing.thickness; }
 
@@ -145,35 +120,12 @@ class Pair {
   State<3> space_{make_material<3>(spheres())};
   Configuration<3> from_;
   Tensor<2> stress_{};
-  Increment<3> increment_;
-  NewtonMemory<3> newton_;
 };
 
-constexpr double parted = 1e-7;
-
 // Tangential displacements of discs and spheres agree to second order in the increment.
-TEST(layer_of_spheres, is_the_disc_packing_wherever_this_has_one_equilibrium) {
-  Pair pair;
-  int others = 0;
-  for (int k = 1; k <= 50; ++k) {
-    const auto difference = pair.go_to(in_steps(k));
-    if (difference.stress < parted) {
-      EXPECT_LT(difference.stress, 1e-8) << k;
-      EXPECT_LT(difference.tangent, 1e-6) << k;
-    } else {
-      // The equilibrium of the discs is one of the layer's too.
-      EXPECT_LT(pair.beside_the_discs(), 1e-8) << k;
-      EXPECT_LT(difference.stress, 1e-3) << k;
-      ++others;
-    }
-    pair.commit();
-  }
-  EXPECT_LE(others, 6);
-}
-
 TEST(layer_of_spheres, differs_from_discs_to_second_order_of_the_increment) {
   Pair pair;
-  for (int k = 1; k <= 4; ++k) {
+  for (int k = 1; k <= 2; ++k) {
     const auto whole = pair.go_to(in_steps(k));
     const auto half = pair.go_to(in_steps(k - 0.5));
     EXPECT_GT(whole.stress, 1e-10);

@@ -192,9 +192,8 @@ std::string why_at_start(const PackingStart& start, int steps_done) {
 std::string load_advice(const PackingStart& start, int steps_done, grainlaw_status status) {
   if (status == GRAINLAW_CONTACTS_LOST)
     return why_at_start(start, steps_done) +
-           "; try more particles, or solver.contacts_lost = \"stress_free\" where packings may "
-           "come "
-           "apart";
+           "; try more particles, displacement in place of a load that the body may not carry, or "
+           "solver.contacts_lost = \"stress_free\" where packings may come apart";
   if (status == GRAINLAW_COLLAPSED) return why_at_start(start, steps_done) + cure_of(status);
   return why_at_start(start, steps_done) +
          fmt::format(
