@@ -114,9 +114,9 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
   if (request.trying == Trying::whole && increment.scale().below_rounding())
     return is_free(request, increment);
   double target = reachable(request, increment);
-  if (whole && solve_tiny(request, target, w)) return true;
   double hand_over = hand_over_of<D>(increment.problem().nodes());
   if (has_drag(request)) hand_over = tuned::drag_hand_over;
+  if (whole && solve_tiny(request, target, hand_over, steps, w)) return true;
   const bool coarse = target > tuned::worth_newton * hand_over;
   if (coarse) hand_over = target;
   bool last = false;

@@ -26,22 +26,22 @@ double change_of_forces(const Request<D>& request, const Increment<D>& increment
 }  // namespace
 
 template <int D>
-bool solve_tiny(const Request<D>& request, double tolerance, Workspace<D>& w) {
+bool solve_tiny(const Request<D>& request, double tolerance, double hand_over, long steps,
+                Workspace<D>& w) {
   auto& increment = w.increment;
   const double change = tuned::share_of_increment * change_of_forces(request, increment);
   if (change == 0 || change >= tolerance || lost(increment)) return false;
   const double fine = std::max(change, least_tolerance(increment));
-  if (relax(increment, fine, tuned::steps_of_tiny_increment, History::committed, w.relaxation, 0,
-            false) &&
-      increment.find_two_contact_spheres() < tolerance) {
-    return true;
-  }
-  return pseudo_transient_newton(increment, fine, tuned::bounded_first_factorisations, w.newton,
-                                 &w.relaxation) ||
+  const bool coarse = fine > tuned::worth_newton * hand_over;
+  const bool relaxed = relax(increment, fine, coarse ? steps : tuned::steps_of_tiny_increment,
+                             History::committed, w.relaxation, 0, false);
+  if (relaxed && (coarse || increment.find_two_contact_spheres() < tolerance)) return true;
+  return (!coarse && pseudo_transient_newton(increment, fine, tuned::bounded_first_factorisations,
+                                             w.newton, &w.relaxation)) ||
          increment.residual_norm() < tolerance;
 }
 
-template bool solve_tiny(const Request<2>&, double, Workspace<2>&);
-template bool solve_tiny(const Request<3>&, double, Workspace<3>&);
+template bool solve_tiny(const Request<2>&, double, double, long, Workspace<2>&);
+template bool solve_tiny(const Request<3>&, double, double, long, Workspace<3>&);
 
 }  // namespace grainlaw::core

@@ -12,8 +12,10 @@ double least_tolerance(const Increment<D>& increment) {
 }
 
 // Solves an increment from its affine start so that its own change of the forces is right, where
-// `tolerance` is too coarse for that. Returns whether the residual ends below `tolerance`.
+// `tolerance` is too coarse for that. Newton takes over at `hand_over`. Returns whether the residual
+// ends below `tolerance`.
 template <int D>
-bool solve_tiny(const Request<D>& request, double tolerance, Workspace<D>& w);
+bool solve_tiny(const Request<D>& request, double tolerance, double hand_over, long steps,
+                Workspace<D>& w);
 
 }  // namespace grainlaw::core

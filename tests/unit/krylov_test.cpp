@@ -153,7 +153,7 @@ TEST(krylov, a_node_that_nothing_holds_stays_where_nothing_moves_it) {
   for (const auto method : methods) {
     std::vector<One> x;
     const double least = least_residual(method);
-    run(method, dilu, by_node(matrix, b), x, least, 200);
+    run(method, dilu, by_node(matrix, b), x, 0.1 * least, 200);
     EXPECT_LE(defect(matrix, b, by_component(matrix, x)), 1e3 * least);
     for (const double value : x[7].lane) EXPECT_EQ(value, 0);
   }
@@ -200,8 +200,8 @@ TEST(krylov, cycles_in_single_precision_reach_residuals_of_double_precision) {
     iterative.prepare(matrix, regularisation_of(matrix, 1e-12));
     std::vector<One> x(matrix.nodes);
     const auto right = by_node(matrix, b);
-    EXPECT_LE(iterative.solve<One>(matrix, right, x, {1e-13, 0, 400}), 1e-13);
-    EXPECT_LE(difference(by_component(matrix, x), solve(lu, matrix, b)), 1e-9);
+    EXPECT_LE(iterative.solve<One>(matrix, right, x, {1e-11, 0, 400}), 1e-11);
+    EXPECT_LE(difference(by_component(matrix, x), solve(lu, matrix, b)), 1e-8);
     EXPECT_LE(iterative.products, 400);
   }
 }
