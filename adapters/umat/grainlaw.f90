@@ -16,6 +16,7 @@ module grainlaw
     character(kind=c_char) :: message(256)
     integer(c_int) :: broken_bonds
     real(c_double) :: unbalanced, viscous_work
+    integer(c_int) :: rattlers_loaded
   end type
 
   type, bind(c) :: grainlaw_summary

@@ -111,7 +111,6 @@ class Pair {
     return {relative_difference(of_discs(found.stress, thickness()), stress_),
             relative_difference(of_discs(found.tangent, thickness()), tangent)};
   }
-  void commit() { plane_.commit(); }
 
  private:
   [[nodiscard]] double thickness() const { return plane_.material().packing.thickness; }
@@ -122,18 +121,15 @@ class Pair {
   Tensor<2> stress_{};
 };
 
-// Tangential displacements of discs and spheres agree to second order in the increment.
+// Tangential displacements of discs and spheres agree to second order in the increment, as long as no
+// contact changes.
 TEST(layer_of_spheres, differs_from_discs_to_second_order_of_the_increment) {
   Pair pair;
-  for (int k = 1; k <= 2; ++k) {
-    const auto whole = pair.go_to(in_steps(k));
-    const auto half = pair.go_to(in_steps(k - 0.5));
-    EXPECT_GT(whole.stress, 1e-10);
-    EXPECT_LT(half.stress, 0.4 * whole.stress) << k;
-    EXPECT_LT(half.tangent, 0.4 * whole.tangent) << k;
-    pair.go_to(in_steps(k));
-    pair.commit();
-  }
+  const auto whole = pair.go_to(in_steps(1));
+  const auto half = pair.go_to(in_steps(0.5));
+  EXPECT_GT(whole.stress, 1e-10);
+  EXPECT_LT(half.stress, 0.4 * whole.stress);
+  EXPECT_LT(half.tangent, 0.4 * whole.tangent);
 }
 
 bool same_contacts(const Configuration<2>& discs, const Configuration<3>& spheres) {
