@@ -48,7 +48,7 @@ GRAINLAW_TUNED(double, mass_factor, 0.8);
 // Ratio of pseudo-mass to stiffness for components of F that are found [-]; method.
 GRAINLAW_TUNED(double, deformation_mass_factor, 0.8);
 // Steps between updates of the masses [steps]. Older masses exceed the stability limit because
-// contacts have closed since; sweep, of spheres spheres.
+// contacts have closed since; sweep; in space: spheres.
 template <int D>
 GRAINLAW_TUNED(long, mass_interval, (D == 2 ? 10 : 15));
 // Gap of contacts that take part in steps of spheres, besides a mean overlap: multiples of the largest
@@ -237,7 +237,7 @@ GRAINLAW_TUNED(double, drag_hand_over, 1e-4);
 // ---- Strategy --------------------------------------------------------------------------------
 
 // Residual at which a relaxation hands over to Newton for usual_nodes [-], and exponent with which
-// it falls. Newton's region of convergence shrinks with the packing size; sweep, of spheres spheres.
+// it falls. Newton's region of convergence shrinks with the packing size; sweep; in space: spheres.
 template <int D>
 GRAINLAW_TUNED(double, hand_over, (D == 2 ? 5e-4 : 2e-5));
 GRAINLAW_TUNED(double, hand_over_power, 1.2);
