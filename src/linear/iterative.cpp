@@ -71,7 +71,8 @@ double Iterative::solve(const BlockMatrix<width>& matrix, std::span<const Entry>
   constexpr std::size_t few = 800;
   const int attempts = matrix.nodes < few ? 1 : 3;
   using Scalars = typename Krylov<Entry>::Scalars;
-  auto& [single, krylov, rest, step, tried] = memory<Entry>();
+  auto& room = memory<Entry>();
+  auto &rest = room.rest, &step = room.step, &tried = room.tried;
   const std::size_t count = b.size();
   for (auto* v : {&rest, &step, &tried}) v->resize(count);
   Scalars scale, error;
@@ -116,12 +117,12 @@ double Iterative::solve(const BlockMatrix<width>& matrix, std::span<const Entry>
     return reduction;
   };
   for (double reduction = 0; worst() > options.tolerance && reduction < tuned::slow_cycle;) {
-    products += single.bicgstab(dilu_, rest, step, wanted(tuned::reduction_of_cycle),
-                                std::min(options.products, tuned::products_of_cycle));
+    products += room.single.bicgstab(dilu_, rest, step, wanted(tuned::reduction_of_cycle),
+                                     std::min(options.products, tuned::products_of_cycle));
     reduction = take_step();
   }
   for (int k = 0; k < attempts && worst() > options.tolerance; ++k) {
-    products += krylov.idr(dilu_, rest, step, wanted(0), options.products);
+    products += room.krylov.idr(dilu_, rest, step, wanted(0), options.products);
     take_step();
   }
   return worst();
