@@ -96,8 +96,7 @@ std::size_t PointTable::size() const {
 std::shared_ptr<TablePoint> PointTable::find_or_make(const PointKey& key) {
   const std::lock_guard lock(mutex_);
   if (const auto found = points_.find(key); found != points_.end()) return found->second;
-  return points_.emplace(key, std::make_shared<TablePoint>(IntegrationPoint{AnyState(material_)}))
-      .first->second;
+  return points_.emplace(key, std::make_shared<TablePoint>(AnyState(material_))).first->second;
 }
 
 std::shared_ptr<TablePoint> PointTable::find(const PointKey& key) const {
@@ -151,7 +150,7 @@ void PointTable::load(std::span<const std::byte> bytes) {
     require(in.left() >= head_size);
     const auto element = in.get<std::int64_t>();
     const PointKey key{element, in.get<std::int64_t>()};
-    auto at = std::make_shared<TablePoint>(IntegrationPoint{AnyState(material_)});
+    auto at = std::make_shared<TablePoint>(AnyState(material_));
     at->increments = in.get<std::uint64_t>();
     const double time_step = in.get_finite();
     const auto size = in.get<std::uint64_t>();

@@ -23,6 +23,8 @@ using PointKey = std::pair<std::int64_t, std::int64_t>;
 std::string text_of(const PointKey& key);
 
 struct TablePoint {
+  explicit TablePoint(AnyState state) : point{std::move(state)} {}
+
   IntegrationPoint point;
   std::uint64_t increments = 0;  // committed
   std::vector<double> trial;     // F of the trial; empty: none

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <barrier>
+#include <cmath>
 #include <functional>
 #include <thread>
 

@@ -26,6 +26,8 @@ constexpr double largest_jump = 0.01;  // of p
 struct Lines {
   int lines = 0, jumps = 0, failed = 0;
   double worst = 0;                          // [p]
+  int jumps_in_first_half = 0;               // of a line
+  double worst_in_first_half = 0;            // [p]
   int starts = 0, same = 0, told_apart = 0;  // of P from two starts, where it starts from trials
   int ended = 0;                             // paths that reached their end, two a packing
 };
@@ -93,6 +95,9 @@ void walk_line(Lines& lines, State& state, const TensorOf<D>& from, const Tensor
     if (!(jump * pressure > many_medians * usual)) continue;
     ++lines.jumps;
     lines.worst = std::max(lines.worst, jump);
+    if (k >= points / 2) continue;
+    ++lines.jumps_in_first_half;
+    lines.worst_in_first_half = std::max(lines.worst_in_first_half, jump);
   }
 }
 
@@ -154,7 +159,7 @@ void count_jumps(Study& study) {
       "forty lines of 100 points within 0.2 %, onward and anywhere, from five states of each "
       "packing drained to 6 %: changes of P above 1e-4 p within 1e-9 of strain",
       {"packings", "stiffness", "lines[-]", "failed[-]", "starts[-]", "same_start[-]",
-       "told_apart[-]", "ended[-]"},
+       "told_apart[-]", "ended[-]", "jumps_to_0.1%[-]", "worst_to_0.1%[p]"},
       {{"jumps[-]"}, {"worst[p]"}, {"other_start[-]"}});
   for (const int dimension : {2, 3}) {
     for (const double stiffness : {300.0, 3e3, 3e4}) {
@@ -168,7 +173,8 @@ void count_jumps(Study& study) {
                     fmt::format("{:g}", stiffness), static_cast<double>(lines.lines),
                     static_cast<double>(lines.failed), static_cast<double>(lines.starts),
                     static_cast<double>(lines.same), static_cast<double>(lines.told_apart),
-                    static_cast<double>(lines.ended)},
+                    static_cast<double>(lines.ended),
+                    static_cast<double>(lines.jumps_in_first_half), lines.worst_in_first_half},
                    {{static_cast<double>(lines.jumps), stiffness < 1e3 ? most_at_300 : told},
                     {lines.worst, largest_jump},
                     {static_cast<double>(lines.starts - lines.same - lines.told_apart), 0}});
