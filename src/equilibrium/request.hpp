@@ -9,6 +9,7 @@
 
 #include <grainlaw/grainlaw.h>
 
+#include <span>
 #include <vector>
 
 namespace grainlaw::core {
@@ -22,7 +23,7 @@ struct Workspace {
   ReferenceMemory reference;
   NewtonMemory<D> newton;
   Sensitivity<D> sensitivity;
-  std::vector<double> guess;
+  std::vector<double> guess, guess_step;
   std::vector<double> velocity;       // of the drag's masses at the end of the last part
   std::vector<unsigned char> loaded;  // nodes that bear, while the report counts them
 };
@@ -50,6 +51,8 @@ struct Request {
   // Null: the affine image.
   const std::vector<double>* guess = nullptr;
   Tensor<D> guess_deformation{};
+  // From there to `deformation`: fluctuations of the nodes (component-major). Empty: none.
+  std::span<const double> guess_step{};
   // Outcome::loose and Outcome::history_advanced of the trial that the guess comes from.
   bool guess_loose = false;
   bool guess_advanced = false;

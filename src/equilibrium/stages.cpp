@@ -80,6 +80,7 @@ void start_iteration(const Request<D>& request, double share, Increment<D>& incr
                   between<D>(request.from->deformation, request.deformation, share));
   if (request.guess != nullptr && share == 1) {
     increment.motion().go_to(*request.guess, request.guess_deformation);
+    if (!request.guess_step.empty()) increment.motion().move(request.guess_step);
     increment.deform(request.deformation);
   }
 }

@@ -7,6 +7,7 @@
 #include "state/report.hpp"
 #include "state/rotated_configuration.hpp"
 #include "state/scratch.hpp"
+#include "state/trial_slopes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -228,6 +229,13 @@ Request<D> State<D>::request_of(const Problem<D>& problem, const SplitIncrement<
   request.duration = duration_of(*material_, committed_, F, time_step_);
   if (had_trial && solver.start == Start::trial) {
     guess_from_trial(committed_, trial_, material_->packing.size(), w, request);
+    if (!trial_slopes_.empty()) {
+      Tensor<D> change;
+      for (std::size_t k = 0; k < squared<D>; ++k)
+        change[k] = request.deformation[k] - request.guess_deformation[k];
+      step_along<D>(trial_slopes_, in_directions<D>(change, committed_.deformation), w.guess_step);
+      request.guess_step = w.guess_step;
+    }
     request.guess_loose = trial_loose_;
     request.guess_advanced = trial_advanced_;
   }
@@ -267,6 +275,11 @@ void State<D>::keep_trial(const Outcome& outcome, Workspace<D>& w, grainlaw_repo
   }
   trial_loose_ = outcome.loose;
   trial_advanced_ = outcome.history_advanced;
+  const bool smooth = outcome.sensitivities && !outcome.loose && !outcome.history_advanced &&
+                      outcome.subincrements == 1 && !material_->space.finds_deformation;
+  trial_slopes_.clear();
+  if (material_->solver.start == Start::trial && smooth)
+    keep_slopes<D>(w.increment.problem(), w.sensitivity.motion(), trial_slopes_);
   add_contacts(w.increment, committed_, trial_, report);
   // Drag, and the file of a packing, say where a particle without contacts is.
   if (!drag.acts() && committed_.coordinates != material_->initial.coordinates)

@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace grainlaw::core {
 
@@ -76,6 +77,9 @@ class State {
   double time_step_ = untold;
   bool trial_loose_ = false;     // converged to the loose tolerance
   bool trial_advanced_ = false;  // found by advancing history
+  // Fluctuations of the trial by F: a column of nodes, component-major, for each lane of
+  // ByDeformation. Kept where increments start from trials; empty: unknown.
+  std::vector<float> trial_slopes_;
 };
 
 }  // namespace grainlaw::core

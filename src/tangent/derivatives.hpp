@@ -45,6 +45,24 @@ inline DeformationChange<3> directions<3>(const Tensor<3>& committed) {
   return change;
 }
 
+// The change of F as factors of the lanes, to first order.
+template <int D>
+ByDeformation<D> in_directions(const Tensor<D>& change, const Tensor<D>& committed);
+template <>
+inline ByDeformation<2> in_directions<2>(const Tensor<2>& change, const Tensor<2>& /*committed*/) {
+  return {{change[0], change[1], change[2], change[3]}};
+}
+template <>
+inline ByDeformation<3> in_directions<3>(const Tensor<3>& change, const Tensor<3>& committed) {
+  const Tensor<3> stretch = product<3>(change, inverse<3>(committed));
+  ByDeformation<3> factors;
+  for (std::size_t lane = 0; lane < stretch_of_lane.size(); ++lane) {
+    const auto [a, b] = stretch_of_lane[lane];
+    factors.lane[lane] = 0.5 * (stretch[3 * a + b] + stretch[3 * b + a]);
+  }
+  return factors;
+}
+
 // Change of a touching contact: force on j, branch, and force of the tangential spring.
 template <int D>
 struct ContactChange {

@@ -7,6 +7,7 @@
 #include "tangent/drag_change.hpp"
 #include "tangent/stiffness.hpp"
 
+#include <span>
 #include <vector>
 
 namespace grainlaw::core {
@@ -38,6 +39,8 @@ class Sensitivity {
   // True if a position depended on an arbitrary one since reset(), so that no derivative exists.
   [[nodiscard]] bool arbitrary() const { return arbitrary_; }
 
+  // Changes of the fluctuations at the end, per node and component.
+  [[nodiscard]] std::span<const ByDeformation<D>> motion() const { return motion_; }
   // Change of F at the end.
   [[nodiscard]] const DeformationChange<D>& deformation_change() const { return change_; }
   // Change of a touching contact.
