@@ -223,6 +223,9 @@ GRAINLAW_TUNED(double, fading_drag_floor, 1.5e-3);
 GRAINLAW_TUNED(double, drag_of_reversal, 0.1);
 // Mean strain rate over the viscous number below which nothing turns back [-]; chosen.
 GRAINLAW_TUNED(double, slowest_drag_rate, 0.01);
+// Strain from which on parts are slower, as sqrt(e:e / 2): without drag in shear bands, meshes lost
+// contacts there; chosen.
+GRAINLAW_TUNED(double, large_drag_strain, 1e-3);
 // Duration from which on a part has no drag to speak of [memories]; method.
 GRAINLAW_TUNED(double, longest_drag, 36);
 // Bound of the time for which the drag's masses are followed [memories]; chosen.

@@ -42,8 +42,31 @@ struct Straining {
   Tensor<D> strain, mean;
   double size = 0;      // of the strain
   double duration = 0;  // [memories]
-  bool timed = false;   // by the host
+  Tensor<D> log_duration_by_strain{};
 };
+
+// The increment of a request in so many parts. Parts of large strain are slower than the others, so
+// that drag is left where strain localises.
+template <int D>
+Straining<D> straining_of(const Request<D>& request, int parts, double number) {
+  Straining<D> at;
+  at.strain = symmetric<D>(product<D>(request.deformation, inverse<D>(request.from->deformation)));
+  for (std::size_t k = 0; k < D; ++k) at.strain[(D + 1) * k] -= 1;
+  at.mean = request.from->strain_rate;
+  at.size = std::sqrt(0.5 * inner<D>(at.strain, at.strain));
+  const bool timed = request.duration != by_strain;
+  at.duration = timed ? request.duration : at.size / number;
+  if (!(at.size > 0)) return at;
+  const double part = at.size / (tuned::large_drag_strain * parts);
+  const double bend = std::tanh(part);
+  at.duration *= bend / part;
+  const double slope = (1 - bend * bend) * part / bend;
+  for (std::size_t k = 0; k < squared<D>; ++k) {
+    at.log_duration_by_strain[k] =
+        (timed ? slope - 1 : slope) * 0.5 * at.strain[k] / (at.size * at.size);
+  }
+  return at;
+}
 
 // Share of its stiffness and rates that drag keeps as the strain rate reverses, and the derivative of
 // the share's logarithm by the strain.
@@ -66,10 +89,8 @@ Reversal<D> reversal_of(const Straining<D>& at, double kept, double slowest) {
   if (reversed == 0 || reversed == 1) return result;
   const double slope = (1 - kept) * 6 * reversed * (1 - reversed) / (result.share * square);
   for (std::size_t k = 0; k < squared<D>; ++k) {
-    result.log_by_strain[k] = slope * at.mean[k] / at.duration;
-    if (!at.timed) {
-      result.log_by_strain[k] -= slope * along * 0.5 * at.strain[k] / (at.size * at.size);
-    }
+    result.log_by_strain[k] =
+        slope * (at.mean[k] / at.duration - along * at.log_duration_by_strain[k]);
   }
   return result;
 }
@@ -83,13 +104,7 @@ DragStart<D> start_drag(const Request<D>& request, int parts, Increment<D>& incr
   increment.find_first_drag(
       std::any_of(stress.begin(), stress.end(), [](double p) { return p != 0; }));
   const double number = request.options->viscosity.number;
-  Straining<D> at;
-  at.strain = symmetric<D>(product<D>(request.deformation, inverse<D>(request.from->deformation)));
-  for (std::size_t k = 0; k < D; ++k) at.strain[(D + 1) * k] -= 1;
-  at.mean = request.from->strain_rate;
-  at.size = std::sqrt(0.5 * inner<D>(at.strain, at.strain));
-  at.timed = request.duration != by_strain;
-  at.duration = at.timed ? request.duration : at.size / number;
+  const Straining<D> at = straining_of(request, parts, number);
 
   // A packing whose forces fade needs all of its drag.
   const bool fading = may_fade(request, increment);
@@ -118,7 +133,7 @@ DragStart<D> start_drag(const Request<D>& request, int parts, Increment<D>& incr
   if (how.duration == tuned::longest_drag) return how;
   Tensor<D> duration_by_strain = reversal.log_by_strain;
   for (std::size_t k = 0; k < squared<D>; ++k) {
-    if (!at.timed) duration_by_strain[k] += 0.5 * at.strain[k] / (at.size * at.size);
+    duration_by_strain[k] += at.log_duration_by_strain[k];
     duration_by_strain[k] *= how.duration;
   }
   how.duration_by_F = by_deformation<D>(request, duration_by_strain);

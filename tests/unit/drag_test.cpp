@@ -238,12 +238,14 @@ TEST(drag, fades_with_its_number) {
 TEST(drag, parts_of_an_increment_are_steps) {
   MaterialDescription description = with_drag(describe(small_packing(), rough_law()));
   State steps(make_material(description)), whole(make_material(description));
-  description.solver.viscosity.steps = 2;
+  description.solver.viscosity.steps = 4;
   State parts(make_material(description));
-  constexpr Tensor stretch{0.35e-3, 0, 0, -1e-3};
+  constexpr Tensor stretch{1e-3, 0, 0, -3e-3};
   const Tensor F = sum(identity, 1, stretch);
-  evaluate(steps, sum(identity, 0.5, stretch));
-  steps.commit();
+  for (const double share : {0.25, 0.5, 0.75}) {
+    evaluate(steps, sum(identity, share, stretch));
+    steps.commit();
+  }
   const Tensor in_steps = evaluate(steps, F).stress;
   const double off = relative_difference(in_steps, evaluate(whole, F).stress);
   EXPECT_GT(off, 3e-5);
