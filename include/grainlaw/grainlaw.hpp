@@ -489,7 +489,7 @@ class March {
 
   void begin(double from, double to) { check(grainlaw_march_begin(get(), from, to)); }
   grainlaw_action next() { return grainlaw_march_next(get(), &part_); }
-  // As of the last next().
+  // What the last next() told.
   [[nodiscard]] const grainlaw_part& part() const { return part_; }
   [[nodiscard]] double share(double largest_change) {
     return grainlaw_march_share(get(), largest_change);

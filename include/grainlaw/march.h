@@ -73,10 +73,10 @@ typedef struct grainlaw_part {
 GRAINLAW_API grainlaw_part grainlaw_part_default(void);
 
 /* A march. options NULL: the defaults. set (NULL: none) has to outlive it. The march tells the set the
- * time step of each attempt, takes from it how far an iterate is from what was foreseen, and shares what
- * is told by grainlaw_points_share: calls that say so are then calls of all ranks together. Errors:
- * NULL_POINTER, BAD_HANDLE, BAD_REPORT (unknown size of the options), BAD_ARGUMENT (an option outside
- * its range), OUT_OF_MEMORY. On any error *out is NULL. */
+ * time step of each attempt, and takes from it how far an iterate is from what was foreseen. Ranks that
+ * share their sets (grainlaw_points_share) decide alike: create, begin and next of their marches alike,
+ * and call share and tell together. Errors: NULL_POINTER, BAD_HANDLE, BAD_REPORT (unknown size of the
+ * options), BAD_ARGUMENT (an option outside its range), OUT_OF_MEMORY. On any error *out is NULL. */
 GRAINLAW_API grainlaw_status grainlaw_march_create(const grainlaw_march_options* options,
                                                    grainlaw_points* set, grainlaw_march** out);
 
@@ -97,10 +97,10 @@ GRAINLAW_API grainlaw_action grainlaw_march_next(grainlaw_march*, grainlaw_part*
 /* The share of a correction to apply, at most 1: its largest change of F (of this rank's points,
  * Frobenius norm) is then options.largest_correction. The rest of prescribed displacements comes in
  * the next iteration. 0 for a length that is not finite: the stiffness is singular; ask
- * grainlaw_march_next. A call of all ranks. Without this call corrections are applied whole. */
+ * grainlaw_march_next. Without this call corrections are applied whole. */
 GRAINLAW_API double grainlaw_march_share(grainlaw_march*, double largest_change);
 
-/* Tell the outcome of a SOLVE or CROSS, a call of all ranks. status and summary (NULL: none) are those of the
+/* Tell the outcome of a SOLVE or CROSS. status and summary (NULL: none) are those of the
  * evaluation; a host that fails otherwise tells NOT_CONVERGED. residual and scale are norms, e.g. of the
  * force on the unknowns and of the nodal forces of the stresses; on several ranks of the unknowns that each
  * owns. unforeseen is the norm of the change of forces that the committed stiffness does not explain;

@@ -96,6 +96,7 @@ void grainlaw_march_destroy(grainlaw_march* handle) {
 }
 
 grainlaw_status grainlaw_march_begin(grainlaw_march* handle, double from, double to) {
+  const api::FloatingEnvironment environment;
   if (const auto status = check_march(handle); status != GRAINLAW_OK) return status;
   if (!std::isfinite(to - from)) return GRAINLAW_BAD_ARGUMENT;
   handle->march.begin(from, to);
@@ -103,6 +104,7 @@ grainlaw_status grainlaw_march_begin(grainlaw_march* handle, double from, double
 }
 
 grainlaw_action grainlaw_march_next(grainlaw_march* handle, grainlaw_part* part) {
+  const api::FloatingEnvironment environment;
   if (check_march(handle) != GRAINLAW_OK) return GRAINLAW_GIVE_UP;
   if (part != nullptr && !known_size(part)) return GRAINLAW_GIVE_UP;
   March& march = handle->march;
@@ -114,6 +116,7 @@ grainlaw_action grainlaw_march_next(grainlaw_march* handle, grainlaw_part* part)
 }
 
 double grainlaw_march_share(grainlaw_march* handle, double largest_change) {
+  const api::FloatingEnvironment environment;
   if (check_march(handle) != GRAINLAW_OK || !handle->march.asks()) return 0;
   double share = handle->march.bound(largest_change);
   const api::Ranks ranks = ranks_of(*handle);
@@ -125,6 +128,7 @@ double grainlaw_march_share(grainlaw_march* handle, double largest_change) {
 grainlaw_status grainlaw_march_tell(grainlaw_march* handle, grainlaw_status status,
                                     const grainlaw_summary* summary, double residual, double scale,
                                     double unforeseen) {
+  const api::FloatingEnvironment environment;
   if (const auto found = check_march(handle); found != GRAINLAW_OK) return found;
   if (summary != nullptr && !api::known_summary_size(api::claimed_size(summary)))
     return GRAINLAW_BAD_REPORT;
@@ -145,4 +149,7 @@ grainlaw_status grainlaw_march_tell(grainlaw_march* handle, grainlaw_status stat
   return GRAINLAW_OK;
 }
 
-double grainlaw_march_cut(double step_ratio) { return cut_ratio(step_ratio); }
+double grainlaw_march_cut(double step_ratio) {
+  const api::FloatingEnvironment environment;
+  return cut_ratio(step_ratio);
+}

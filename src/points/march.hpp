@@ -15,9 +15,8 @@ inline constexpr double rounding = 1e-9;  // rest of a load step that is roundin
 inline constexpr double progress = 0.5;   // reduction of the residual that counts as progress [-]
 }  // namespace stepping
 
-// The default options. A point takes a stretch of 30 %, and a smaller load step does not shorten the
-// correction that an unstable body asks for, hence its bound. Newton alternates across a jump of P,
-// which a smaller step usually avoids, but not below 1/16 of a load step.
+// The default options. Newton alternates across a jump of P, which a smaller step usually avoids, but
+// hardly below 1/16 of a load step.
 [[nodiscard]] grainlaw_march_options default_march_options();
 
 // Outcome of one solve and evaluation, of all ranks together.

@@ -223,8 +223,8 @@ class States:
               message.value.decode(errors="replace"))
 
     def set_time_step(self, step: float) -> None:
-        """How long increments take from now on, in the host's unit, e.g. `LoadSteps.part`: a
-        material with solver.viscous_rate asks for it before it deforms. 0: they take no time,
+        """How long increments take from now on, in the host's unit: a material with
+        solver.viscous_rate asks for it before it deforms; a March tells it. 0: they take no time,
         and F has to stay."""
         step = number("time step", step, bad_argument)
         if step < 0:
