@@ -56,6 +56,7 @@ class March:
     cuts: int         #: of this load step so far
     crossed: int      #: jumps of the stress, crossed in this load step so far
     loose: int        #: parts of this load step accepted out of balance, across jumps
+    residuals: list[float]   #: of this attempt, over their scales, of all ranks; NaN: refused [-]
     message: str      #: why an attempt failed, or ""
 
     def __init__(self, points: States | None = None, **options: float) -> None:
@@ -77,6 +78,7 @@ class March:
         self.reached = 0.0      #: load that is committed, by whole load steps
         self._part = Part(size=ctypes.sizeof(Part))
         self._status: int = Status.OK
+        self.residuals, self._told, self._renewed = [], False, False
         self._read()
 
     def to(self, load: float, start: float | None = None) -> Iterator[Action]:
@@ -95,6 +97,7 @@ class March:
         """Begin a load step, for a host that calls next itself."""
         start = self.reached if start is None else number("start", start)
         self._goal = number("load", load)
+        self._renewed = True
         check(library.grainlaw_march_begin(self._handle, start, self._goal))
 
     def next(self) -> Action:
@@ -102,6 +105,11 @@ class March:
         DONE: it is over."""
         now = Action(library.grainlaw_march_next(self._handle, ctypes.byref(self._part)))
         self._read()
+        if self._renewed:
+            self.residuals = []
+        if self._told:
+            self.residuals.append(self._part.residual)
+        self._told, self._renewed = False, now in (Action.ACCEPT, Action.BACK)
         if now == Action.DONE:
             self.reached = self._goal
         return now
@@ -125,6 +133,7 @@ class March:
         check(library.grainlaw_march_tell(
             self._handle, self._status, None if summary is None else ctypes.byref(summary),
             residual, scale, unforeseen))
+        self._told = True
 
     def _read(self) -> None:
         part = self._part

@@ -206,7 +206,9 @@ class States:
         def call(_: Any, values: Any, n: int, op: int) -> None:
             own = np.ctypeslib.as_array(values, (n,))
             assert reduce is not None
-            own[:] = reduce(own.copy(), "sum" if op else "min")
+            native = np.empty(n)   # mpi4py takes no array whose type ctypes has named
+            native[:] = own
+            own[:] = reduce(native, "sum" if op else "min")
 
         callback = REDUCE(call) if reduce else REDUCE(0)
         rank = whole("rank", rank, 0, LARGEST_INT, bad_argument)

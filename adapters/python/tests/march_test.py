@@ -95,12 +95,17 @@ class Marches(Case):
     def test_ranks_decide_alike(self):
         """One rank that hears of another's residual: what the others' sums would come to."""
         states = grainlaw.States(material(), 0)
-        states.share(0, lambda values, op: values + [9, 0, 0, 0] if len(values) == 4 else values)
+        def reduce(values, operation):
+            self.assertEqual(memoryview(values).format, "d")   # which mpi4py knows
+            return values + [9, 0, 0, 0] if len(values) == 4 else values
+
+        states.share(0, reduce)
         march = March(states)
         march.begin(1)
         self.assertEqual(march.next(), Action.SOLVE)
         march.tell(Status.OK, 0.0, 3.0)
         self.assertEqual(march.next(), Action.SOLVE)
+        self.assertEqual(march.residuals, [1.0])
 
     def test_options_are_those_of_the_header(self):
         march = March(patience=1, max_iterations=5)
