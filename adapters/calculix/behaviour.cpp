@@ -21,7 +21,6 @@ namespace {
 
 constexpr std::array<std::size_t, 6> order{0, 4, 8, 1, 2, 5};  // 11 22 33 12 13 23
 constexpr double default_cut = 0.25;  // CalculiX's own, when an increment diverges
-constexpr double largest_cut = 0.5;   // a factor that comes near 1 gains nothing
 constexpr double soft = 1;            // Pa; keeps the host's matrix regular without a material
 
 // The last answer of a point: CalculiX asks again for what it has just got.
@@ -126,8 +125,7 @@ void evaluate(grainlaw::Table& table, int element, int point, LastAnswer& last, 
           evaluate_symmetric(table, {element, point, nullptr, &F0, &F1, time_step, want}, response);
       if (answer.status != GRAINLAW_OK) {
         give_start(table, element, point, last, F0, stress, stiffness);
-        const double ratio = answer.report.step_ratio;
-        cut(pnewdt, ratio > 0 ? std::min(ratio, largest_cut) : largest_cut);  // 0: goes on
+        cut(pnewdt, grainlaw_march_cut(answer.report.step_ratio));
         return;
       }
       keep(last, response, !stress_only);

@@ -17,14 +17,13 @@ from petsc4py import PETSc
 
 import grainlaw
 from dolfinx_points import Points
+from grainlaw import Action
 from grainlaw.files import write_whole
-from grainlaw.steps import LoadSteps
 
 WIDTH, HEIGHT = 0.05, 0.1   # m
 SIDE_PRESSURE = 100e3       # Pa, dead load
 SHORTENING = 1e-3           # m, at full load
 TOLERANCE = 1e-10           # |force on the unknowns| / |nodal forces of P| [-]
-MAX_ITERATIONS = 12
 
 
 class Biaxial:
@@ -66,34 +65,37 @@ class Biaxial:
             sys.exit(f"no state to start from: {answer.message}")
         self.points.commit()
 
-    def forces(self):
-        """Force of P on the top in y, and |force on the unknowns| over |nodal forces of P|."""
-        internal, residual = assemble(self.internal).array, assemble(self.residual).array
-        top, free, whole = self.comm.allreduce(np.array([
-            internal[self.top_y].sum(), (residual[self.free]**2).sum(), (internal**2).sum()]))
-        return top, np.sqrt(free / whole)
+    def top_force(self):
+        """Force of P on the top in y."""
+        return self.comm.allreduce(assemble(self.internal).array[self.top_y].sum())
 
-    def advance(self, load):
-        """Newton's method to a fraction of the load. Returns whether it got there, the residuals,
-        and the factor on the step to try next."""
-        start = self.u.x.array.copy()
-        self.top_displacement.value = (0, -SHORTENING * load)
-        residuals = []
-        for _ in range(MAX_ITERATIONS):
-            self.u.x.array[:self.owned] -= self.solve()
-            self.u.x.scatter_forward()
-            answer = self.points.evaluate(self.u)
-            if not answer.ok:
-                break
-            residuals.append(self.forces()[1])
-            if residuals[-1] <= TOLERANCE:
+    def norms(self):
+        """|force on the unknowns| and |nodal forces of P|, of what this rank owns."""
+        residual, internal = assemble(self.residual).array, assemble(self.internal).array
+        return np.linalg.norm(residual[self.free]), np.linalg.norm(internal)
+
+    def advance(self, march, load):
+        """To a load, in as many parts as it takes; yields the residuals of each."""
+        committed = self.u.x.array.copy()
+        for now in march.to(load):
+            if march.keep:
+                farthest = self.u.x.array.copy()
+            if now == Action.SOLVE:
+                self.top_displacement.value = (0, -SHORTENING * march.load)
+                self.u.x.array[:self.owned] -= self.solve()
+                self.u.x.scatter_forward()
+                march.tell(self.points.evaluate(self.u), *self.norms())
+            elif now == Action.CROSS:
+                self.u.x.array[:] = farthest
+                march.tell(self.points.evaluate(self.u))
+            elif now == Action.ACCEPT:
                 self.points.commit()
-                return True, residuals, 1.0
-        reason = answer.message or "Newton did not converge"
-        tell(f"load {load:.6g}: {reason}; the step is cut")
-        self.points.revert()
-        self.u.x.array[:] = start
-        return False, residuals, 0.5 if answer.ok else answer.step_ratio
+                committed = self.u.x.array.copy()
+                yield march.residuals
+            else:
+                tell(f"load {march.load:.6g}: {march.message}; the step is cut")
+                self.points.revert()
+                self.u.x.array[:] = committed
 
     def solve(self):
         """Newton's correction; the increment of the boundary values enters through its right side.
@@ -134,26 +136,20 @@ def tell(text):
 
 def main(material, prefix="biaxial", count="20"):
     problem = Biaxial(grainlaw.Material(material))
-    steps = LoadSteps([k / int(count) for k in range(int(count) + 1)])
+    march = grainlaw.March(problem.points.states, tolerance=TOLERANCE)
     force = "step[-],fraction[-],top_y_displacement[m],top_y_force[N/m]\n"
     newton = "step[-],iteration[-],relative_residual[-]\n"
-    while steps:
-        problem.points.set_time_step(steps.part)
-        converged, residuals, ratio = problem.advance(steps.load)
-        if not converged:
-            steps.cut(ratio)
-            continue
-        top = problem.forces()[0]
-        tell(f"load {steps.load:.6g}: force {top:.6g} N/m, residuals "
-             + ", ".join(f"{residual:.1e}" for residual in residuals))
-        force += (f"{steps.number},{steps.load:.17g},{-SHORTENING * steps.load:.17g},"
-                  f"{top:.17g}\n")
-        for iteration, residual in enumerate(residuals, 1):
-            newton += f"{steps.number},{iteration},{residual:.17g}\n"
-        if MPI.COMM_WORLD.rank == 0:
-            write_whole(prefix + "_force.csv", force)  # on a full disk the steps before stay
-            write_whole(prefix + "_newton.csv", newton)
-        steps.accept()
+    for step in range(int(count) + 1):
+        for residuals in problem.advance(march, step / int(count)):
+            top = problem.top_force()
+            tell(f"load {march.load:.6g}: force {top:.6g} N/m, residuals "
+                 + ", ".join(f"{residual:.1e}" for residual in residuals))
+            force += f"{step},{march.load:.17g},{-SHORTENING * march.load:.17g},{top:.17g}\n"
+            for iteration, residual in enumerate(residuals, 1):
+                newton += f"{step},{iteration},{residual:.17g}\n"
+            if MPI.COMM_WORLD.rank == 0:
+                write_whole(prefix + "_force.csv", force)  # on a full disk the steps before stay
+                write_whole(prefix + "_newton.csv", newton)
 
 
 if __name__ == "__main__":

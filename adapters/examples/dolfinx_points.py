@@ -1,20 +1,11 @@
 """grainlaw in DOLFINx: P and its tangent as functions on quadrature points, on any number of ranks."""
-from dataclasses import dataclass
-
 import basix
 import numpy as np
 import ufl
 from dolfinx import fem
+from mpi4py import MPI
 
 import grainlaw
-
-
-@dataclass
-class Answer:
-    """What an evaluation came to, the same on all ranks, so that they commit or revert together."""
-    ok: bool
-    step_ratio: float   # smallest of the ranks [-]
-    message: str        # of the first rank where a point failed, or ""
 
 
 class Points:
@@ -40,8 +31,15 @@ class Points:
         count = len(self._cells) * len(self._where)
         self._owned_P = self._P_space.dofmap.list.array[:count]
         self._owned_A = self._A_space.dofmap.list.array[:count]
-        self._comm = domain.comm
-        self.states = grainlaw.States(material, count)
+        self.states = grainlaw.States(material, count)   # agree on failures and commits
+        operations = {"min": MPI.MIN, "sum": MPI.SUM}
+
+        def reduce(values, operation):
+            domain.comm.Allreduce(MPI.IN_PLACE, values, operations[operation])
+            return values
+
+        if domain.comm.size > 1:
+            self.states.share(domain.comm.rank, reduce)
         self._u = self._F = None
         self._committed = self.P.x.array.copy(), self.A.x.array.copy()
 
@@ -52,27 +50,11 @@ class Points:
             self._u = u
             self._F = fem.Expression(ufl.Identity(2) + ufl.grad(u), self._where)
         F = self._F.eval(self._cells).reshape(-1, 2, 2)
-        try:
-            found = self.states.evaluate(F, grainlaw.Tangent.EXACT)
-            error = None
-        except grainlaw.Error as one:
-            error = one
-        answer = self._agree(error or found)
+        answer = self.states.evaluate(F, grainlaw.Tangent.EXACT)
         if answer.ok:
-            self.P.x.array.reshape(-1, 4)[self._owned_P] = found.P.reshape(-1, 4)
-            self.A.x.array.reshape(-1, 16)[self._owned_A] = found.A.reshape(-1, 16)
+            self.P.x.array.reshape(-1, 4)[self._owned_P] = answer.P.reshape(-1, 4)
+            self.A.x.array.reshape(-1, 16)[self._owned_A] = answer.A.reshape(-1, 16)
         return answer
-
-    def _agree(self, found):
-        """The ranks' evaluations, or errors, as one."""
-        ours = found if isinstance(found, grainlaw.Error) else (found.ok, found.step_ratio, found.message)
-        ranks = self._comm.allgather(ours)
-        for one in ranks:
-            if isinstance(one, grainlaw.Error):
-                raise one
-        failed = [f"rank {rank}, {text}" if len(ranks) > 1 else text
-                  for rank, (ok, _, text) in enumerate(ranks) if not ok]
-        return Answer(not failed, min(ratio for _, ratio, _ in ranks), failed[0] if failed else "")
 
     def set_time_step(self, step):
         """How long increments take from now on, for a material with solver.viscous_rate."""

@@ -15,11 +15,11 @@ import sys
 import numpy as np
 
 import grainlaw
+from grainlaw import Action
 from grainlaw.files import write_whole
-from grainlaw.steps import LoadSteps
+from grainlaw.march import load_steps
 
 FAILED, GO_ON, CUT, CONVERGED = 0, 1, 2, 3
-PATIENCE = 4  # iterations without halving the residual before a step is cut
 
 failures = 0
 _run = None
@@ -47,12 +47,14 @@ def _guarded(answer_on_failure):
 
 
 class _Run:
-    def __init__(self, material, loads, tolerance, max_iterations, history):
+    def __init__(self, material, loads, history, **options):
         self.material = grainlaw.Material(material)
         self.dimension = self.material.dimension
-        self.steps = LoadSteps(loads)
-        self.tolerance = tolerance
-        self.max_iterations = max_iterations
+        self.goals = load_steps(loads)
+        self.number = self.cuts = 0
+        self.march = grainlaw.March(**options)
+        self.march.begin(self.goals[0])
+        self.march.next()
         self.history = os.path.abspath(history) if history else None
         self.lines = {"_force.csv": ["step[-],fraction[-],top_y_displacement[m],"
                                      "top_x_force[N/m],top_y_force[N/m]"],
@@ -89,13 +91,13 @@ def _current():
 
 
 @_guarded(FAILED)
-def start(material, loads, tolerance, max_iterations=12, history=None):
-    """Read the material; loads as for LoadSteps; tolerance of |force on the unknowns| relative to
-    |nodal forces of the stresses|; history: prefix of HISTORY_force.csv and HISTORY_newton.csv,
+def start(material, loads, tolerance, history=None, **options):
+    """Read the material; loads as for load_steps; tolerance of |force on the unknowns| relative to
+    |nodal forces of the stresses|; options of grainlaw.March; history: prefix of HISTORY_force.csv and HISTORY_newton.csv,
     which are written anew after every step, so that they always are whole."""
     global _run, failures
     _run, failures = None, 0
-    run = _Run(material, loads, tolerance, int(max_iterations), history)
+    run = _Run(material, loads, history, tolerance=tolerance, **options)
     for ending in run.lines:
         _record(run, ending, [])
     _run = run
@@ -136,7 +138,7 @@ def evaluate():
     F = np.eye(run.dimension) + np.array([collected[row] for row in range(len(collected))])
     if run.states is None:
         run.states = grainlaw.States(run.material, len(run.rows))
-    run.states.set_time_step(run.steps.part)
+    run.states.set_time_step(run.march.time)
     try:
         run.answer = run.states.evaluate(F, grainlaw.Tangent.EXACT, run.threads)
     except grainlaw.Error as error:
@@ -146,7 +148,10 @@ def evaluate():
         raise grainlaw.Error(error.status, message) from None
     if not run.answer.ok:
         reason = f"{run.answer.message}; {_where(run, run.answer.failed[0])}"
-        return _cut(run, run.answer.step_ratio, reason)
+        if run.committed is None:
+            raise RuntimeError(f"no equilibrium without displacement: {reason}")
+        run.march.tell(run.answer, reason=reason)
+        return _go_on(run)
     run.tables = _tables(F, run.answer.P, run.answer.A)
     if run.committed is None:  # the first pass, at no displacement
         _commit(run)
@@ -162,21 +167,27 @@ def _commit(run):
     run.committed = run.tables
 
 
-def _cut(run, ratio, reason):
+def _go_on(run):
+    """What the march says after it was told."""
+    now = run.march.next()
+    if now == Action.SOLVE:
+        return GO_ON
+    if now == Action.ACCEPT:
+        return _accept(run)
     run.states.revert()
     run.tables = run.committed
-    if run.committed is None:
-        raise RuntimeError(f"no equilibrium without displacement: {reason}")
-    print(f"grainlaw: load {run.steps.load:.6g}: {reason}; the step is cut", flush=True)
+    if now == Action.GIVE_UP:
+        raise RuntimeError(f"load {run.march.load:.6g}: {run.march.message}")
+    print(f"grainlaw: load {run.march.load:.6g}: {run.march.message}; the step is cut", flush=True)
     run.residuals = []
-    run.steps.cut(ratio)
+    run.march.next()  # the next attempt
     return CUT
 
 
 @_guarded(-1.0)
 def load():
     """The fraction of the load to try next."""
-    return _current().steps.load
+    return _current().march.load
 
 
 @_guarded(FAILED)
@@ -188,18 +199,10 @@ def judge(arguments):
         return FAILED
     residual, scale = arguments
     run.residuals.append(residual / scale)
-    iteration = len(run.residuals) - 1
-    if iteration == 0:
+    if len(run.residuals) == 1:
         return GO_ON
-    lost = not np.isfinite(run.residuals[-1])  # not compared: GetDP may trap that
-    if not lost and run.residuals[-1] <= run.tolerance:
-        return _accept(run)
-    since = run.residuals[1:]
-    stalled = (not lost and len(since) > PATIENCE
-               and min(since[-PATIENCE:]) > 0.5 * min(since[:-PATIENCE]))
-    if iteration >= run.max_iterations or stalled or lost:
-        return _cut(run, 0.5, f"Newton did not converge ({_shown(run.residuals)})")
-    return GO_ON
+    run.march.tell(grainlaw.Status.OK, residual, scale)
+    return _go_on(run)
 
 
 def _shown(residuals):
@@ -208,8 +211,8 @@ def _shown(residuals):
 
 def _accept(run):
     _commit(run)
-    print(f"grainlaw: load {run.steps.load:.6g}: {_shown(run.residuals)}", flush=True)
-    _record(run, "_newton.csv", [f"{run.steps.number},{iteration},{residual:.17g}"
+    print(f"grainlaw: load {run.march.load:.6g}: {_shown(run.residuals)}", flush=True)
+    _record(run, "_newton.csv", [f"{run.number},{iteration},{residual:.17g}"
                                  for iteration, residual in enumerate(run.residuals)])
     return CONVERGED
 
@@ -222,15 +225,25 @@ def finish(arguments):
     outcome, displacement, force_x, force_y = arguments
     run.residuals = []
     if int(outcome) == CONVERGED:
-        _record(run, "_force.csv", [f"{run.steps.number},{run.steps.load:.17g},"
+        _record(run, "_force.csv", [f"{run.number},{run.march.load:.17g},"
                                     f"{displacement:.17g},{force_x:.17g},{force_y:.17g}"])
-        run.steps.accept()
+        _next_part(run)
     if failures:
         return FAILED
-    if run.steps:
+    if run.number < len(run.goals):
         return GO_ON
-    print(f"grainlaw: the whole load is applied; {run.steps.cuts} cuts", flush=True)
+    print(f"grainlaw: the whole load is applied; {run.cuts} cuts", flush=True)
     return CONVERGED
+
+
+def _next_part(run):
+    if run.march.next() != Action.DONE:
+        return
+    run.cuts += run.march.cuts
+    run.number += 1
+    if run.number < len(run.goals):
+        run.march.begin(run.goals[run.number])
+        run.march.next()
 
 
 def _record(run, ending, lines):

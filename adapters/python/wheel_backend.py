@@ -23,7 +23,7 @@ import zipfile
 
 here = pathlib.Path(__file__).resolve().parent
 root = here.parent.parent
-headers = [root / "include/grainlaw" / name for name in ("grainlaw.h", "points.h", "particles.h")]
+headers = [root / "include/grainlaw" / name for name in ("grainlaw.h", "points.h", "march.h", "particles.h")]
 needed = "g++ make cmake libsuitesparse-dev libeigen3-dev libfmt-dev libtomlplusplus-dev libxxhash-dev"
 in_sdist = ("CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "pyproject.toml", "adapters/python",
             "include", "src")

@@ -26,7 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::size_t, 6> order{0, 4, 8, 1, 2, 5};  // 11 22 33 12 13 23
-constexpr double smallest_cut = 0.1, largest_cut = 0.5;        // of the increment, in one go
 constexpr double default_cut = 0.25;                           // where no smaller step may help
 
 // The working directory of the job.
@@ -186,7 +185,7 @@ void grainlaw_umat_point(const char* material, int element, int point, const dou
                             time_step_of(dtime), GRAINLAW_WANT_TANGENT_EXACT},
                            response);
     if (answer.status != GRAINLAW_OK) {
-      return cut(std::clamp(answer.report.step_ratio, smallest_cut, largest_cut));
+      return cut(grainlaw_march_cut(answer.report.step_ratio));
     }
     write(response, shears, stress, ddsdde);
   } catch (const std::exception& error) {

@@ -1,6 +1,6 @@
 /* grainlaw: a constitutive law made of grains. This is the C ABI and the only header a host needs.
- * It includes points.h (sets of states), table.h (states by element) and particles.h (particles and
- * contacts).
+ * It includes points.h (sets of states), march.h (load steps that are cut), table.h (states by
+ * element) and particles.h (particles and contacts).
  *
  * A finite element code owns one grainlaw_state per integration point. It passes a total
  * deformation gradient F, and receives the first Piola-Kirchhoff stress P and, on demand, the
@@ -329,6 +329,7 @@ GRAINLAW_API grainlaw_status grainlaw_state_write_packing(const grainlaw_state*,
 }
 #endif
 
+#include <grainlaw/march.h>
 #include <grainlaw/particles.h>
 #include <grainlaw/points.h>
 #include <grainlaw/table.h>

@@ -476,6 +476,43 @@ class Table {
   int dimension_;
 };
 
+// A load step in parts: cut where it fails, longer again after it; see march.h.
+class March {
+ public:
+  // The set, if any, has to outlive it.
+  explicit March(Points* set = nullptr,
+                 const grainlaw_march_options& options = grainlaw_march_options_default()) {
+    grainlaw_march* handle = nullptr;
+    check(grainlaw_march_create(&options, set == nullptr ? nullptr : set->get(), &handle));
+    handle_.reset(handle);
+  }
+
+  void begin(double from, double to) { check(grainlaw_march_begin(get(), from, to)); }
+  grainlaw_action next() { return grainlaw_march_next(get(), &part_); }
+  // What the last next() told.
+  [[nodiscard]] const grainlaw_part& part() const { return part_; }
+  [[nodiscard]] double share(double largest_change) {
+    return grainlaw_march_share(get(), largest_change);
+  }
+
+  // Tell the outcome of an evaluation, or of a host's own solver.
+  void tell(const PointsEvaluation& found, double residual, double scale, double unforeseen = -1) {
+    check(grainlaw_march_tell(get(), found.status, &found.summary, residual, scale, unforeseen));
+  }
+  void tell(grainlaw_status status, double residual = 0, double scale = 1, double unforeseen = -1) {
+    check(grainlaw_march_tell(get(), status, nullptr, residual, scale, unforeseen));
+  }
+
+  [[nodiscard]] grainlaw_march* get() const { return handle_.get(); }
+
+ private:
+  struct Destroy {
+    void operator()(grainlaw_march* handle) const { grainlaw_march_destroy(handle); }
+  };
+  std::unique_ptr<grainlaw_march, Destroy> handle_;
+  grainlaw_part part_ = grainlaw_part_default();
+};
+
 }  // namespace grainlaw
 
 #endif

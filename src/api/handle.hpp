@@ -2,6 +2,7 @@
 #pragma once
 
 #include "api/ranks.hpp"
+#include "points/march.hpp"
 #include "points/points.hpp"
 #include "points/table.hpp"
 
@@ -94,6 +95,15 @@ struct grainlaw_table {
 
   grainlaw::core::api::Magic<0x656c'6261'745f'6c67ULL> magic;
   grainlaw::core::PointTable table;
+};
+
+struct grainlaw_march {
+  grainlaw_march(const grainlaw_march_options& options, grainlaw_points* of_host)
+      : march(options), set(of_host) {}
+
+  grainlaw::core::api::Magic<0x6863'7261'6d5f'6c67ULL> magic;
+  grainlaw::core::March march;
+  grainlaw_points* set;  // may be null
 };
 
 namespace grainlaw::core::api {

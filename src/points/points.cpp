@@ -125,4 +125,13 @@ void revert_all(PointSpan points) noexcept {
   for (IntegrationPoint* point : points) point->state.revert();
 }
 
+double unforeseen(PointSpan points) noexcept {
+  double squares = 0;
+  for (const IntegrationPoint* point : points) {
+    if (point->committed_tangent.kind == TangentKind::none) return -1;
+    squares += point->state.unforeseen(point->committed_tangent.values);
+  }
+  return squares;
+}
+
 }  // namespace grainlaw::core

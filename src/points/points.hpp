@@ -63,4 +63,8 @@ Summary evaluate_all(PointSpan points, std::span<std::size_t> order, const Evalu
 void commit_all(PointSpan points) noexcept;
 void revert_all(PointSpan points) noexcept;
 
+// Squared norm of the change of P, from the committed states to the trials, that the committed tangents
+// do not explain [Pa^2]; negative where a point has no committed tangent.
+[[nodiscard]] double unforeseen(PointSpan points) noexcept;
+
 }  // namespace grainlaw::core

@@ -89,6 +89,22 @@ void AnyState::committed_stress(double* P) const {
   std::visit([=](const auto& state) { std::ranges::copy(state.committed().stress, P); }, state_);
 }
 
+double AnyState::unforeseen(std::span<const double> tangent) const {
+  return std::visit(
+      [&]<int D>(const State<D>& state) {
+        const Configuration<D>&from = state.committed(), &to = state.current();
+        double squares = 0;
+        for (std::size_t i = 0; i < D * D; ++i) {
+          double left = to.stress[i] - from.stress[i];
+          for (std::size_t k = 0; k < D * D; ++k)
+            left -= tangent[D * D * i + k] * (to.deformation[k] - from.deformation[k]);
+          squares += left * left;
+        }
+        return squares;
+      },
+      state_);
+}
+
 std::size_t AnyState::saved_size() const {
   return std::visit(
       [](const auto& state) {

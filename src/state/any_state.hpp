@@ -51,6 +51,9 @@ class AnyState {
   [[nodiscard]] bool has_trial() const;
   [[nodiscard]] std::vector<double> committed_deformation() const;  // F [dim*dim]
   void committed_stress(double* P) const;                           // [dim*dim] [Pa]
+  // Squared norm of what a tangent of the committed state leaves of the change of P to the trial
+  // [Pa^2]; 0 without a trial.
+  [[nodiscard]] double unforeseen(std::span<const double> tangent) const;
 
   // Writes the committed state to saved_size() bytes.
   [[nodiscard]] std::size_t saved_size() const;

@@ -19,16 +19,18 @@ answer. The library is $GRAINLAW_LIBRARY, or the one this package was installed 
 the dynamic loader finds.
 
     grainlaw.laboratory  the tests of a soil laboratory, one call each, and any mixed path
-    grainlaw.steps       load steps that are cut, for hosts whose loop is written in Python
+    grainlaw.March       load steps that are cut, for hosts whose loop is written in Python
     grainlaw.files       files that are the old one or the whole new one
 """
-from . import files, laboratory, steps, tests
+from . import files, laboratory, tests
 from .abi import Error, status_text, version
+from .march import March, StepError
 from .material import Material
-from .names import Measure, Status, Tangent
+from .names import Action, Measure, Status, Tangent
 from .points import Evaluation, State, States
 from .table import Table
 
-__all__ = ["Error", "Evaluation", "Material", "Measure", "State", "States", "Status", "Table",
-           "Tangent", "files", "laboratory", "status_text", "steps", "tests", "version"]
+__all__ = ["Action", "Error", "Evaluation", "March", "Material", "Measure", "State", "States",
+           "Status", "StepError", "Table", "Tangent", "files", "laboratory", "status_text", "tests",
+           "version"]
 __version__ = version()

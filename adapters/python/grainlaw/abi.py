@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from .arguments import LARGEST_INT, whole
-from .names import ABI, VERSION, Report, Status, Summary
+from .names import ABI, VERSION, MarchOptions, Part, Report, Status, Summary
 
 
 # grainlaw_reduce: context, values, how many, grainlaw_op.
@@ -52,7 +52,9 @@ def _open() -> ctypes.CDLL:
     # The library knows the structs of earlier headers, not those of later ones.
     small = any(_size(default) < ctypes.sizeof(ours) for default, ours in
                 ((library.grainlaw_report_default, Report),
-                 (library.grainlaw_summary_default, Summary)))
+                 (library.grainlaw_summary_default, Summary),
+                 (library.grainlaw_part_default, Part),
+                 (library.grainlaw_march_options_default, MarchOptions)))
     if found.split(".")[0] != str(ABI) or small:
         raise ImportError(f"{path} is grainlaw {found}; this module was made for {VERSION}")
     return library
@@ -98,6 +100,14 @@ def _declare(library: ctypes.CDLL) -> None:
         "points_load": (ctypes.c_int, pointer, pointer, size, text, size),
         "state_save": (ctypes.c_int, pointer, pointer, count),
         "points_measure": (ctypes.c_int, pointer, ctypes.c_int, pointer, count),
+        "march_create": (ctypes.c_int, ctypes.POINTER(MarchOptions), pointer, out),
+        "march_destroy": (None, pointer),
+        "march_begin": (ctypes.c_int, pointer, ctypes.c_double, ctypes.c_double),
+        "march_next": (ctypes.c_int, pointer, ctypes.POINTER(Part)),
+        "march_share": (ctypes.c_double, pointer, ctypes.c_double),
+        "march_tell": (ctypes.c_int, pointer, ctypes.c_int, ctypes.POINTER(Summary),
+                       ctypes.c_double, ctypes.c_double, ctypes.c_double),
+        "march_cut": (ctypes.c_double, ctypes.c_double),
         "table_create": (ctypes.c_int, pointer, out),
         "table_destroy": (None, pointer),
         "table_size": (size, pointer),

@@ -11,7 +11,8 @@ import numpy as np
 
 from .arguments import MOST_STEPS, number, whole
 from .control import Condition, Segment, cauchy
-from .lead import Lead, StepError
+from .lead import Lead
+from .march import StepError
 from .progress import Progress
 from .result import Result
 

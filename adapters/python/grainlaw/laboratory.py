@@ -40,7 +40,8 @@ from .control import Condition, Segment, cauchy
 from .course import Course, Loops, Plan, Stop, keep
 from .ensemble import Ensemble
 from .interrupt import Interrupts
-from .lead import Lead, Options, StepError
+from .lead import Lead, Options
+from .march import StepError
 from .material import Material
 from .points import State
 from .progress import Listener, Progress

@@ -1,5 +1,5 @@
 """A state led by steps of mixed strain and stress control: Newton by the exact tangent on the
-components of F that are found, steps cut where that or the packing fails."""
+components of F that are found, in the parts of a march."""
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
@@ -12,39 +12,9 @@ from .abi import status_text
 from .arrays import Array
 from .control import Condition, Segment, cauchy, controlled, follow_volume, solve, with_volume
 from .interrupt import Interrupts
-from .names import Measure, Status, Tangent
+from .march import March, StepError
+from .names import Action, Measure, Status, Tangent
 from .points import Evaluation, State
-
-# An attempt ends when so many iterations in a row have not halved the error: P(F) jumps where
-# contacts collapse, and Newton then goes to and fro. A smaller step usually passes beside it.
-PATIENCE = 4
-# What a part of no more than this share of a step does not end is such a jump. It is crossed: what
-# lies beyond is committed out of balance, and brought to balance from there, so often at most.
-CROSSING_PART, CROSSINGS = 1 / 16, 8
-SMALLEST_CUT, USUAL_CUT, GROWTH = 0.1, 0.5, 2.0   # of a part that failed; of one that went well
-
-
-class StepError(Exception):
-    """A step that failed in its smallest part too."""
-
-    def __init__(self, status: int, message: str) -> None:
-        super().__init__(message)
-        self.status = status
-
-
-@dataclass
-class Attempt:
-    """How far Newton came: converged, stalled (every evaluation went well, to no end), or why not."""
-
-    F: Array
-    answer: Evaluation | None = None
-    converged: bool = False
-    stalled: bool = False
-    ratio: float = USUAL_CUT
-    reason: str = ""
-    status: int = Status.OK
-    far: float = -1.0            # of the iterate furthest from what the last tangent foresaw [Pa]
-    far_F: Array | None = None
 
 
 @dataclass(frozen=True)
@@ -66,7 +36,7 @@ class Lead:
         self.loose_parts = 0     #: that ended out of balance, so far
         self.work = 0.0          #: of P on dF over the parts, trapezoid rule [J]
         self._volume = float(state.measure(Measure.REFERENCE_VOLUME))
-        self._options, self._interrupts = options, interrupts
+        self.options, self._interrupts = options, interrupts
         state.revert()
         self.F: Array = state.measure(Measure.DEFORMATION_GRADIENT)
         self.P: Array
@@ -80,7 +50,7 @@ class Lead:
             return self.F.ravel()
         if self.A is None:
             self._renew_tangent()
-        return controlled(conditions, self.F, self.P, self._tangent())[0]
+        return controlled(conditions, self.F, self.P, self.tangent())[0]
 
     def run(self, segment: Segment, record: Callable[[], None],
             tell_cut: Callable[[float, str], None],
@@ -95,7 +65,7 @@ class Lead:
         F = self.F
         before = None if may_stay is None else self._keep()
         try:
-            self._solve_in_parts(segment, start, end, tell_cut)
+            self._march(segment, start, end, tell_cut)
         except (KeyboardInterrupt, StepError):
             self.state.revert()
             if self.F is not F:
@@ -114,108 +84,43 @@ class Lead:
         self.state.load(kept[0])
         _, self.F, self.P, self.A, self.report, self.work, self.loose_parts = kept
 
-    def _solve_in_parts(self, segment: Segment, start: Array, end: Array,
-                        tell_cut: Callable[[float, str], None]) -> None:
-        done, part = 0.0, 1.0
-        while done < 1:
-            to = 1.0 if done + part > 1 - 1e-9 else done + part
-            self.state.set_time_step(to - done)
-            attempt = self._attempt(segment, start + to * (end - start), to - done)
-            if attempt.converged:
-                self._accept(attempt)
-                done, part = to, min(1 - to, GROWTH * (to - done))
-                continue
-            self.state.revert()
-            part = (to - done) * min(max(attempt.ratio, SMALLEST_CUT), USUAL_CUT)
-            if part < 2.0**-self._options.max_cuts:
-                raise StepError(attempt.status,
-                                f"a step failed {100 * done:.3g} % along, in parts of "
-                                f"{to - done:.1e} of it too: {attempt.reason}")
-            tell_cut(part, attempt.reason)
+    def _march(self, segment: Segment, start: Array, end: Array,
+               tell_cut: Callable[[float, str], None]) -> None:
+        options = self.options
+        march = March(self.state, tolerance=options.tolerance, max_cuts=options.max_cuts,
+                      max_iterations=options.max_iterations)
+        attempt, farthest, reason = None, self.F, ""
+        try:
+            for now in march.to(1.0):
+                if attempt is None:
+                    if reason:
+                        tell_cut(march.time, reason)
+                    attempt = _Attempt(self, segment, start + march.load * (end - start))
+                if march.keep:
+                    farthest = attempt.F
+                if now == Action.SOLVE:
+                    attempt.solve()
+                    attempt.tell(march)
+                elif now == Action.CROSS:
+                    attempt.evaluate(farthest, Tangent.EXACT)
+                    attempt.tell(march)
+                elif now == Action.ACCEPT:
+                    self._accept(attempt)
+                    attempt, reason = None, ""
+                else:
+                    self.state.revert()
+                    attempt, reason = None, march.message
+        except StepError as error:
+            raise StepError(error.status, f"a step failed {march.message}") from None
+        finally:
+            self.loose_parts += march.loose
 
-    def _attempt(self, segment: Segment, goal: Array, part: float) -> Attempt:
-        attempt = self._newton(segment, goal)
-        if not attempt.stalled or part > CROSSING_PART:
-            return attempt
-        for _ in range(CROSSINGS):
-            if not attempt.stalled or attempt.far_F is None:
-                return attempt
-            beyond = self._evaluate(attempt.far_F, Tangent.EXACT)
-            if not beyond.ok:
-                return attempt
-            self._accept(Attempt(attempt.far_F, beyond))
-            attempt = self._newton(segment, goal)
-        if attempt.stalled:
-            attempt.converged = True   # the next part goes on from here
-            self.loose_parts += 1
-        return attempt
-
-    def _newton(self, segment: Segment, goal: Array) -> Attempt:
-        """The first iterate carries what is prescribed over to the unknowns by the tangent of the
-        last step. Where the tangent is not exact, Broyden's updates go on from the last one."""
-        d = len(self.F)
-        follows, volume, conditions = segment.follows, segment.volume, segment.conditions
-        if not segment.mixed:
-            F = goal.reshape(d, d)
-            return self._at(with_volume(F, follows, volume) if follows else F,
-                            Tangent.EXACT if self._options.tangents else None)
-        stresses = [k for k, condition in enumerate(conditions) if condition.stress]
-        scale = max(float(np.linalg.norm(cauchy(self.P, self.F))), 1.0)
-        value, matrix = controlled(conditions, self.F, self.P, self._tangent())
-        before, foreseen = value, matrix.copy()
-        F, best, best_iteration = self.F, np.inf, 0
-        far, far_F, stalled = -1.0, None, False
-        for iteration in range(self._options.max_iterations):
-            correction = self._correction(matrix, goal - value, F, follows)
-            F = F + correction.reshape(d, d)
-            if follows:
-                F = with_volume(F, follows, volume)
-            attempt = self._at(F, Tangent.EXACT)
-            if attempt.answer is None:
-                return attempt
-            F, A = attempt.F, attempt.answer.A
-            assert A is not None
-            last, (value, derivative) = value, controlled(conditions, F, attempt.answer.P, A)
-            error = float(np.abs((goal - value)[stresses]).max()) / scale
-            unforeseen = float(np.linalg.norm(value - before - foreseen @ (F - self.F).ravel()))
-            if unforeseen > far:
-                far, far_F = unforeseen, F
-            if error <= self._options.tolerance:
-                return attempt
-            if error < 0.5 * best:
-                best, best_iteration = error, iteration
-            stalled = bool(np.isfinite(error)) and iteration >= best_iteration + PATIENCE
-            if stalled or not np.isfinite(error):
-                break
-            if attempt.answer.reports["tangent_exact"] or iteration == 0:
-                matrix = derivative
-            else:
-                mismatch = value - last - matrix @ correction
-                matrix = matrix + np.outer(mismatch, correction) / (correction @ correction)
-        attempt.converged, attempt.stalled, attempt.far, attempt.far_F = False, stalled, far, far_F
-        attempt.reason = f"the stress control did not converge (best residual {best:.1e} [-])"
-        return attempt
-
-    @staticmethod
-    def _correction(matrix: Array, residual: Array, F: Array, follows: Sequence[int]) -> Array:
-        if follows:
-            matrix, residual = matrix.copy(), residual.copy()
-            follow_volume(matrix, F, follows)
-            residual[[(len(F) + 1) * i for i in follows]] = 0
-        return solve(matrix, residual)
-
-    def _at(self, F: Array, tangent: Tangent | None) -> Attempt:
-        answer = self._evaluate(F, tangent)
-        if answer.ok:
-            found: Array = self.state.measure(Measure.DEFORMATION_GRADIENT)
-            return Attempt(found, answer, converged=True)
-        return Attempt(F, ratio=answer.step_ratio, reason=_why(answer), status=int(answer.status))
-
-    def _evaluate(self, F: Array, tangent: Tangent | None) -> Evaluation:
+    def evaluate(self, F: Array, tangent: Tangent | None) -> Evaluation:
+        """Of the state; KeyboardInterrupt comes between evaluations."""
         self._interrupts.check()
         return self.state.evaluate(F, tangent)
 
-    def _accept(self, attempt: Attempt) -> None:
+    def _accept(self, attempt: _Attempt) -> None:
         assert attempt.answer is not None
         self.state.commit()
         self.work += 0.5 * self._volume * float(
@@ -230,9 +135,81 @@ class Lead:
         self.P, self.A, self.report = answer.P, answer.A, answer.reports
         self.state.revert()
 
-    def _tangent(self) -> Array:
+    def tangent(self) -> Array:
+        """A, which stress control has renewed."""
         assert self.A is not None
         return self.A
+
+
+class _Attempt:
+    """Newton on the components of F whose stress is prescribed, from what is committed. The first
+    iterate carries what is prescribed over to the unknowns by the committed tangent. Where the tangent
+    is not exact, Broyden's updates go on from the last one."""
+
+    def __init__(self, lead: Lead, segment: Segment, goal: Array) -> None:
+        self.F = lead.F
+        self.answer: Evaluation | None = None
+        self._lead, self._segment, self._goal = lead, segment, goal
+        self._error, self._unforeseen = 0.0, -1.0
+        if not segment.mixed:
+            return
+        self._stresses = [k for k, one in enumerate(segment.conditions) if one.stress]
+        self._scale = max(float(np.linalg.norm(cauchy(lead.P, lead.F))), 1.0)
+        self._value, self._matrix = controlled(segment.conditions, lead.F, lead.P, lead.tangent())
+        self._before, self._foreseen = self._value, self._matrix.copy()
+
+    def solve(self) -> None:
+        """One iteration; where a strain alone leads, the only one."""
+        d, follows, volume = len(self.F), self._segment.follows, self._segment.volume
+        if not self._segment.mixed:
+            F = self._goal.reshape(d, d)
+            self.evaluate(with_volume(F, follows, volume) if follows else F,
+                          Tangent.EXACT if self._lead.options.tangents else None)
+            return
+        if self.answer is not None:
+            self._renew_matrix(self.answer)
+        self._correction = _correction(self._matrix, self._goal - self._value, self.F, follows)
+        F = self.F + self._correction.reshape(d, d)
+        self._first = self.answer is None
+        self.evaluate(with_volume(F, follows, volume) if follows else F, Tangent.EXACT)
+        answer = self.answer
+        if answer is None or not answer.ok:
+            return
+        assert answer.A is not None
+        self._last = self._value
+        self._value, self._derivative = controlled(self._segment.conditions, self.F, answer.P,
+                                                   answer.A)
+        self._error = float(np.abs((self._goal - self._value)[self._stresses]).max()) / self._scale
+        change = (self.F - self._lead.F).ravel()
+        self._unforeseen = float(np.linalg.norm(self._value - self._before
+                                                - self._foreseen @ change))
+
+    def evaluate(self, F: Array, tangent: Tangent | None) -> None:
+        """The state at F; components that are found may differ."""
+        self.F, self.answer = F, self._lead.evaluate(F, tangent)
+        if self.answer.ok:
+            self.F = self._lead.state.measure(Measure.DEFORMATION_GRADIENT)
+
+    def tell(self, march: March) -> None:
+        """The outcome of the last evaluation."""
+        assert self.answer is not None
+        march.tell(self.answer, self._error, 1.0, self._unforeseen, _why(self.answer))
+
+    def _renew_matrix(self, answer: Evaluation) -> None:
+        if answer.reports["tangent_exact"] or self._first:
+            self._matrix = self._derivative
+            return
+        mismatch = self._value - self._last - self._matrix @ self._correction
+        self._matrix = self._matrix + (np.outer(mismatch, self._correction)
+                                       / (self._correction @ self._correction))
+
+
+def _correction(matrix: Array, residual: Array, F: Array, follows: Sequence[int]) -> Array:
+    if follows:
+        matrix, residual = matrix.copy(), residual.copy()
+        follow_volume(matrix, F, follows)
+        residual[[(len(F) + 1) * i for i in follows]] = 0
+    return solve(matrix, residual)
 
 
 def _why(answer: Evaluation) -> str:

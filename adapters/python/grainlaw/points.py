@@ -206,7 +206,9 @@ class States:
         def call(_: Any, values: Any, n: int, op: int) -> None:
             own = np.ctypeslib.as_array(values, (n,))
             assert reduce is not None
-            own[:] = reduce(own.copy(), "sum" if op else "min")
+            native = np.empty(n)   # mpi4py takes no array whose type ctypes has named
+            native[:] = own
+            own[:] = reduce(native, "sum" if op else "min")
 
         callback = REDUCE(call) if reduce else REDUCE(0)
         rank = whole("rank", rank, 0, LARGEST_INT, bad_argument)
@@ -223,8 +225,8 @@ class States:
               message.value.decode(errors="replace"))
 
     def set_time_step(self, step: float) -> None:
-        """How long increments take from now on, in the host's unit, e.g. `LoadSteps.part`: a
-        material with solver.viscous_rate asks for it before it deforms. 0: they take no time,
+        """How long increments take from now on, in the host's unit: a material with
+        solver.viscous_rate asks for it before it deforms; a March tells it. 0: they take no time,
         and F has to stay."""
         step = number("time step", step, bad_argument)
         if step < 0:

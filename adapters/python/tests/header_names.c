@@ -8,6 +8,11 @@
 #define PARTICLE_FIELD(name) printf("Particle %s %zu\n", #name, offsetof(grainlaw_particle, name));
 #define CONTACT_FIELD(name) printf("Contact %s %zu\n", #name, offsetof(grainlaw_contact, name));
 
+#define PART_FIELD(name) printf("Part %s %zu\n", #name, offsetof(grainlaw_part, name));
+#define OPTION_FIELD(name) \
+  printf("MarchOptions %s %zu\n", #name, offsetof(grainlaw_march_options, name));
+#define ACTION(name) printf("Action %s %d\n", #name, (int)(name));
+
 int main(void) {
 #define GRAINLAW_X(name, value, text) printf("Status %s %d\n", #name, (int)(name));
   GRAINLAW_STATUS_LIST(GRAINLAW_X)
@@ -41,6 +46,32 @@ int main(void) {
   SUMMARY_FIELD(first_failed)
   SUMMARY_FIELD(message)
   SUMMARY_FIELD(rank)
+  ACTION(GRAINLAW_SOLVE)
+  ACTION(GRAINLAW_ACCEPT)
+  ACTION(GRAINLAW_BACK)
+  ACTION(GRAINLAW_CROSS)
+  ACTION(GRAINLAW_GIVE_UP)
+  ACTION(GRAINLAW_DONE)
+  PART_FIELD(size)
+  PART_FIELD(load)
+  PART_FIELD(time)
+  PART_FIELD(keep)
+  PART_FIELD(complete)
+  PART_FIELD(solves)
+  PART_FIELD(cuts)
+  PART_FIELD(crossed)
+  PART_FIELD(loose)
+  PART_FIELD(residual)
+  PART_FIELD(message)
+  OPTION_FIELD(size)
+  OPTION_FIELD(tolerance)
+  OPTION_FIELD(max_iterations)
+  OPTION_FIELD(max_cuts)
+  OPTION_FIELD(patience)
+  OPTION_FIELD(largest_correction)
+  OPTION_FIELD(crossing_part)
+  OPTION_FIELD(max_crossings)
+  OPTION_FIELD(step_time)
   PARTICLE_FIELD(position)
   PARTICLE_FIELD(rotation)
   PARTICLE_FIELD(radius)
@@ -60,6 +91,8 @@ int main(void) {
   CONTACT_FIELD(bonded)
   printf("sizeof Particle %zu\n", sizeof(grainlaw_particle));
   printf("sizeof Contact %zu\n", sizeof(grainlaw_contact));
+  printf("sizeof Part %zu\n", sizeof(grainlaw_part));
+  printf("sizeof MarchOptions %zu\n", sizeof(grainlaw_march_options));
   printf("sizeof Report %zu\n", sizeof(grainlaw_report));
   printf("sizeof Summary %zu\n", sizeof(grainlaw_summary));
   return 0;

@@ -22,7 +22,7 @@ class Header(unittest.TestCase):
             cls.said.setdefault(words[0], []).append(words[1:])
 
     def test_enumerations_are_those_of_the_header(self):
-        for kind in ("Status", "Measure", "Tangent"):
+        for kind in ("Status", "Measure", "Tangent", "Action"):
             said = [(name.removeprefix("GRAINLAW_"), int(value)) for name, value in self.said[kind]]
             ours = [(entry.name, entry.value) for entry in getattr(names, kind)]
             self.assertEqual(ours, said)

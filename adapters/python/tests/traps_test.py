@@ -7,7 +7,7 @@ import numpy as np
 
 import grainlaw
 from grainlaw import Status, Tangent, tests
-from grainlaw.steps import LoadSteps
+from grainlaw.march import load_steps
 from support import Case, material
 
 ALL = 1 | 4 | 8  # invalid, division by zero, overflow
@@ -46,13 +46,20 @@ class Traps(Case):
                          lambda: tests.drained(material(), consolidation=bad)):
                 self.assertRaisesRegex(ValueError, "finite", call)
 
-    def test_load_steps(self):
-        for bad in (float("nan"), float("inf")):
-            with self.assertRaises(ValueError):
-                LoadSteps([0, bad, 1])
-            steps = LoadSteps(1)
-            steps.cut(bad)
-            self.assertEqual(steps.load, 0.5)
+    def test_marches(self):
+        for bad in (np.nan, np.inf):
+            self.assertRaises(ValueError, load_steps, [0, bad, 1])
+            march = grainlaw.March()
+            march.begin(1)
+            for residual, scale in ((bad, 1.0), (0.0, 0.0), (1.0, 0.0)):
+                self.assertEqual(march.next(), grainlaw.Action.SOLVE)
+                march.tell(grainlaw.Status.OK, residual, scale, bad)
+                self.assertEqual(march.next(), grainlaw.Action.BACK)
+            self.assertEqual(march.next(), grainlaw.Action.SOLVE)
+            self.assertEqual(march.share(bad), 0)
+            self.assertEqual(march.next(), grainlaw.Action.BACK)
+            self.assertEqual(march.next(), grainlaw.Action.SOLVE)
+            self.assertEqual(march.load, 1 / 16)
 
 
 if __name__ == "__main__":
