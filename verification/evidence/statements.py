@@ -3,7 +3,6 @@
 where both become a verdict.
 
   statements.py page                    writes report/statements.md
-  statements.py show PAPER [PLACE]      rows of a paper, with PLACE as in "Fig. 2" those of its parts too, as markdown
   statements.py tests BUILD OUTPUT      runs the tests that statements name; their failures are facts, in OUTPUT
   statements.py collect OUTPUT          keeps the facts of a run, *_facts.csv in OUTPUT, in the folder facts
 """
@@ -124,11 +123,6 @@ def of_paper(rows, letter):
     return [row for key, row in rows.items() if key[0] == letter]
 
 
-def at_place(row, place):
-    """"Fig. 2" is that figure and its parts, not figure 20."""
-    return any(re.fullmatch(re.escape(place) + r"[a-z]?", where) for where in row["place"])
-
-
 def kind_of(place):
     return next((kind for start, kind in KINDS.items() if place.startswith(start)), "Text")
 
@@ -183,13 +177,6 @@ def page_text():
     return "\n".join(lines) + "\n"
 
 
-def show(letter, place=None):
-    facts = read_facts()
-    rows = [row for row in of_paper(load()[1], letter) if place is None or at_place(row, place)]
-    if rows:
-        print(*table_of(rows, facts), sep="\n")
-
-
 def tests_named():
     return sorted({bound["fact"] for row in load()[1].values() for bound in row["bounds"] if bound.get("fact", "").startswith("tests.")})
 
@@ -237,8 +224,6 @@ def main(command, *arguments):
     if command == "page":
         PAGE.write_text(page_text(), encoding="utf-8")
         print("wrote", PAGE)
-    elif command == "show":
-        show(*arguments)
     elif command == "tests":
         run_tests(arguments[0], pathlib.Path(arguments[1]))
     elif command == "collect":
