@@ -1,12 +1,11 @@
 // Known numbers in the limit of no pressure: lattices against sums over their neighbours, per radius, kn and
 // kt.
 #include "sphere_support.hpp"
-#include "support.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace grainlaw::core::test {
+namespace grainlaw::core::known {
 namespace {
 
 constexpr double radius = 1e-3, d = 2 * radius, kn = 1e4, no_load = 1e-9;
@@ -69,7 +68,7 @@ TEST(known_numbers, hexagonal_discs) {
     const Constants found = constants<2>([&] {
       auto description = lattice<2>(GeneratorKind::hexagonal, law_of(r));
       description.generator->columns = description.generator->rows = 4;
-      description.generator->thickness = description.thickness = 1;
+      description.generator->thickness = 1;
       return description;
     }());
     const double unit = std::sqrt(3.0) / 4 * kn;
@@ -98,4 +97,4 @@ TEST(known_numbers, stiffness_of_hertz_contacts_goes_with_a_third_of_the_pressur
 }
 
 }  // namespace
-}  // namespace grainlaw::core::test
+}  // namespace grainlaw::core::known

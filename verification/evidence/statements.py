@@ -202,7 +202,8 @@ def run_tests(build, output):
         done = subprocess.run(["ctest", "--test-dir", build, "-R", f"^{re.escape(what)}[.]"], stdout=subprocess.PIPE, text=True)
         told = re.search(r"(\d+) tests failed out of (\d+)", done.stdout)
         if not told or told[2] == "0":
-            raise SystemExit(f"{what}: there is no such test in {build}")
+            print(f"{what}: left out, {build} has no such test", flush=True)
+            continue
         failures[name] = int(told[1])
         print(f"{what}: {told[1]} of {told[2]} failed", flush=True)
     write_facts(output / "tests_facts.csv", failures, *machine_of(output))
