@@ -2,9 +2,9 @@
 """Statements of the papers and the ladder of known numbers: the tables of bounds, the facts that studies wrote, and the one place
 where both become a verdict.
 
-  statements.py page                    writes report/statements.md
-  statements.py tests BUILD OUTPUT      runs the tests that statements name; their failures are facts, in OUTPUT
-  statements.py collect OUTPUT          keeps the facts of a run, *_facts.csv in OUTPUT, in the folder facts
+  statements.py page                            writes report/statements.md
+  statements.py tests BUILD OUTPUT [FACT ...]   runs the tests that statements name; their failures are facts, in OUTPUT
+  statements.py collect OUTPUT                  keeps the facts of a run, *_facts.csv in OUTPUT, in the folder facts
 """
 import collections
 import csv
@@ -195,9 +195,14 @@ def machine_of(output):
     return told["revision"], told["processor"]
 
 
-def run_tests(build, output):
+def run_tests(build, output, *names):
+    """All that statements name, or these; written after each, beside what the same commit left."""
+    path, told_of = output / "tests_facts.csv", machine_of(output)
     failures = {}
-    for name in tests_named():
+    if path.exists():
+        with open(path, newline="", encoding="utf-8") as file:
+            failures = {row["fact"]: int(row["value"]) for row in csv.DictReader(file) if (row["commit"], row["machine"]) == told_of}
+    for name in names or tests_named():
         what = name.removeprefix("tests.")
         done = subprocess.run(["ctest", "--test-dir", build, "-R", f"^{re.escape(what)}[.]"], stdout=subprocess.PIPE, text=True)
         told = re.search(r"(\d+) tests failed out of (\d+)", done.stdout)
@@ -206,7 +211,7 @@ def run_tests(build, output):
             continue
         failures[name] = int(told[1])
         print(f"{what}: {told[1]} of {told[2]} failed", flush=True)
-    write_facts(output / "tests_facts.csv", failures, *machine_of(output))
+        write_facts(path, failures, *told_of)
 
 
 def collect(output):
@@ -226,7 +231,7 @@ def main(command, *arguments):
         PAGE.write_text(page_text(), encoding="utf-8")
         print("wrote", PAGE)
     elif command == "tests":
-        run_tests(arguments[0], pathlib.Path(arguments[1]))
+        run_tests(arguments[0], pathlib.Path(arguments[1]), *arguments[2:])
     elif command == "collect":
         collect(pathlib.Path(arguments[0]))
     else:
