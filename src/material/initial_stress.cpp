@@ -61,7 +61,7 @@ void load_to_stress(const BoundarySpace<D>& space, const Request<D>& request,
       Configuration<D> reached;
       workspace.increment.export_to(at, reached);
       reached.stress = stress;
-      reached.dissipated = reached.broken_bonds = 0;
+      reached.dissipated = 0;
       at = std::move(reached);
       share = next;
       advancing = false;

@@ -41,6 +41,17 @@ TEST(layer, found_deformation_gives_the_prescribed_stress_when_it_is_given) {
   EXPECT_NEAR(stress_of(given)[3], pressure, 1e-3 * std::abs(pressure));
 }
 
+TEST(layer, counts_bonds_that_the_prescribed_stress_breaks) {
+  auto description = describe_layer(small_packing(), 4 * pressure);
+  description.law.kind = LawKind::bonded;
+  description.law.bond.bending_stiffness = 1e-3;
+  for (const bool weak : {true, false}) {
+    description.law.bond.normal_strength = description.law.bond.tangential_strength =
+        description.law.bond.bending_strength = weak ? 0.1 : 1e6;
+    EXPECT_EQ(make_material(description)->initial.broken_bonds > 0, weak);
+  }
+}
+
 TEST(layer, tangent_is_condensed) {
   State state(make_material(describe_layer(small_packing(), 1.1 * pressure)));
   for (const auto kind : {TangentKind::exact, TangentKind::elastic}) {

@@ -74,6 +74,23 @@ double integrated_norm(const PaperRun& run, const PaperUnits& units, double unti
   return std::sqrt(sum);
 }
 
+double largest_rise(const std::vector<double>& values) {
+  double rise = 0;
+  for (std::size_t k = 1; k < values.size(); ++k) rise = std::max(rise, values[k] / values[k - 1]);
+  return rise;
+}
+
+double least_rise(const std::vector<double>& values) {
+  double rise = INFINITY;
+  for (std::size_t k = 1; k < values.size(); ++k) rise = std::min(rise, values[k] / values[k - 1]);
+  return rise;
+}
+
+double spread(const std::vector<double>& values) {
+  const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+  return *largest / *least;
+}
+
 Order compare(const PaperRun& stiff, const PaperRun& soft, const PaperUnits& units) {
   constexpr double rounding = 1e-6;
   const std::vector<double> a = stress_norm(stiff, units);

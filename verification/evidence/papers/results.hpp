@@ -3,6 +3,7 @@
 
 #include "app/csv.hpp"
 #include "app/figure.hpp"
+#include "evidence/facts.hpp"
 #include "evidence/studies/study.hpp"
 
 #include <filesystem>
@@ -67,25 +68,11 @@ struct Order {
 };
 Order compare(const PaperRun& stiff, const PaperRun& soft, const PaperUnits& units);
 
-// A row per statement of the paper and what was found: the page prints them.
-class Facts {
- public:
-  Facts() : table_("Statements of the paper", {"figure", "quantity", "paper", "here", "verdict"}) {}
-  // verdict: "agrees", "differs", "not stated".
-  void add(const std::string& figure, const std::string& quantity, const std::string& paper,
-           const std::string& here, const std::string& verdict) {
-    table_.row({figure, quantity, paper, here, verdict});
-  }
-  void agree(const std::string& figure, const std::string& quantity, const std::string& paper,
-             const std::string& here, bool yes) {
-    add(figure, quantity, paper, here, yes ? "agrees" : "differs");
-  }
-  void write(const std::filesystem::path& path) const { table_.write(path); }
-  void print() const { table_.print(); }
-
- private:
-  Table table_;
-};
+// Largest and least ratio of a number to the one before it.
+double largest_rise(const std::vector<double>& values);
+double least_rise(const std::vector<double>& values);
+// Largest over least.
+double spread(const std::vector<double>& values);
 
 // Where the scenes lie, where their results are, and what is found on the way.
 struct PaperStudy {

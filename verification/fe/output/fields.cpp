@@ -62,7 +62,7 @@ const std::vector<Field>& fields() {
       {"strain", "-", "strain", 4,
        [](const PointView& p, double* out) { put(small_strain(p.deformation), out); }},
       {"volumetric_strain", "-", "volumetric strain, dilation +", 1,
-       [](const PointView& p, double* out) { out[0] = small_strain(p.deformation).trace(); }},
+       [](const PointView& p, double* out) { out[0] = p.deformation.determinant() - 1; }},
       {"deviatoric_strain", "-", "deviatoric strain", 1,
        [](const PointView& p, double* out) {
          out[0] = std::sqrt(2.0) * deviator(small_strain(p.deformation)).norm();

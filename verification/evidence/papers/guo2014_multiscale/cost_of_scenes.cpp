@@ -23,8 +23,8 @@ struct Scene {
 };
 constexpr std::array<Scene, 24> scenes{
     {{"element_exact", 4, 400, 100, ""},
-     {"element_elastic", 4, 400, 55, "not stated"},
-     {"element_perturbed", 4, 400, 55, "not stated"},
+     {"element_elastic", 4, 400, 55, "-"},
+     {"element_perturbed", 4, 400, 55, "-"},
      {"biaxial_2x4", 32, 400, 100, ""},
      {"biaxial_2x4_100", 32, 100, 20, ""},
      {"biaxial_2x4_coarse", 32, 400, 8, ""},
@@ -39,13 +39,13 @@ constexpr std::array<Scene, 24> scenes{
      {"biaxial_12x20", 960, 400, 100, "4.5 h on 16 cores"},
      {"biaxial_6x10_q8", 540, 400, 100, "3 h on 16 cores"},
      {"biaxial_2x4_hexagonal", 32, 400, 50, ""},
-     {"biaxial_6x10_hexagonal", 240, 400, 50, "not stated"},
+     {"biaxial_6x10_hexagonal", 240, 400, 50, "-"},
      {"cyclic_strain_column", 2, 400, 620, ""},
      {"cyclic_strain_3x2", 24, 400, 620, ""},
-     {"cyclic_strain_15x10", 600, 400, 620, "not stated"},
+     {"cyclic_strain_15x10", 600, 400, 620, "-"},
      {"cyclic_stress_column", 2, 400, 2400, ""},
      {"cyclic_stress_3x2", 24, 400, 1600, ""},
-     {"cyclic_stress_15x10", 600, 400, 1600, "not stated"}}};
+     {"cyclic_stress_15x10", 600, 400, 1600, "-"}}};
 
 double sum(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
@@ -150,6 +150,7 @@ void study_cost_of_scenes(HierarchicalStudy& study) {
     const double steps = static_cast<double>(run->steps() - 1);
     const double nan = std::nan("");
     const double core = run->cost ? sum((*run->cost)["core_time"]) : nan;
+    study.facts.add(fmt::format("{}.core_hours", scene.name), core / 3600);
     table.row({scene.name, scene.points, scene.particles, steps, scene.planned,
                run->cost ? sum((*run->cost)["elapsed"]) : nan, core,
                1e3 * core / (steps * scene.points), sum(run->history["newton_iterations"]),

@@ -16,21 +16,21 @@ constexpr double failed_below = 1e3;  // mean stress, a hundredth of the lateral
 
 // Values of a field, all points over all steps.
 struct Fields {
-  CsvTable strain, volume, mean, deviator, fabric;
+  CsvTable strain, volume, mean, deviator, fabric, voids;
 
   [[nodiscard]] std::size_t points() const { return strain.columns.size() - 1; }
 };
 
 std::optional<Fields> load_fields(const std::filesystem::path& results, const std::string& name) {
-  std::array<std::optional<CsvTable>, 5> tables;
-  constexpr std::array<const char*, 5> fields{"deviatoric_strain", "volumetric_strain",
-                                              "mean_stress", "deviatoric_stress",
-                                              "fabric_intensity"};
+  std::array<std::optional<CsvTable>, 6> tables;
+  constexpr std::array<const char*, 6> fields{"deviatoric_strain", "volumetric_strain",
+                                              "mean_stress",       "deviatoric_stress",
+                                              "fabric_intensity",  "void_ratio"};
   for (std::size_t k = 0; k < fields.size(); ++k) {
     tables[k] = load_every(results, name, fields[k]);
     if (!tables[k] || tables[k]->rows() < 3) return std::nullopt;
   }
-  return Fields{*tables[0], *tables[1], *tables[2], *tables[3], *tables[4]};
+  return Fields{*tables[0], *tables[1], *tables[2], *tables[3], *tables[4], *tables[5]};
 }
 
 std::vector<double> scaled(const CsvTable& table, std::size_t point, double factor) {
@@ -75,51 +75,96 @@ void draw_points(HierarchicalStudy& study, const std::string& name, const Fields
   }
   draw(local, study.results / "figure_15");
   draw(paths, study.results / "figure_15_paths");
-  const auto largest = [](std::vector<double> v) { return *std::max_element(v.begin(), v.end()); };
-  const auto q_out = scaled(f.deviator, outside, 1e-3);
-  const auto strain_out = scaled(f.strain, outside, percent);
-  study.facts.agree(
-      "15", "outside the band", "unloads after a strain of 2.8 %",
-      fmt::format("q {:.0f} kPa at most, {:.0f} kPa at the end; strain {:.1f} % at "
-                  "most, {:.1f} % at the end",
-                  largest(q_out), q_out.back(), largest(strain_out), strain_out.back()),
-      q_out.back() < 0.95 * largest(q_out));
-  study.facts.add("15", "inside the band", "60 % strain, dilation 4.5 %",
-                  fmt::format("{:.0f} % strain, dilation {:.1f} %",
-                              f.strain.columns[inside + 1].back() * percent,
-                              f.volume.columns[inside + 1].back() * percent),
-                  "not stated");
-  study.facts.add("15", "the most dilated point", "dilation 7.4 %, p and q to zero",
-                  fmt::format("dilation {:.1f} %, p {:.1f} kPa, q {:.1f} kPa",
-                              f.volume.columns[edge + 1].back() * percent,
-                              f.mean.columns[edge + 1].back() / 1e3 + 0.0,  // never -0
-                              f.deviator.columns[edge + 1].back() / 1e3),
-                  "not stated");
+}
+
+constexpr std::size_t per_element = 4;  // points of Q4
+
+// Mean of a field over the points of an element, step by step.
+std::vector<double> of_element(const CsvTable& table, std::size_t element) {
+  std::vector<double> values(table.rows(), 0.0);
+  for (std::size_t k = 0; k < per_element; ++k)
+    for (std::size_t step = 0; step < values.size(); ++step)
+      values[step] += table.columns[1 + per_element * element + k][step] / per_element;
+  return values;
+}
+
+// The paper's points 51, 256 and 422 on its mesh of 10 x 15, counted element by element along x; where
+// the band leans to the left the mirror image of their elements. The whole element is taken.
+void point_facts(HierarchicalStudy& study, const std::string& name, const Fields& f) {
+  constexpr std::size_t columns = 10, rows = 15;
+  if (f.points() != per_element * columns * rows) return;
+  double lean = 0;
+  for (std::size_t e = 0; e < columns * rows; ++e)
+    lean += of_element(f.strain, e).back() *
+            (static_cast<double>(e % columns) - 0.5 * (columns - 1)) *
+            (static_cast<double>(e / columns) - 0.5 * (rows - 1));
+  for (const std::size_t point : {51, 256, 422}) {
+    std::size_t e = point / per_element;
+    if (lean < 0) e += columns - 1 - 2 * (e % columns);
+    const auto add = [&](const char* fact, double value) {
+      study.facts.add(fmt::format(fmt::runtime(fact), name, point), value);
+    };
+    const auto strain = of_element(f.strain, e), volume = of_element(f.volume, e),
+               q = of_element(f.deviator, e), fabric = of_element(f.fabric, e);
+    const auto most = [](const std::vector<double>& v) {
+      return *std::max_element(v.begin(), v.end());
+    };
+    add("{}.N{}.strain_most", percent * most(strain));
+    add("{}.N{}.dilation_end", percent * volume.back());
+    add("{}.N{}.contraction_most", -percent * *std::min_element(volume.begin(), volume.end()));
+    add("{}.N{}.p_end", of_element(f.mean, e).back() / 1e3);
+    add("{}.N{}.q_end_over_most", q.back() / most(q));
+    add("{}.N{}.fabric_end_over_most", fabric.back() / most(fabric));
+  }
 }
 
 void draw_failed(HierarchicalStudy& study, const std::string& name, const Fields& f) {
   const auto run = load_run(study.results, name);
   if (!run) return;
   const std::vector<double> strain = run->column("axial_strain", percent);
-  std::vector<double> share;
-  double first = std::nan("");
-  for (std::size_t k = 0; k < f.mean.rows(); ++k) {
-    int failed = 0;
-    for (std::size_t p = 0; p < f.points(); ++p)
-      failed += f.mean.columns[p + 1][k] < failed_below ? 1 : 0;
-    share.push_back(percent * failed / static_cast<double>(f.points()));
-    if (failed > 0 && !(first >= 0)) first = strain[k];
+  const auto lost = [](double mean) { return mean < failed_below ? 1.0 : 0.0; };
+  const std::size_t elements = f.points() / per_element;
+  std::vector<double> points(f.mean.rows(), 0.0), whole = points;
+  for (std::size_t p = 0; p < f.points(); ++p)
+    for (std::size_t k = 0; k < points.size(); ++k)
+      points[k] += percent * lost(f.mean.columns[p + 1][k]) / static_cast<double>(f.points());
+  for (std::size_t e = 0; e < elements; ++e) {
+    const std::vector<double> mean = of_element(f.mean, e);
+    for (std::size_t k = 0; k < whole.size(); ++k)
+      whole[k] += percent * lost(mean[k]) / static_cast<double>(elements);
   }
-  draw({"points under less than 1 kPa, " + name,
+  draw({"points and elements under less than 1 kPa, " + name,
         "axial strain [%]",
-        {{"share of the points [%]", {{"", strain, share, colour::blue, Stroke::solid}}, 1}}},
+        {{"share [%]",
+          {{"points", strain, points, colour::blue, Stroke::solid},
+           {"elements, mean of their points", strain, whole, colour::orange, Stroke::solid}},
+          1}}},
        study.results / "figure_17");
-  study.facts.add("17", "points that have lost their strength", "from 5.3 %, 1.5 % of the points",
-                  std::isfinite(first)
-                      ? fmt::format("from {:.1f} %, {:.1f} % of the points at {:.1f} %", first,
-                                    share.back(), strain.back())
-                      : fmt::format("none to {:.1f} %", strain.back()),
-                  "not stated");
+  const auto add = [&](const char* fact, double value) {
+    study.facts.add(fmt::format(fmt::runtime(fact), name), value);
+  };
+  const auto first = std::find_if(points.begin(), points.end(), [](double s) { return s > 0; });
+  if (first != points.end())
+    add("{}.failed.first_at", strain[static_cast<std::size_t>(first - points.begin())]);
+  add("{}.failed.points", points.back());
+  add("{}.failed.elements", whole.back());
+  // Void ratio of the failed points over that of all points strained more than the mean.
+  double strained = 0, failed = 0, count_strained = 0, count_failed = 0, mean_strain = 0;
+  for (std::size_t p = 1; p <= f.points(); ++p)
+    mean_strain += f.strain.columns[p].back() / static_cast<double>(f.points());
+  for (std::size_t p = 1; p <= f.points(); ++p) {
+    const double e = f.voids.columns[p].back();
+    if (f.strain.columns[p].back() > mean_strain) strained += e, ++count_strained;
+    if (f.mean.columns[p].back() < failed_below) failed += e, ++count_failed;
+  }
+  add("{}.failed.void_ratio_over_mean", (failed / count_failed) / (strained / count_strained));
+  const auto largest_fabric = [&](double at) {
+    double largest = 0;
+    for (std::size_t p = 1; p <= f.points(); ++p)
+      largest = std::fmax(largest, interpolate(strain, f.fabric.columns[p], at));
+    return largest;
+  };
+  add("{}.fabric_doubling", largest_fabric(4.8) / largest_fabric(4));
 }
 
 }  // namespace
@@ -128,6 +173,7 @@ void study_local_response(HierarchicalStudy& study) {
   for (const std::string name : {"biaxial_10x15", "biaxial_6x10", "biaxial_3x5", "biaxial_2x4"})
     if (const auto fields = load_fields(study.results, name)) {
       draw_points(study, name, *fields);
+      point_facts(study, name, *fields);
       draw_failed(study, name, *fields);
       return;
     }

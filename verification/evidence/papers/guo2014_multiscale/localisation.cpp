@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string_view>
 
 namespace verification {
@@ -73,32 +74,65 @@ double difference(const Response& a, const Response& b, double until) {
 }
 
 void newton_facts(HierarchicalStudy& study, const MeshRun& run, const Response& r) {
-  int steps = 0, quick = 0, most = 0, later = 0, loose = 0;
-  double cuts = 0;
+  int quick = 0;
+  double most = 0, cuts = 0, loose = 0;
   for (std::size_t k = 1; k < run.steps(); ++k) {
-    const int iterations = static_cast<int>(run.history["newton_iterations"][k]);
+    const double iterations = run.history["newton_iterations"][k];
+    const bool whole = run.history["step_cuts"][k] == 0 && run.history["loose_parts"][k] == 0;
     if (k <= r.peak()) {
-      ++steps;
-      const bool whole = run.history["step_cuts"][k] == 0 && run.history["loose_parts"][k] == 0;
       quick += iterations <= 5 && whole ? 1 : 0;
       most = std::max(most, iterations);
     } else {
-      ++later;
       cuts += run.history["step_cuts"][k];
       loose += run.history["loose_parts"][k] > 0 ? 1 : 0;
     }
   }
-  study.facts.agree(
-      "newton", fmt::format("{}: Newton before the peak, force residual 1e-6", r.title),
-      "more than ten iterations at 5 %, displacement error 0.01",
-      fmt::format("at most five iterations in {} of {} steps; most {}", quick, steps, most),
-      10 * quick >= 9 * steps);
-  if (later > 0)
-    study.facts.add("newton", fmt::format("{}: after the peak", r.title), "not stated",
-                    fmt::format("{} steps to {:.1f} %, {:.0f} cuts, {} steps with a part out of "
-                                "balance",
-                                later, r.strain.back(), cuts, loose),
-                    "not stated");
+  const auto steps = static_cast<double>(std::min(r.peak(), run.steps() - 1));
+  study.facts.add(fmt::format("{}.newton.share_within_five", run.name), quick / steps);
+  study.facts.add(fmt::format("{}.newton.most_before_peak", run.name), most);
+  study.facts.add(fmt::format("{}.newton.cuts_after_peak", run.name), cuts);
+  study.facts.add(fmt::format("{}.newton.loose_after_peak", run.name), loose);
+}
+
+// Least and largest value over the points after a step.
+std::array<double, 2> range_of(const CsvTable& field, std::size_t step) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::array<double, 2> ends{infinity, -infinity};
+  for (std::size_t point = 1; point < field.columns.size(); ++point) {
+    ends[0] = std::min(ends[0], field.columns[point][step]);
+    ends[1] = std::max(ends[1], field.columns[point][step]);
+  }
+  return ends;
+}
+
+// Fields at the peak and at the end; nothing where a run did not get there.
+void field_facts(HierarchicalStudy& study, const MeshRun& run, const Response& r) {
+  constexpr double whole = 9.9;  // axial strain of a test to its end [%]
+  struct Names {
+    const char *field, *peak_least, *peak_most, *least, *most;
+  };
+  for (const Names& names : {Names{"deviatoric_strain", "{}.strain_at_peak_least",
+                                   "{}.strain_at_peak_most", "{}.strain_least", "{}.strain_most"},
+                             Names{"void_ratio", "{}.void_at_peak_least", "{}.void_at_peak_most",
+                                   "{}.void_least", "{}.void_most"}}) {
+    const auto table = load_every(study.results, run.name, names.field);
+    if (!table || table->rows() == 0) continue;
+    const auto add = [&](const char* least, const char* most, std::size_t step) {
+      const auto ends = range_of(*table, step);
+      study.facts.add(fmt::format(fmt::runtime(least), run.name), ends[0]);
+      study.facts.add(fmt::format(fmt::runtime(most), run.name), ends[1]);
+    };
+    if (r.peak() + 1 < table->rows()) add(names.peak_least, names.peak_most, r.peak());
+    if (r.strain.back() > whole) add(names.least, names.most, table->rows() - 1);
+  }
+}
+
+// Mean stress from 6 to 10 % [kPa]; NaN of a run that ended before.
+double softened(const Response& r) {
+  double sum = 0, count = 0;
+  for (std::size_t k = 0; k < r.strain.size(); ++k)
+    if (r.strain[k] > 6 - 1e-6) sum += r.stress[k], ++count;
+  return r.strain.back() > 9.9 ? sum / count : std::nan("");
 }
 
 void draw_meshes(HierarchicalStudy& study) {
@@ -111,45 +145,30 @@ void draw_meshes(HierarchicalStudy& study) {
         {"RVE alone", reference->strain, reference->stress, colour::black, Stroke::dashed});
   }
   std::optional<Response> first;
+  std::map<std::string, double> late;  // mean stress from 6 to 10 % by mesh [kPa]
   for (const Mesh& mesh : meshes) {
     const auto run = load_mesh_run(study.results, mesh.name);
     if (!run || run->steps() < 3) continue;
     const Response r = response(*run, mesh.title);
     panel.curves.push_back({r.title, r.strain, r.stress, mesh.colour, Stroke::solid});
     newton_facts(study, *run, r);
-    const double peak = r.stress[r.peak()];
-    if (reference && r.peak() + 1 < r.stress.size()) {
-      const double other = reference->stress[reference->peak()];
-      study.facts.agree(
-          "10", r.title + ": peak against the RVE's", "close",
-          fmt::format("{:.1f} kPa at {:.1f} %, RVE {:.1f} kPa at {:.1f} %: {:+.2f} %", peak,
-                      r.strain[r.peak()], other, reference->strain[reference->peak()],
-                      percent * (peak / other - 1)),
-          std::abs(peak / other - 1) < 0.01);
-    }
+    field_facts(study, *run, r);
+    if (reference && r.peak() + 1 < r.stress.size())
+      study.facts.add(fmt::format("{}.peak_over_rve", mesh.name),
+                      r.stress[r.peak()] / reference->stress[reference->peak()]);
     if (first)
-      study.facts.agree(
-          "10", r.title + " against " + first->title + ", before the peak", "identical",
-          fmt::format("apart by {:.1e} to 1 %, {:.1e} to {:.1f} %", difference(r, *first, 1),
-                      difference(r, *first, 1.5), std::min(1.5, r.strain.back())),
-          difference(r, *first, 1.5) < 0.01);
+      study.facts.add(fmt::format("{}.apart_before_peak", mesh.name), difference(r, *first, 1.5));
     else
       first = r;
-    if (const auto strain = load_every(study.results, run->name, "deviatoric_strain")) {
-      double least = std::numeric_limits<double>::infinity(), most = 0;
-      for (std::size_t p = 1; p < strain->columns.size(); ++p) {
-        least = std::min(least, strain->columns[p].back());
-        most = std::max(most, strain->columns[p].back());
-      }
-      study.facts.add("12",
-                      fmt::format("{}: deviatoric strain at {:.1f} %", r.title, r.strain.back()),
-                      "a single band; largest at 10 %: 0.507 on 6 x 10, 0.809 on 12 x 20, 1.249 on "
-                      "6 x 10 with Q8",
-                      fmt::format("{:.3f} to {:.3f} over the points", least, most),
-                      r.strain.back() < 9.9 ? "ended before"
-                      : most > 3 * least    ? "localises; a band or not: see the pictures"
-                                            : "differs");
-    }
+    late[mesh.name] = softened(r);
+    study.facts.add(fmt::format("{}.mean_6_10", mesh.name), late[mesh.name]);
+  }
+  if (late.count("biaxial_10x15") > 0 && late.count("biaxial_12x20") > 0) {
+    study.facts.add("meshes.medium_over_fine", late["biaxial_10x15"] / late["biaxial_12x20"]);
+    if (late.count("biaxial_6x10") > 0)
+      study.facts.add(
+          "meshes.softening_largest_rise",
+          largest_rise({late["biaxial_6x10"], late["biaxial_10x15"], late["biaxial_12x20"]}));
   }
   for (const Mesh& mesh : meshes_to_the_peak) {
     const auto run = load_mesh_run(study.results, mesh.name);
@@ -162,12 +181,13 @@ void draw_meshes(HierarchicalStudy& study) {
 
 void draw_hexagonal(HierarchicalStudy& study) {
   Panel panel{"axial stress [kPa]"};
+  std::optional<Response> lattice;
   if (const auto rve = load_lattice(study.results)) {
     const Response r = response(*rve, "RVE alone");
     panel.curves.push_back({r.title, r.strain, r.stress, colour::black, Stroke::dashed});
-    study.facts.add("13", "RVE alone: peak", "1450 kPa at 2.8 %",
-                    fmt::format("{:.0f} kPa at {:.1f} %", r.stress[r.peak()], r.strain[r.peak()]),
-                    std::abs(r.strain[r.peak()] - 2.8) < 0.3 ? "agrees" : "differs");
+    lattice = r;
+    study.facts.add("hexagonal.rve.peak", r.stress[r.peak()]);
+    study.facts.add("hexagonal.rve.peak_at", r.strain[r.peak()]);
   }
   for (const char* name : {"biaxial_2x4_hexagonal", "biaxial_6x10_hexagonal"}) {
     const auto run = load_mesh_run(study.results, name);
@@ -177,34 +197,19 @@ void draw_hexagonal(HierarchicalStudy& study) {
     panel.curves.push_back({r.title, r.strain, r.stress, coarse ? colour::amber : colour::blue,
                             coarse ? Stroke::solid : Stroke::dashed});  // they lie on each other
     const std::size_t k = r.peak();
-    const bool beyond = k + 1 < r.stress.size();  // else it ended there, or before the peak
-    study.facts.add("13", r.title + ": peak, and the next step", "near 2.8 %, then a sudden drop",
-                    fmt::format("{:.0f} kPa at {:.1f} %, {}", r.stress[k], r.strain[k],
-                                beyond ? fmt::format("then {:.0f} kPa", r.stress[k + 1])
-                                       : "where the run ended"),
-                    !beyond                             ? "ended before"
-                    : std::abs(r.strain[k] - 2.8) < 0.3 ? "agrees"
-                                                        : "differs");
-    const auto field = load_every(study.results, name, "deviatoric_strain");
-    if (!beyond || !field) continue;
-    const auto range = [&](std::size_t step) {
-      std::array<double, 2> ends{std::numeric_limits<double>::infinity(), 0};
-      for (std::size_t point = 1; point < field->columns.size(); ++point) {
-        ends[0] = std::min(ends[0], field->columns[point][step]);
-        ends[1] = std::max(ends[1], field->columns[point][step]);
-      }
-      return ends;
+    if (k + 1 == r.stress.size()) continue;  // it ended there, or before the peak
+    const auto add = [&](const char* fact, double value) {
+      study.facts.add(fmt::format(fmt::runtime(fact), coarse ? "2x4" : "6x10"), value);
     };
-    const auto [least, largest] = range(k);
-    const auto [least_next, largest_next] = range(k + 1);
-    const bool localised = largest_next > 2 * least_next;
-    const CsvTable newton = read_csv(study.results / (name + std::string("_newton.csv")));
-    study.facts.agree(
-        "13", r.title + ": deviatoric strain of the points at the peak, and in the next step",
-        "0.0303 to 0.0305, then a slip line",
-        fmt::format("{:.4f} to {:.4f}, then {:.4f} to {:.4f}, balanced to {:.1e}", least, largest,
-                    least_next, largest_next, newton["relative_residual"].back()),
-        localised);
+    if (lattice) add("hexagonal.{}.peak_over_rve", r.stress[k] / lattice->stress[lattice->peak()]);
+    add("hexagonal.{}.next_over_peak", r.stress[k + 1] / r.stress[k]);
+    const auto last = std::minmax_element(r.stress.end() - r.stress.size() / 5, r.stress.end());
+    add("hexagonal.{}.late_change", (*last.second - *last.first) / *last.second);
+    const auto field = load_every(study.results, name, "deviatoric_strain");
+    if (!field) continue;
+    const auto [least, largest] = range_of(*field, k);
+    add("hexagonal.{}.strain_at_peak_least", least);
+    add("hexagonal.{}.strain_at_peak_most", largest);
   }
   if (panel.curves.empty()) return;
   draw({"biaxial compression, hexagonal packing", "axial strain [%]", {panel}},

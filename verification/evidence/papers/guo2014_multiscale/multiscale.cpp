@@ -54,14 +54,13 @@ void add_guo2014_multiscale_study(CLI::App& study, const std::shared_ptr<StudyOp
       "guo2014_multiscale",
       "figures and tables of the scenes in guo2014_multiscale, which were run before");
   command->callback([options] {
-    HierarchicalStudy papers{options->output, {}};
+    HierarchicalStudy papers{options->output};
     study_single_element(papers);
     study_localisation(papers);
     study_local_response(papers);
     study_liquefaction(papers);
     study_cost_of_scenes(papers);
-    papers.facts.print();
-    papers.facts.write(papers.results / "guo2014_multiscale_facts.csv");
+    papers.facts.write(papers.results);
   });
 }
 

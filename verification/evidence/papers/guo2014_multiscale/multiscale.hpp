@@ -8,7 +8,7 @@ namespace verification {
 
 struct HierarchicalStudy {
   std::filesystem::path results;  // read and written
-  Facts facts;
+  Facts facts{"guo2014"};
 };
 
 // Run of a scene of finite elements: NAME.csv, NAME_force.csv, NAME_cost.csv.

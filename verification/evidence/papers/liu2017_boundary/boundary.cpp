@@ -8,8 +8,8 @@ void add_liu2017_boundary_study(CLI::App& app, const std::shared_ptr<StudyOption
   CLI::App* command = app.add_subcommand(
       "liu2017_boundary", "figures and tables of the scenes of this name, which were run before");
   command->callback([options] {
-    PaperStudy papers{
-        std::filesystem::path(options->scenes) / "liu2017_boundary", options->output, {}};
+    PaperStudy papers{std::filesystem::path(options->scenes) / "liu2017_boundary", options->output,
+                      Facts("liu2017")};
     study_regular_packings(papers);
     study_packings(papers);
     study_irregular_packings(papers);
@@ -17,8 +17,7 @@ void add_liu2017_boundary_study(CLI::App& app, const std::shared_ptr<StudyOption
     study_order(papers);
     study_layer(papers);
     study_servo_cost(papers);
-    papers.facts.print();
-    papers.facts.write(papers.results / "liu2017_boundary_facts.csv");
+    papers.facts.write(papers.results);
   });
 }
 

@@ -21,40 +21,19 @@ struct Group {
   const char* prefix;  // of the cases, before the condition and the size
   const char* law;
   const char* path;
-  bool potential;
   std::vector<int> sizes;
 };
 
 const std::array<Group, 6>& groups() {
   static const std::array<Group, 6> all{
-      {{"order_regular_smooth_", "pushes only", "hexagonal", true, {30, 99}},
-       {"order_regular_bonds_", "bonds that hold", "square", true, {25, 100, 225}},
-       {"figure_05_", "frictional", "square", false, {25, 100, 225}},
-       {"order_irregular_smooth_", "pushes only", "irregular", true, {37, 120, 228}},
-       {"order_irregular_bonds_", "bonds that hold", "irregular", true, {37, 120, 228, 444, 650}},
-       {"figure_10_", "frictional", "irregular", false, {37, 120, 228, 444, 650}}}};
+      {{"order_regular_smooth_", "pushes only", "hexagonal", {30, 99}},
+       {"order_regular_bonds_", "bonds that hold", "square", {25, 100, 225}},
+       {"figure_05_", "frictional", "square", {25, 100, 225}},
+       {"order_irregular_smooth_", "pushes only", "irregular", {37, 120, 228}},
+       {"order_irregular_bonds_", "bonds that hold", "irregular", {37, 120, 228, 444, 650}},
+       {"figure_10_", "frictional", "irregular", {37, 120, 228, 444, 650}}}};
   return all;
 }
-
-// Over the packings of a group; nothing without a common step.
-struct Shares {
-  double energy = 1, spent = 1, stress = 1;  // of all steps [-]
-  int steps = 0, packings = 0;
-
-  void add(const Order& order) {
-    const int sum = steps + order.steps;
-    const auto mix = [&](double& share, double of_one) {
-      share = (share * steps + of_one * order.steps) / sum;
-    };
-    mix(energy, order.energy_share);
-    mix(spent, order.spent_share);
-    mix(stress, order.share);
-    steps = sum;
-    ++packings;
-  }
-};
-
-std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
 
 }  // namespace
 
@@ -65,7 +44,6 @@ void study_order(PaperStudy& study) {
        "stored_and_dissipated[-]", "stress_norm[-]", "mean_stress_ratio[-]"});
   const PaperUnits units = read_units(study.scenes / "pack_228.toml");
   for (const Group& group : groups()) {
-    Shares all;
     for (const int size : group.sizes) {
       const auto run = [&](const char* condition) {
         return study.run(fmt::format("{}{}{}", group.prefix, condition, size));
@@ -79,21 +57,11 @@ void study_order(PaperStudy& study) {
         table.row({group.path, group.law, static_cast<double>(size), pairs[k],
                    static_cast<double>(order.steps), order.until, order.energy_share,
                    order.spent_share, order.share, order.mean_ratio});
-        all.add(order);
+        study.facts.add(k == 0 ? fmt::format("order.{}{}.D_over_P", group.prefix, size)
+                               : fmt::format("order.{}{}.P_over_T", group.prefix, size),
+                        order.share);
       }
     }
-    if (all.steps == 0) continue;
-    const char* figures = group.sizes.front() == 37 ? "7, 10" : "4, 5";
-    const std::string what = fmt::format("{}, {}: D >= P >= T", group.path, group.law);
-    const std::string where = fmt::format(" of {} steps of {} pairs", all.steps, all.packings);
-    study.facts.agree(figures, what + " in stress", "bounds", percent(all.stress) + where,
-                      all.stress == 1);
-    if (group.potential)
-      study.facts.agree(figures, what + " in stored energy", "not stated",
-                        percent(all.energy) + where, all.energy == 1);
-    else
-      study.facts.add(figures, what + " in stored energy; stored and dissipated", "not stated",
-                      percent(all.energy) + "; " + percent(all.spent) + where, "no law says so");
   }
   table.print();
   table.write(study.results / "order.csv");

@@ -23,22 +23,42 @@ constexpr std::array<int, 3> sizes{25, 100, 225};
 
 std::vector<double> shear(const PaperRun& run) { return run.column("F12", -1); }
 
-// Largest |a - b| / largest |b| of a stress component over the steps where -F12 lies in the range.
-double largest_difference(const PaperRun& a, const PaperRun& b, const char* component, double from,
-                          double to) {
-  double difference = 0, size = 0;
-  const std::vector<double>&x = a.history["F12"], &u = a.history[component],
-        &v = b.history[component];
+// Largest |a - b| / largest |b| of sigma11 over the common steps where -F12 lies in the range; NaN
+// without one.
+double largest_difference(const PaperRun& a, const PaperRun& b, double from, double to) {
+  double difference = std::nan(""), size = 0;
+  const std::vector<double>&x = a.history["F12"], &u = a.history["sigma11"],
+        &v = b.history["sigma11"];
   for (std::size_t k = 0; k < std::min(a.steps(), b.steps()); ++k) {
     size = std::max(size, std::abs(v[k]));
     if (-x[k] < from - 1e-9 || -x[k] > to + 1e-9) continue;
-    difference = std::max(difference, std::abs(u[k] - v[k]));
+    difference = std::fmax(difference, std::abs(u[k] - v[k]));
   }
-  return size > 0 ? difference / size : 0;
+  return difference / size;
+}
+
+// Where -sigma11 lies farthest below an earlier value, in 0.05 <= -F12 <= 0.2, and by how much of its
+// largest value.
+struct Drop {
+  double at = std::nan(""), size = 0;
+};
+
+Drop largest_drop(const PaperRun& run) {
+  Drop drop;
+  double before = 0, largest = 0;
+  for (std::size_t k = 0; k < run.steps(); ++k) {
+    const double at = -run.history["F12"][k], stress = -run.history["sigma11"][k];
+    largest = std::max(largest, stress);
+    if (at > 0.05 && at < 0.2 && before - stress > drop.size) drop = {at, before - stress};
+    before = std::max(before, stress);
+  }
+  drop.size /= largest;
+  return drop;
 }
 
 void figure_2(PaperStudy& study, const PaperUnits& units) {
   Figure figure{"Fig. 2: 25 discs, with and without prediction of the boundary", "-F12 [-]", {}};
+  std::vector<double> middle;
   for (const char* condition : {"P", "T"}) {
     const std::string prefix = std::string("figure_02_") + condition;
     const auto predicted = study.run(prefix + "_predicted");
@@ -65,23 +85,24 @@ void figure_2(PaperStudy& study, const PaperUnits& units) {
                                 normal ? colour::sky : colour::amber, Stroke::thin});
     }
     figure.panels.push_back(panel);
-    const double before = largest_difference(*predicted, *plain, "sigma11", 0.0, 0.05);
-    const double middle = largest_difference(*predicted, *plain, "sigma11", 0.05, 0.2);
-    const double end = largest_difference(*predicted, *plain, "sigma11", 0.28, 0.3);
-    study.facts.agree(
-        "2",
-        fmt::format("{}: with and without prediction part and meet again at the end", condition),
-        "branches near -F12 = 0.113, coalesced near 0.28",
-        fmt::format("apart by {:.1f} % of the largest stress up to 0.05, {:.1f} % in 0.05-0.2, "
-                    "{:.1f} % in 0.28-0.3",
-                    100 * before, 100 * middle, 100 * end),
-        middle > end);
-    study.facts.add("2", fmt::format("{}: -F12 reached", condition), "0.3",
-                    fmt::format("servo with prediction {:.3f}; without {:.3f}; direct {:.3f}",
-                                shear(*predicted).back(), shear(*plain).back(),
-                                direct ? shear(*direct).back() : 0.0),
-                    shear(*predicted).back() > 0.2999 ? "agrees" : "differs");
+    const auto add = [&](const char* name, double value) {
+      study.facts.add(fmt::format(fmt::runtime(name), condition), value);
+    };
+    const Drop drop = largest_drop(*predicted);
+    add("figure_02.{}.steps", predicted->history["step"].back());
+    add("figure_02.{}.predicted_minimum_at", drop.at);
+    add("figure_02.{}.predicted_drop", drop.size);
+    add("figure_02.{}.plain_drop", largest_drop(*plain).size);
+    add("figure_02.{}.apart_early", largest_difference(*predicted, *plain, 0.0, 0.05));
+    middle.push_back(largest_difference(*predicted, *plain, 0.05, 0.2));
+    add("figure_02.{}.apart_middle", middle.back());
+    add("figure_02.{}.apart_end", largest_difference(*predicted, *plain, 0.28, 0.3));
+    add("figure_02.{}.reached_predicted", shear(*predicted).back());
+    add("figure_02.{}.reached_plain", shear(*plain).back());
+    if (direct) add("figure_02.{}.reached_direct", shear(*direct).back());
   }
+  if (middle.size() == 2)
+    study.facts.add("figure_02.T.apart_middle_over_P", middle.back() / middle.front());
   if (!figure.panels.empty()) draw(figure, study.results / "figure_02");
 }
 
@@ -130,24 +151,82 @@ double mean_stress(const PaperRun& run, const PaperUnits& units, std::size_t ste
   return sum / static_cast<double>(steps);
 }
 
-void sample_size(PaperStudy& study, const PaperUnits& units) {
-  for (const Condition& c : conditions) {
-    std::vector<PaperRun> runs;
-    for (const int size : sizes)
-      if (auto run = study.run(fmt::format("figure_05_{}{}", c.name, size)))
-        runs.push_back(*std::move(run));
-    if (runs.size() != sizes.size()) return;
-    std::size_t common = runs.front().steps();
-    for (const PaperRun& run : runs) common = std::min(common, run.steps());
-    std::array<double, 3> mean{};
-    for (std::size_t k = 0; k < sizes.size(); ++k) mean[k] = mean_stress(runs[k], units, common);
-    study.facts.agree(
-        "5", fmt::format("{}: larger samples carry less", c.name),
-        "falls with size; D and P close for 100 and 225",
-        fmt::format("mean -σ11 R / kn to -F12 = {:.3f}: {:.4f}, {:.4f}, {:.4f} for 25, 100, 225",
-                    shear(runs.front())[common - 1], mean[0], mean[1], mean[2]),
-        mean[0] >= mean[1] && mean[1] >= mean[2]);
+// Root mean square of the difference over that of b, common steps.
+double apart(const PaperRun& a, const PaperRun& b) {
+  double difference = 0, size = 0;
+  for (std::size_t k = 0; k < std::min(a.steps(), b.steps()); ++k) {
+    const double u = a.history["sigma11"][k], v = b.history["sigma11"][k];
+    difference += (u - v) * (u - v);
+    size += v * v;
   }
+  return std::sqrt(difference / size);
+}
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  const std::size_t count = std::min(a.size(), b.size());
+  double mean_a = 0, mean_b = 0, ab = 0, aa = 0, bb = 0;
+  for (std::size_t k = 0; k < count; ++k) mean_a += a[k], mean_b += b[k];
+  mean_a /= static_cast<double>(count), mean_b /= static_cast<double>(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double u = a[k] - mean_a, v = b[k] - mean_b;
+    ab += u * v, aa += u * u, bb += v * v;
+  }
+  return ab / std::sqrt(aa * bb);
+}
+
+std::size_t common_steps(const std::vector<PaperRun>& runs) {
+  std::size_t common = runs.front().steps();
+  for (const PaperRun& run : runs) common = std::min(common, run.steps());
+  return common;
+}
+
+std::vector<PaperRun> runs_of_sizes(const PaperStudy& study, const char* condition) {
+  std::vector<PaperRun> runs;
+  for (const int size : sizes)
+    if (auto run = study.run(fmt::format("figure_05_{}{}", condition, size)))
+      runs.push_back(*std::move(run));
+  return runs;
+}
+
+void sample_size(PaperStudy& study, const PaperUnits& units) {
+  std::vector<std::vector<PaperRun>> all;
+  for (const Condition& c : conditions) {
+    all.push_back(runs_of_sizes(study, c.name));
+    const std::vector<PaperRun>& runs = all.back();
+    if (runs.size() != sizes.size()) return;
+    const std::size_t common = common_steps(runs);
+    std::vector<double> mean;
+    double least = 1;
+    for (std::size_t k = 0; k < sizes.size(); ++k) {
+      mean.push_back(mean_stress(runs[k], units, common));
+      const double reached = shear(runs[k]).back();
+      least = std::min(least, reached);
+      study.facts.add(fmt::format("figure_05.{}{}.mean", c.name, sizes[k]), mean.back());
+      study.facts.add(fmt::format("figure_05.{}{}.reached", c.name, sizes[k]), reached);
+      study.facts.add(fmt::format("figure_05.{}{}.end_over_start", c.name, sizes[k]),
+                      runs[k].history["sigma11"].back() / runs[k].history["sigma11"].front());
+      if (runs[k].particles)
+        study.facts.add(
+            fmt::format("figure_05.{}{}.overlap_stress_correlation", c.name, sizes[k]),
+            correlation((*runs[k].particles)["normalised_overlap"], runs[k].column("sigma11", -1)));
+    }
+    study.facts.add(fmt::format("figure_05.{}.largest_rise", c.name), largest_rise(mean));
+    study.facts.add(fmt::format("figure_05.{}.reached_least", c.name), least);
+    study.facts.add(fmt::format("figure_05.{}.rms_100_225", c.name), apart(runs[1], runs[2]));
+  }
+  const PaperRun &d = all[0][0], &t = all[2][0];
+  study.facts.add("figure_05.start_T_over_D",
+                  t.history["sigma11"].front() / d.history["sigma11"].front());
+  if (d.particles)
+    study.facts.add("figure_05.overlap_start", 100 * (*d.particles)["normalised_overlap"].front());
+  std::vector<double> spreads;  // of D, P and T, by size
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    const std::vector<PaperRun> runs{all[0][k], all[1][k], all[2][k]};
+    std::vector<double> mean;
+    for (const PaperRun& run : runs) mean.push_back(mean_stress(run, units, common_steps(runs)));
+    spreads.push_back(spread(mean) - 1);
+  }
+  study.facts.add("figure_05.spread_225_over_25", spreads.back() / spreads.front());
 }
 
 }  // namespace

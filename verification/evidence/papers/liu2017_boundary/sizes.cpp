@@ -31,7 +31,6 @@ struct Sample {
   [[nodiscard]] double error() const {
     return deviation() / std::sqrt(static_cast<double>(value.size()));
   }
-  [[nodiscard]] std::string text() const { return fmt::format("{:.4f} ± {:.4f}", mean(), error()); }
 };
 
 // How the cases of sizes.toml and of sizes_rough.toml ended.
@@ -134,55 +133,27 @@ Means stress_norms(const PaperStudy& study, const Ends& ends, const PaperUnits& 
   return means;
 }
 
-std::string list(const std::vector<Ensemble>& ensembles, const Sample Ensemble::*what) {
-  std::string text;
-  for (const Ensemble& e : ensembles) text += (text.empty() ? "" : ", ") + (e.*what).text();
-  return text;
+std::vector<double> means_of(const std::vector<Ensemble>& ensembles, const Sample Ensemble::*what) {
+  std::vector<double> values;
+  for (const Ensemble& e : ensembles) values.push_back((e.*what).mean());
+  return values;
 }
 
-// Largest over smallest of the means from the `first` size on.
-double spread(const std::vector<Ensemble>& ensembles, const Sample Ensemble::*what,
-              std::size_t first) {
-  double low = INFINITY, high = 0;
-  for (std::size_t k = first; k < ensembles.size(); ++k) {
-    low = std::min(low, (ensembles[k].*what).mean());
-    high = std::max(high, (ensembles[k].*what).mean());
-  }
-  return high / low;
-}
-
-void judge(PaperStudy& study, const Means& means) {
+void add_facts(PaperStudy& study, const Means& means) {
   const auto& [d, p, cell, rough] = means;
   if (d.size() != sizes.size() || p.size() != sizes.size()) return;
-  constexpr double nearly_constant = 1.3;  // largest / smallest
-  const auto norm = &Ensemble::norm;
-  const auto early_norm = &Ensemble::early_norm;
-  study.facts.agree("10", "D, mean ± standard error: norm falls with size", "falls", list(d, norm),
-                    std::is_sorted(d.begin(), d.end(), [](const Ensemble& a, const Ensemble& b) {
-                      return a.norm.mean() > b.norm.mean();
-                    }));
-  const double all = spread(p, norm, 0), from_120 = spread(p, norm, 1);
-  study.facts.agree("10", "P, mean ± standard error: nearly constant over all five sizes",
-                    "near 0.011", fmt::format("{}; largest / smallest {:.2f}", list(p, norm), all),
-                    all < nearly_constant);
-  study.facts.agree(
-      "10", "P, from 120 discs on, while D falls", "near 0.011",
-      fmt::format("largest / smallest {:.2f}, of D {:.2f}", from_120, spread(d, norm, 1)),
-      from_120 < nearly_constant && from_120 < spread(d, norm, 1));
-  study.facts.agree("10", "P, largest packings", "near 0.011", p.back().norm.text(),
-                    std::abs(p.back().norm.mean() / paper_norm - 1) < 0.1);
-  study.facts.agree("10",
-                    "P, norm of the path to F12 = 0.1 alone: nearly constant over all five sizes",
-                    "not stated",
-                    fmt::format("{}; largest / smallest {:.2f}, of D {:.2f}", list(p, early_norm),
-                                spread(p, early_norm, 0), spread(d, early_norm, 0)),
-                    spread(p, early_norm, 0) < nearly_constant);
-  if (!cell.empty())
-    study.facts.add("10", "the periodic cells that the frames under P were cut from", "not stated",
-                    list(cell, norm), "-");
-  if (!rough.empty())
-    study.facts.add("10", "P, packings made with friction 0.4", "not stated", list(rough, norm),
-                    "-");
+  const std::vector<double> of_d = means_of(d, &Ensemble::norm),
+                            of_p = means_of(p, &Ensemble::norm);
+  study.facts.add("sizes.D.largest_rise", largest_rise(of_d));
+  study.facts.add("sizes.P.spread", spread(of_p));
+  study.facts.add("sizes.P.spread_from_120", spread({of_p.begin() + 1, of_p.end()}));
+  study.facts.add("sizes.D.spread_from_120", spread({of_d.begin() + 1, of_d.end()}));
+  study.facts.add("sizes.P.spread_early", spread(means_of(p, &Ensemble::early_norm)));
+  study.facts.add("sizes.P.norm_650", of_p.back());
+  study.facts.add("sizes.P.norm_650_standard_error", p.back().norm.error());
+  study.facts.add(
+      "sizes.D_less_P_650",
+      (of_d.back() - of_p.back()) / std::hypot(d.back().norm.error(), p.back().norm.error()));
 }
 
 void initial_pressures(const PaperStudy& study, const Ends& ends, const PaperUnits& units) {
@@ -235,7 +206,7 @@ void study_sizes(PaperStudy& study) {
   const PaperUnits units = read_units(study.scenes / "pack_228.toml");
   const Ends ends{CaseEnds(study.results / "sizes_cases.csv"),
                   CaseEnds(study.results / "sizes_rough_cases.csv")};
-  judge(study, stress_norms(study, ends, units));
+  add_facts(study, stress_norms(study, ends, units));
   initial_pressures(study, ends, units);
   reach_of_t(study, ends, units);
 }

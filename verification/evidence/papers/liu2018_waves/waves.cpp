@@ -8,33 +8,33 @@
 
 namespace verification {
 
-void WaveStudy::add(const std::string& figure, const std::string& quantity,
-                    const std::string& paper, const std::string& here, const std::string& verdict) {
-  facts.add(figure, quantity, paper, here, verdict);
+std::vector<double> WaveStudy::errors(const std::string& mesh_scene, const std::string& particles,
+                                      const std::vector<int>& meshes, int section,
+                                      double amplitude) const {
+  std::vector<double> found;
+  const Run reference = load(particles);
+  for (const int divisions : meshes)
+    if (const Run mesh = load(fmt::format("{}_fe{}", mesh_scene, divisions)); mesh && reference)
+      found.push_back(
+          apart(*mesh, *reference, fmt::format("displacement_{}", section).c_str(), amplitude));
+  return found;
 }
 
-void WaveStudy::agree(const std::string& figure, const std::string& quantity,
-                      const std::string& paper, const std::string& here, bool yes) {
-  add(figure, quantity, paper, here, yes ? "agrees" : "differs");
-}
-
-std::string WaveStudy::errors(const std::string& scene, const std::vector<int>& meshes,
-                              double amplitude, std::vector<double>* last) const {
-  std::string text;
-  const Run particles = load(scene + "_dns");
-  for (const char* section : {"displacement_1", "displacement_2"}) {
-    std::string list;
-    double error = 0;
-    for (const int divisions : meshes) {
-      const Run mesh = load(fmt::format("{}_fe{}", scene, divisions));
-      if (!mesh || !particles) continue;
-      error = apart(*mesh, *particles, section, amplitude);
-      list += fmt::format("{}{:.2f}", list.empty() ? "" : " / ", 100 * error);
-    }
-    text += fmt::format("{}{} %", text.empty() ? "" : "; ", list);
-    if (last != nullptr) last->push_back(error);
+void WaveStudy::add_errors(const std::string& name, const std::string& mesh_scene,
+                           const std::string& particles, const std::vector<int>& meshes,
+                           double amplitude) {
+  const std::vector<double> near = errors(mesh_scene, particles, meshes, 1, amplitude),
+                            far = errors(mesh_scene, particles, meshes, 2, amplitude);
+  if (near.size() != meshes.size()) return;
+  for (std::size_t k = 0; k < meshes.size(); ++k) {
+    facts.add(fmt::format("{}.near_{}", name, meshes[k]), near[k]);
+    facts.add(fmt::format("{}.far_{}", name, meshes[k]), far[k]);
   }
-  return text;
+  facts.add(fmt::format("{}.near_finest", name), near.back());
+  facts.add(fmt::format("{}.far_finest", name), far.back());
+  facts.add(fmt::format("{}.growth_near", name), largest_rise(near));
+  facts.add(fmt::format("{}.growth_far", name), largest_rise(far));
+  facts.add(fmt::format("{}.growth", name), std::max(largest_rise(near), largest_rise(far)));
 }
 
 double apart(const PaperRun& a, const PaperRun& b, const char* section, double amplitude) {
@@ -98,8 +98,7 @@ void add_liu2018_waves_study(CLI::App& study, const std::shared_ptr<StudyOptions
     study_packing_waves(waves);
     study_why_waves_differ(waves);
     study_wave_cost(waves);
-    waves.facts.print();
-    waves.facts.write(waves.results / "liu2018_waves_facts.csv");
+    waves.facts.write(waves.results);
   });
 }
 

@@ -20,18 +20,19 @@ class WaveStudy {
   using Run = std::optional<PaperRun>;
   [[nodiscard]] Run load(const std::string& name) const { return load_run(results, name); }
 
-  // A statement of the thesis on a figure, and what is found.
-  void add(const std::string& figure, const std::string& quantity, const std::string& paper,
-           const std::string& here, const std::string& verdict);
-  void agree(const std::string& figure, const std::string& quantity, const std::string& paper,
-             const std::string& here, bool yes);
-  // "3.1 / 2.0 / 0.4 %; ..." of meshes against particles at both sections, coarse to fine; `last` gets
-  // those of the finest.
-  std::string errors(const std::string& scene, const std::vector<int>& meshes, double amplitude,
-                     std::vector<double>* last) const;
+  // Errors of meshes against particles, relative to the amplitude, coarse to fine; none that was not
+  // run. `section` is 1, the near one, or 2.
+  [[nodiscard]] std::vector<double> errors(const std::string& mesh_scene,
+                                           const std::string& particles,
+                                           const std::vector<int>& meshes, int section,
+                                           double amplitude = pulse_amplitude) const;
+  // Facts of these: every mesh, the finest, and by how much refinement raises the error at most.
+  void add_errors(const std::string& name, const std::string& mesh_scene,
+                  const std::string& particles, const std::vector<int>& meshes,
+                  double amplitude = pulse_amplitude);
 
   std::filesystem::path results;  // read and written
-  Facts facts;
+  Facts facts{"liu2018"};
 };
 
 // Largest difference of the displacements at a section, relative to the amplitude.

@@ -52,7 +52,7 @@ void study_initial_anisotropy(PaperStudy& study) {
   Panel coordination{"coordination [-]"};
   Panel anisotropy{"anisotropy [-]", {}, 1.2};
   Panel fabric{"anisotropy [-]"};
-  std::vector<double> peaks, compactions;
+  std::vector<double> starts, peaks, peaks_at, compactions, coordinations, anisotropies;
   for (const Packing& packing : packings) {
     const auto run = study.run(std::string("anisotropy_") + packing.name);
     const auto test = load_biaxial(study, std::string("anisotropy_") + packing.name, packing.start);
@@ -70,8 +70,13 @@ void study_initial_anisotropy(PaperStudy& study) {
                ratios.front(), interpolate(up, test->anisotropy, 0.3), ratios[peak],
                test->strain[peak], test->anisotropy[peak], compaction});
     if (packing.start == released) {
+      study.facts.add(fmt::format("anisotropy.{}.start", packing.name), test->anisotropy.front());
+      starts.push_back(test->anisotropy.front());
       peaks.push_back(ratios[peak]);
-      compactions.push_back(compaction);
+      peaks_at.push_back(test->strain[peak]);
+      compactions.push_back(-compaction);
+      coordinations.push_back(interpolate(test->strain, test->coordination, 0.07));
+      anisotropies.push_back(interpolate(test->strain, test->anisotropy, 0.07));
     }
     ratio.curves.push_back({packing.title, test->strain, ratios, packing.colour, packing.stroke});
     volume.curves.push_back({"", test->strain, test->volume, packing.colour, packing.stroke});
@@ -93,13 +98,16 @@ void study_initial_anisotropy(PaperStudy& study) {
   table.print();
   table.write(study.results / "anisotropy.csv");
   if (peaks.size() < 3) return;
-  study.facts.agree("13", "peak ratio, rising initial anisotropy, released", "falls",
-                    fmt::format("{:.3f}, {:.3f}, {:.3f}", peaks[0], peaks[1], peaks[2]),
-                    peaks[0] > peaks[1] && peaks[1] > peaks[2]);
-  study.facts.agree(
-      "13", "largest compaction, rising initial anisotropy, released", "falls",
-      fmt::format("{:.4f}, {:.4f}, {:.4f}", -compactions[0], -compactions[1], -compactions[2]),
-      compactions[0] < compactions[1] && compactions[1] < compactions[2]);
+  study.facts.add("anisotropy.start_least_rise", least_rise(starts));
+  study.facts.add("anisotropy.peak_largest_rise", largest_rise(peaks));
+  study.facts.add("anisotropy.peak_at_largest_rise", largest_rise(peaks_at));
+  study.facts.add("anisotropy.compaction_largest_rise", largest_rise(compactions));
+  study.facts.add("anisotropy.coordination_first_over_others",
+                  coordinations[0] / std::max(coordinations[1], coordinations[2]));
+  double ordered = 0;
+  for (const auto& [a, b] : {std::pair{0, 1}, {0, 2}, {1, 2}})
+    ordered += (anisotropies[a] - anisotropies[b]) * (peaks[a] - peaks[b]) > 0 ? 1.0 / 3 : 0;
+  study.facts.add("anisotropy.pairs_ordered_as_strength", ordered);
 }
 
 }  // namespace verification

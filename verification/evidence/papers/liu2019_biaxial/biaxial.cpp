@@ -9,6 +9,8 @@
 namespace verification {
 namespace {
 
+constexpr double marked = 0.073;  // strain at which the paper gives numbers [-]
+
 struct Line {
   const char* name;  // of the run
   const char* title;
@@ -59,22 +61,56 @@ double compaction(const Biaxial& run) {
 }
 
 template <class Value>
-std::string list(const std::vector<Biaxial>& runs, Value&& value, const char* format = "{:.3f}") {
-  std::string text;
-  for (const Biaxial& run : runs)
-    text += (text.empty() ? "" : ", ") + fmt::format(fmt::runtime(format), value(run));
-  return text;
+std::vector<double> values_of(const std::vector<Biaxial>& runs, Value&& value) {
+  std::vector<double> values;
+  for (const Biaxial& run : runs) values.push_back(value(run));
+  return values;
 }
 
-template <class Value>
-bool rising(const std::vector<Biaxial>& runs, Value&& value) {
-  return std::is_sorted(runs.begin(), runs.end(),
-                        [&](const Biaxial& a, const Biaxial& b) { return value(a) < value(b); });
+// Largest |a - b| of the stress ratio over the strains in a range.
+double apart(const Biaxial& a, const Biaxial& b, double from, double to) {
+  double largest = std::nan("");
+  for (std::size_t k = 0; k < a.strain.size(); ++k)
+    if (a.strain[k] >= from && a.strain[k] <= to)
+      largest = std::fmax(largest, std::abs(a.ratio[k] - b.ratio_at(a.strain[k])));
+  return largest;
+}
+
+// What one run is like by itself.
+void add_facts(PaperStudy& study, const Biaxial& run) {
+  const auto add = [&](const char* fact, double value) {
+    study.facts.add(fmt::format(fmt::runtime(fact), run.name), value);
+  };
+  const std::size_t p = run.peak();
+  const auto largest = std::max_element(run.anisotropy.begin(), run.anisotropy.end());
+  const auto least = std::min_element(run.volume.begin(), run.volume.end());
+  const auto strain_at = [&](const auto& first, const auto& at) {
+    return run.strain[static_cast<std::size_t>(at - first)];
+  };
+  add("{}.peak", run.ratio[p]);
+  add("{}.peak_at", run.strain[p]);
+  add("{}.end_over_peak", run.ratio.back() / run.ratio[p]);
+  add("{}.until_strain", run.strain.back());
+  add("{}.coordination_start", run.coordination.front());
+  add("{}.coordination_end_over_start", run.coordination.back() / run.coordination.front());
+  add("{}.anisotropy_start", run.anisotropy.front());
+  add("{}.anisotropy_peak_less_peak_at",
+      strain_at(run.anisotropy.begin(), largest) - run.strain[p]);
+  add("{}.anisotropy_end_over_peak", run.anisotropy.back() / *largest);
+  add("{}.compaction_at", strain_at(run.volume.begin(), least));
+  for (const char* end : {"_cost.csv", ".csv"}) {
+    const auto path = study.results / (run.name + end);
+    if (run.name.find("dns") != 0 || !std::filesystem::exists(path)) continue;
+    const CsvTable table = read_csv(path);
+    for (const auto& [column, fact] :
+         {std::pair{"particles", "{}.particles"}, {"escaped_particles", "{}.escaped"}})
+      if (std::find(table.names.begin(), table.names.end(), column) != table.names.end())
+        add(fact, table[column].back());
+  }
 }
 
 // Meshes against the coarsest, up to its own and their peaks.
 void compare_meshes(PaperStudy& study) {
-  const std::vector<Biaxial> all = load_all(study, meshes);
   Table table("Peaks", {"run", "peak_ratio[-]", "strain_at_peak[-]", "largest_compaction[-]",
                         "coordination_start[-]", "coordination_peak[-]", "anisotropy_start[-]",
                         "anisotropy_peak[-]", "until_strain[-]"});
@@ -83,6 +119,7 @@ void compare_meshes(PaperStudy& study) {
       if (lines != &meshes && std::string(line.name).find("biaxial") == 0) continue;
       const auto run = load_biaxial(study, line.name);
       if (!run) continue;
+      add_facts(study, *run);
       const std::size_t p = run->peak();
       table.row({line.name, run->ratio[p], run->strain[p], compaction(*run),
                  run->coordination.front(), run->coordination[p], run->anisotropy.front(),
@@ -92,62 +129,55 @@ void compare_meshes(PaperStudy& study) {
   table.write(study.results / "peaks.csv");
   const auto coarse = load_biaxial(study, "biaxial_1x1");
   if (!coarse) return;
+  double coordination = std::nan("");
   for (const char* mesh : {"1x2", "2x4", "4x8", "4x8_membrane"}) {
     const auto run = load_biaxial(study, std::string("biaxial_") + mesh);
     if (!run) continue;
     const double until = std::min(coarse->strain[coarse->peak()], run->strain[run->peak()]);
-    double largest = 0, at = 0, same_until = 0;
-    for (std::size_t k = 0; k < run->strain.size() && run->strain[k] <= until; ++k) {
-      const double difference = std::abs(run->ratio[k] - coarse->ratio_at(run->strain[k]));
-      if (difference < 1e-4 && same_until == at) same_until = run->strain[k];
-      at = run->strain[k];
-      largest = std::max(largest, difference);
-    }
-    study.facts.agree("4",
-                      fmt::format("mesh {} against 1x1, largest difference of the ratio "
-                                  "before the peak",
-                                  mesh),
-                      "none to see",
-                      fmt::format("{:.2g}; below 1e-4 up to strain {:.3f}", largest, same_until),
-                      largest < 0.01);
+    study.facts.add(fmt::format("biaxial_{}.apart_before_peak", mesh),
+                    apart(*run, *coarse, 0, until));
+    study.facts.add(fmt::format("biaxial_{}.apart_after_peak", mesh),
+                    apart(*run, *coarse, until, coarse->strain.back()));
+    coordination = std::fmax(coordination,
+                             std::abs(run->coordination.back() / coarse->coordination.back() - 1));
   }
-  if (all.size() > 2)
-    study.facts.add("4", "peak stress ratio: DNS A, B, meshes", "0.39 (2x4)", list(all, peak_of),
-                    "-");
+  study.facts.add("meshes.coordination_apart", coordination);
 }
 
 void compare_parameters(PaperStudy& study) {
   if (const auto runs = load_all(study, frictions); runs.size() == frictions.size()) {
-    study.facts.agree("8", "peak ratio, friction 0.2, 0.4, 0.6", "rises", list(runs, peak_of),
-                      rising(runs, peak_of));
-    const auto minus = [](const Biaxial& run) { return -compaction(run); };
-    study.facts.agree("8", "largest compaction, friction 0.2, 0.4, 0.6", "rises",
-                      list(runs, minus, "{:.4f}"), rising(runs, minus));
-    const auto middle = [](const Biaxial& run) {
+    const auto at = [](const Biaxial& run) {
       return interpolate(run.strain, run.coordination, 0.03);
     };
-    const auto lower = [&](const Biaxial& run) { return -middle(run); };
-    study.facts.agree("9", "coordination at strain 0.03, friction 0.2, 0.4, 0.6", "falls",
-                      list(runs, middle), rising(runs, lower));
+    const auto end = [](const Biaxial& run) {
+      return run.coordination.back() / run.coordination.front();
+    };
+    const auto fabric = [](const Biaxial& run) { return run.anisotropy[run.peak()]; };
+    const std::vector<double> ends = values_of(runs, end);
+    study.facts.add("friction.peak_least_rise", least_rise(values_of(runs, peak_of)));
+    study.facts.add("friction.compaction_least_rise", least_rise(values_of(runs, compaction)));
+    study.facts.add("friction.coordination_largest_rise", largest_rise(values_of(runs, at)));
+    study.facts.add("friction.anisotropy_least_rise", least_rise(values_of(runs, fabric)));
+    study.facts.add("friction.coordination_end_over_start_most",
+                    *std::max_element(ends.begin(), ends.end()));
   }
   if (const auto runs = load_all(study, rotations); runs.size() == rotations.size()) {
-    const double factor = peak_of(runs[1]) / peak_of(runs[0]);
-    study.facts.agree(
-        "10", "peak ratio without rotation / with", "0.48 / 0.39 = 1.23",
-        fmt::format("{:.3f} / {:.3f} = {:.2f}", peak_of(runs[1]), peak_of(runs[0]), factor),
-        factor > 1.15);
-    study.facts.agree("10", "largest compaction: free, no rotation", "more without rotation",
-                      list(runs, compaction, "{:.4f}"), compaction(runs[1]) < compaction(runs[0]));
-    const auto at = [](const Biaxial& run) {
-      return interpolate(run.strain, run.anisotropy, std::min(0.073, run.strain.back()));
+    const Biaxial &free = runs[0], &locked = runs[1];
+    const auto fabric = [](const Biaxial& run) {
+      return interpolate(run.strain, run.anisotropy, marked);
     };
-    study.facts.add("11", "anisotropy at strain 0.073: free, no rotation", "0.27, 0.33",
-                    list(runs, at, "{:.2f}"), "-");
-    const auto last = [](const Biaxial& run) {
+    const auto contacts = [](const Biaxial& run) {
       return interpolate(run.strain, run.coordination, 0.03);
     };
-    study.facts.agree("11", "coordination at strain 0.03: free, no rotation",
-                      "smaller without rotation", list(runs, last), last(runs[1]) < last(runs[0]));
+    const double gain = peak_of(locked) / peak_of(free);
+    study.facts.add("rotation.gain", gain);
+    study.facts.add("rotation.free_0.073", free.ratio_at(marked));
+    study.facts.add("rotation.locked_0.073", locked.ratio_at(marked));
+    study.facts.add("rotation.compaction_ratio", compaction(locked) / compaction(free));
+    study.facts.add("rotation.coordination_ratio", contacts(locked) / contacts(free));
+    study.facts.add("rotation.anisotropy_free", fabric(free));
+    study.facts.add("rotation.anisotropy_locked", fabric(locked));
+    study.facts.add("rotation.strength_over_anisotropy", gain * fabric(free) / fabric(locked));
   }
 }
 
@@ -200,11 +230,10 @@ void add_liu2019_biaxial_study(CLI::App& app, const std::shared_ptr<StudyOptions
   CLI::App* command = app.add_subcommand(
       "liu2019_biaxial", "figures and tables of the scenes of this name, which were run before");
   command->callback([options] {
-    PaperStudy papers{
-        std::filesystem::path(options->scenes) / "liu2019_biaxial", options->output, {}};
+    PaperStudy papers{std::filesystem::path(options->scenes) / "liu2019_biaxial", options->output,
+                      Facts("liu2019")};
     study_biaxial(papers);
-    papers.facts.print();
-    papers.facts.write(papers.results / "liu2019_biaxial_facts.csv");
+    papers.facts.write(papers.results);
   });
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace verification {
 namespace {
@@ -13,8 +14,8 @@ namespace {
 constexpr double marked_strain =
     0.09;  // where the points with the highest and lowest ratio are told
 
-// Point `k` of a mesh, or nothing from its table.
-Panel panel_of(const PaperStudy& study, const char* mesh, Table& table) {
+// Curves of all points; `last` gets their spread at the largest marked strain.
+Panel panel_of(PaperStudy& study, const char* mesh, Table& table, double& last) {
   Panel panel{fmt::format("stress ratio, {} [-]", mesh)};
   const std::string name = std::string("biaxial_") + mesh;
   const auto path = study.results / (name + "_every_stress_ratio.csv");
@@ -45,6 +46,7 @@ Panel panel_of(const PaperStudy& study, const char* mesh, Table& table) {
        strain,
        {run->ratio.begin(), run->ratio.begin() + static_cast<std::ptrdiff_t>(rows)},
        colour::black});
+  std::vector<double> spreads;
   for (const double wanted : {0.02, 0.04, 0.06, 0.09}) {
     const auto k = static_cast<std::size_t>(
         std::upper_bound(strain.begin(), strain.end(), wanted + 1e-9) - strain.begin() - 1);
@@ -52,8 +54,12 @@ Panel panel_of(const PaperStudy& study, const char* mesh, Table& table) {
     std::vector<double> at;
     for (const auto& ratio : ratios) at.push_back(ratio[k]);
     const auto [least, most] = std::minmax_element(at.begin(), at.end());
+    spreads.push_back(*most - *least);
     table.row({mesh, strain[k], run->ratio[k], *least, *most, *most - *least});
   }
+  if (!spreads.empty()) last = spreads.back();
+  if (spreads.size() > 1)
+    study.facts.add(fmt::format("points.{}.spread_growth", mesh), spreads.back() / spreads.front());
   return panel;
 }
 
@@ -64,9 +70,14 @@ void draw_points(PaperStudy& study) {
       "Figure 6: stress ratio in the integration points",
       {"mesh", "strain[-]", "of_the_mean_stress[-]", "lowest[-]", "highest[-]", "spread[-]"});
   Figure figure{"Fig. 6: stress ratio in every integration point", "axial strain [-]", {}};
-  for (const char* mesh : {"2x4", "4x8"})
-    if (const Panel panel = panel_of(study, mesh, table); !panel.curves.empty())
-      figure.panels.push_back(panel);
+  std::vector<double> spreads;
+  for (const char* mesh : {"2x4", "4x8"}) {
+    double spread = std::nan("");
+    const Panel panel = panel_of(study, mesh, table, spread);
+    if (!panel.curves.empty()) figure.panels.push_back(panel);
+    spreads.push_back(spread);
+  }
+  study.facts.add("points.4x8_over_2x4", spreads.back() / spreads.front());
   if (figure.panels.empty()) return;
   draw(figure, study.results / "figure_06");
   table.print();

@@ -86,11 +86,8 @@ void compare_sizes(PaperStudy& study) {
     packings.push_back(differences);
   }
   if (packings.empty()) return;
-  study.facts.add(
-      "4", "specimens of 1, 2, 3 frames across against the mesh, rms over the packings",
-      "none (sides over volume: 1, 1/2, 1/3)",
-      fmt::format("1, {:.2f}, {:.2f}", std::sqrt(all[1] / all[0]), std::sqrt(all[2] / all[0])),
-      "-");
+  study.facts.add("sizes.b_over_a", std::sqrt(all[1] / all[0]));
+  study.facts.add("sizes.c_over_a", std::sqrt(all[2] / all[0]));
   const auto count = static_cast<double>(packings.size());
   std::array<std::vector<double>, 3> means;
   for (std::size_t s = 0; s < at.size(); ++s) {

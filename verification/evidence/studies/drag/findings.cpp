@@ -23,7 +23,7 @@ std::vector<std::string> columns_of(std::vector<std::string> facts,
     facts.push_back(claim.name);
     facts.push_back(name + (claim.at_least ? "_at_least" : "_at_most") + unit);
   }
-  facts.emplace_back("verdict");
+  facts.emplace_back("end");
   return facts;
 }
 
@@ -38,7 +38,7 @@ Findings::Findings(const StudyOptions& options, const std::string& section,
       table_(title, columns_of(std::move(facts), claims_)) {}
 
 void Findings::row(std::vector<Table::Cell> facts, const std::vector<Found>& found) {
-  std::string differs;
+  std::string failed;
   bool bounded = false;
   const std::string name = facts.front().shown + ", " + facts.at(1).shown;
   for (std::size_t k = 0; k < found.size(); ++k) {
@@ -47,16 +47,16 @@ void Findings::row(std::vector<Table::Cell> facts, const std::vector<Found>& fou
     facts.emplace_back(std::isnan(bound) ? Table::Cell("") : Table::Cell(bound));
     if (std::isnan(bound)) continue;
     bounded = true;
-    const bool agrees = claims_.at(k).at_least ? value >= bound : value <= bound;
-    if (!agrees) differs += (differs.empty() ? "differs: " : " ") + parts_of(claims_[k].name).first;
+    const bool holds = claims_.at(k).at_least ? value >= bound : value <= bound;
+    if (!holds) failed += (failed.empty() ? "fails: " : " ") + parts_of(claims_[k].name).first;
   }
   compared_ += bounded ? 1 : 0;
-  agreed_ += bounded && differs.empty() ? 1 : 0;
-  const std::string verdict = !bounded ? "told" : differs.empty() ? "agrees" : differs;
-  facts.emplace_back(verdict);
+  agreed_ += bounded && failed.empty() ? 1 : 0;
+  const std::string end = !bounded ? "told" : failed.empty() ? "holds" : failed;
+  facts.emplace_back(end);
   table_.row(facts);
   table_.write(path_);
-  tell(fmt::format("{}: {}: {}\n", section_, name, verdict));
+  tell(fmt::format("{}: {}: {}\n", section_, name, end));
 }
 
 void Findings::print() const {

@@ -25,7 +25,7 @@ struct Found {
   double bound = told;
 };
 
-// A table with a row for each case, whose last column says "agrees", "differs: WHAT", or "told". It
+// A table with a row for each case, whose last column says "holds", "fails: WHAT", or "told". It
 // is written anew with every row, so that an interrupted section keeps its rows.
 class Findings {
  public:

@@ -138,11 +138,10 @@ void draw_numbers(const StudyOptions& options, const std::vector<NumberRow>& row
     add_point(slope, row.particles,
               rows.front().cpu_exact * std::pow(row.particles / rows.front().particles, bar));
   }
-  Figure figure{
-      fmt::format("Increments of 0.1 %, tolerance 1e-6; fitted exponent {:.2f}", exponent),
-      "number of particles [-]",
-      {},
-      true};
+  Figure figure{fmt::format("Increments of 0.1 %, tolerance 1e-6; exponent {:.2f}", exponent),
+                "number of particles [-]",
+                {},
+                true};
   figure.panels.push_back({"CPU time of one evaluation [ms]", {slope, plain, exact}, 2, true});
   save(options, figure, "error_number");
 }

@@ -56,7 +56,7 @@ using Row = std::vector<Table::Cell>;
 std::string ending(const Case& one, const Walk& walk, const std::optional<Check>& check) {
   if (!walk.violation.empty()) return undefined + walk.violation;
   if (check && one.judged && !(check->error <= check->bar))
-    return fmt::format("{}P differs by {:.3g} from {}", undefined, check->error, check->against);
+    return fmt::format("{}P is {:.3g} off {}", undefined, check->error, check->against);
   if (!walk.gave_up.empty()) {
     const bool skipped = one.path.surrender == Surrender::skip_the_increment;
     return fmt::format("defined: {}: {}", skipped ? "increments skipped, first" : "given up",
