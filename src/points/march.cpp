@@ -175,7 +175,7 @@ void March::give_up(const char* reason) {
     write(part_, "%s", reason);
   } else {
     const double along_it = 100 * (done_ - from_) / (to_ - from_);
-    write(part_, "%.3g %% along, in parts of %.1e of it too: %s", along_it, part_.time, reason);
+    write(part_, "%.3g %% along, in parts of %.1e of it too: %.180s", along_it, part_.time, reason);
   }
   decide(GRAINLAW_GIVE_UP);
 }

@@ -83,8 +83,9 @@ TEST(objectivity, holds_along_a_path_until_a_report_counts_rattlers_that_bear_ag
       const Evaluation b = advance(turned, product(Q, F));
       counted = a.report.rattlers_loaded > 0;
       EXPECT_EQ(a.report.rattlers_loaded, b.report.rattlers_loaded) << seed << ' ' << k;
-      if (!counted)
+      if (!counted) {
         EXPECT_LE(relative_difference(b.stress, product(Q, a.stress)), 1e-9) << seed << ' ' << k;
+      }
     }
     parted += counted ? 1 : 0;
   }

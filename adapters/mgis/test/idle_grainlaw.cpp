@@ -1,6 +1,7 @@
 // The part of grainlaw.h that the adapter calls, answering at once: all that is left of the time of
 // a call is the adapter's.
 #include <grainlaw/grainlaw.h>
+#include <grainlaw/march.h>
 
 #include <algorithm>
 #include <map>
@@ -18,6 +19,7 @@ struct grainlaw_table {
 extern "C" {
 
 const char* grainlaw_status_text(grainlaw_status) { return ""; }
+double grainlaw_march_cut(double step_ratio) { return step_ratio; }
 grainlaw_report grainlaw_report_default() {
   grainlaw_report report{};
   report.size = sizeof report;

@@ -14,10 +14,13 @@ class Condition:
     """What one component is led to, linearly from its value at the start of the step. F of the
     same component is found where a stress is prescribed."""
 
-    kind: str = "F"       #: F [-]; P, sigma, mean (tr sigma / d), difference (of sigma) [Pa]
+    #: F [-]; P, sigma, mean (tr sigma / d) [Pa]; difference: of sigma from another component, less a
+    #: share of the difference of the last one from that; ratio: sigma less a share of the last one
+    kind: str = "F"
     value: float = 0.0    #: at the end
     added: bool = True    #: value is added to the start; by default F stays as it is
     other: int = 0        #: of a difference: the component that it is from
+    share: float = 0.0    #: of a difference or a ratio [-]
 
     @property
     def stress(self) -> bool:
@@ -70,8 +73,12 @@ def controlled(conditions: Sequence[Condition], F: Array, P: Array,
         elif condition.kind == "mean":
             value[k], derivative[k] = sigma[diagonal].mean(), spatial[diagonal].mean(axis=0)
         elif condition.kind == "difference":
-            value[k] = sigma[k] - sigma[condition.other]
-            derivative[k] = spatial[k] - spatial[condition.other]
+            other, share = condition.other, condition.share
+            value[k] = sigma[k] - sigma[other] - share * (sigma[-1] - sigma[other])
+            derivative[k] = spatial[k] - spatial[other] - share * (spatial[-1] - spatial[other])
+        elif condition.kind == "ratio":
+            value[k] = sigma[k] - condition.share * sigma[-1]
+            derivative[k] = spatial[k] - condition.share * spatial[-1]
     return value, derivative
 
 

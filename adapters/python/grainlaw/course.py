@@ -56,6 +56,7 @@ class Stop:
     ratio: float | None = None          #: q over mean pressure, absolute [-]
     p: float | None = None              #: mean pressure, reached from either side [Pa]
     axial_stress: float | None = None   #: reached from either side [Pa]
+    double_amplitude: float | None = None   #: largest less smallest strain since the start [-]
     #: Share of the mean pressure at the start below which there is no soil any more [-]; None: 0.01
     #: where volume is kept, else 0, which never ends it.
     liquefied: float | None = None
@@ -93,7 +94,7 @@ class Course:
         share = 0.01 if plan.keeps_volume else 0.0
         self._liquefied = share if self._stop.liquefied is None else self._stop.liquefied
         self._start_F, self._p, self._q = lead.F, self.pressure, self.deviator
-        self._way = 0.0
+        self._way = self._least = self._most = 0.0
         self._jumps = 0   # of q over an amplitude
 
     @property
@@ -242,6 +243,10 @@ class Course:
             return (f"liquefied: mean pressure {p:.4g} Pa, {p / self._p:.2g} of that at the start")
         if stop.strain is not None and abs(strain) >= stop.strain * (1 - 1e-9):
             return f"strain {strain:.6g} reached"
+        self._least, self._most = min(self._least, strain), max(self._most, strain)
+        if (stop.double_amplitude is not None
+                and self._most - self._least >= stop.double_amplitude * (1 - 1e-9)):
+            return f"double amplitude {self._most - self._least:.6g} reached"
         if stop.q is not None and q >= stop.q:
             return f"q {q:.6g} Pa reached"
         if stop.ratio is not None and q >= stop.ratio * p:

@@ -28,6 +28,7 @@ StepFailed, which has them too.
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -43,14 +44,17 @@ from .interrupt import Interrupts
 from .lead import Lead, Options
 from .march import StepError
 from .material import Material
+from .names import Measure
 from .points import State
 from .progress import Listener, Progress
 from .result import Result
+from .series import Batch, Stiffness, loops_of
 from .unusual import ask, tell_drag
 
-__all__ = ["Ensemble", "Interrupted", "Loops", "Result", "StepFailed", "Stop", "constant_p", "drained",
-           "isotropic", "k0", "oedometric", "path", "shear_constant_stress",
-           "shear_constant_volume", "undrained"]
+__all__ = ["Batch", "Ensemble", "Interrupted", "Loops", "Result", "StepFailed", "Stiffness", "Stop",
+           "constant_p", "cyclic_undrained", "drained", "isotropic", "k0", "oedometric", "path", "radial",
+           "shear_constant_stress", "shear_constant_volume", "stiffness", "torsional", "true_triaxial",
+           "undrained"]
 
 STEPS = 20            # where stresses lead
 Start = Material | State
@@ -218,6 +222,113 @@ def shear_constant_stress(start: Start, strain: float = 0.1, step: float = 1e-3,
                      _How(stop, consolidation, tolerance, tangents, progress), shear=True)
 
 
+def cyclic_undrained(start: Start, stress_ratio: float, cycles: int = 100,
+                     double_amplitude: float = 0.05, step: float = 2e-4, *,
+                     consolidation: float | None = None, tolerance: float = 1e-8,
+                     tangents: bool = False, progress: Listener = False) -> Result:
+    """Undrained loops of q between plus and minus 2 `stress_ratio` times the mean pressure at the
+    start [-], as in cyclic triaxial tests of sand (ASTM D5311): until the axial strain spans
+    `double_amplitude` [-], the packing has liquefied, or after `cycles` loops; result.ended tells
+    which, and in which loop."""
+    ratio = number("stress_ratio", stress_ratio)
+    if not 0 < ratio < 2:
+        raise ValueError(f"stress_ratio {ratio!r}: expected q / (2 p), above 0 and below 2")
+    state, before = _consolidated(start, consolidation, tolerance, progress)
+    sigma = state.measure(Measure.CAUCHY_STRESS)
+    pressure = -float(np.trace(sigma)) / len(sigma)
+    result = undrained(state, 0.49, step, loops=Loops(cycles, q=2 * ratio * pressure),
+                       stop=Stop(double_amplitude=double_amplitude), tolerance=tolerance,
+                       tangents=tangents, progress=progress)
+    result.before = before
+    return result
+
+
+def stiffness(start: Start, strains: Sequence[float] = (1e-6, 1e-5, 1e-4, 1e-3),
+              steps: int = 10, *, consolidation: float | None = None, tolerance: float = 1e-8,
+              progress: Listener = False) -> Stiffness:
+    """Secant shear modulus [Pa] and damping [-] against the shear strain: two loops of shear at
+    constant volume of each amplitude [-], in `steps` from 0 to it, each on a copy of the state; the
+    second is measured. At 1e-6 G is what bender elements measure."""
+    state, _ = _consolidated(start, consolidation, tolerance, progress)
+    return loops_of(state, strains, _count(steps), functools.partial(
+        shear_constant_volume, tolerance=tolerance, progress=progress))
+
+
+def true_triaxial(start: Start, b: float, strain: float = 0.1, step: float = 1e-3, *,
+                  lateral_stress: float | None = None, loops: Loops | None = None,
+                  stop: Stop | None = None, consolidation: float | None = None,
+                  tolerance: float = 1e-8, tangents: bool = False,
+                  progress: Listener = False) -> Result:
+    """Axial strain [-] of spheres, in steps of `step` [-], at b = (s2 - s3) / (s1 - s3) [-], s1 the
+    axial stress, s2 that of axis 2 and s3 that of axis 1 (Habib 1953). The mean pressure stays; with
+    `lateral_stress` [Pa] s3 is held there instead. b 0 is triaxial compression, b 1 extension."""
+    share, held = number("b", b), _pressure("lateral_stress", lateral_stress)
+    if not 0 <= share <= 1:
+        raise ValueError(f"b {share!r}: expected a number from 0 to 1")
+
+    def hold(F: Array, sigma: Array, conditions: list[Condition]) -> Sequence[int]:
+        if len(F) != 3:
+            raise ValueError("true_triaxial of discs: expected spheres, which have three stresses")
+        conditions[0] = (Condition("mean", float(sigma.trace()) / 3, False) if held is None
+                         else _stress(-held))
+        conditions[4] = Condition("difference", 0.0, False, other=0, share=share)
+        return ()
+
+    return _strained("true_triaxial", start, strain, step, hold, loops,
+                     _How(stop, consolidation, tolerance, tangents, progress))
+
+
+def radial(start: Start, strain: float = 0.02, step: float = 5e-4, *,
+           stress_ratio: float | None = None, poisson: float | None = None,
+           loops: Loops | None = None, stop: Stop | None = None,
+           consolidation: float | None = None, tolerance: float = 1e-8,
+           tangents: bool = False, progress: Listener = False) -> Result:
+    """Axial strain [-], in steps of `step` [-], along a ray: with `stress_ratio` lateral stresses
+    change by that much of the axial one's change (K0 where it is that of no lateral strain); with
+    `poisson` lateral strains are minus that much of the axial one (0: oedometric) [-]."""
+    if (stress_ratio is None) == (poisson is None):
+        raise ValueError("expected one of stress_ratio and poisson")
+    share = number("stress_ratio" if poisson is None else "poisson",
+                   stress_ratio if poisson is None else poisson)
+
+    def hold(F: Array, sigma: Array, conditions: list[Condition]) -> Sequence[int]:
+        for i in range(len(F) - 1 if poisson is None else 0):
+            conditions[_kk(F, i)] = Condition(
+                "ratio", float(sigma[i, i] - share * sigma[-1, -1]), False, share=share)
+        return ()
+
+    def spread(F: Array, way: float, conditions: list[Condition]) -> None:
+        for i in range(0 if poisson is None else len(F) - 1):
+            conditions[_kk(F, i)] = Condition("F", float(F[i, i]) * (1 + share * way), False)
+
+    return _strained("radial", start, strain, step, hold, loops,
+                     _How(stop, consolidation, tolerance, tangents, progress), spread=spread)
+
+
+def torsional(start: Start, strain: float = 0.1, step: float = 1e-3, *, drained: bool = True,
+              loops: Loops | None = None, stop: Stop | None = None,
+              consolidation: float | None = None, tolerance: float = 1e-8,
+              tangents: bool = False, progress: Listener = False) -> Result:
+    """Shear strain [-], in steps of `step` [-], as in the wall of a hollow cylinder with one pressure
+    inside and outside (Hight, Gens & Symes 1983): all normal stresses stay. Undrained det F stays, and
+    the differences of the normal stresses. Ends where the mean pressure is a hundredth of that at the
+    start (stop.liquefied) where volume is kept."""
+    def hold(F: Array, sigma: Array, conditions: list[Condition]) -> Sequence[int]:
+        d = len(F)
+        radial_axis = d - 2   # of discs the axis along the shear
+        for i in range(d):
+            if drained:
+                conditions[_kk(F, i)] = _stress(sigma[i, i])
+            elif i != radial_axis:
+                conditions[_kk(F, i)] = Condition(
+                    "difference", float(sigma[i, i] - sigma[radial_axis, radial_axis]), False,
+                    other=_kk(F, radial_axis))
+        return () if drained else (radial_axis,)
+
+    return _strained("torsional", start, strain, step, hold, loops,
+                     _How(stop, consolidation, tolerance, tangents, progress), shear=True)
+
+
 def path(start: Start, steps: int, *, isochoric: bool = False, mean_pressure: float | None = None,
          stop: Stop | None = None, consolidation: float | None = None, tolerance: float = 1e-8,
          tangents: bool = False, progress: Listener = False, **components: float | str) -> Result:
@@ -255,10 +366,10 @@ def path(start: Start, steps: int, *, isochoric: bool = False, mean_pressure: fl
 
 def _strained(name: str, start: Start, strain: float, step: float,
               hold: Callable[[Array, Array, list[Condition]], Sequence[int]],
-              loops: Loops | None, how: _How, shear: bool = False,
-              keeps_volume: bool = False) -> Result:
+              loops: Loops | None, how: _How, shear: bool = False, keeps_volume: bool = False,
+              spread: Callable[[Array, float, list[Condition]], None] | None = None) -> Result:
     """A test led by a strain. hold(F, sigma, conditions) sets what is held, and returns the axes
-    whose stretches keep det F."""
+    whose stretches keep det F; spread(F, way, conditions) what goes with the strain."""
     strain, step = number("strain", strain), number("step", step)
     if not 0 < abs(strain) < 0.5:
         raise ValueError(f"expected a strain between -0.5 and 0.5, 0.05 for 5 % of compression, "
@@ -284,6 +395,8 @@ def _strained(name: str, start: Start, strain: float, step: float,
                 conditions[len(F) - 1] = Condition("F", F[0, -1] + way * F[-1, -1], False)
             else:
                 conditions[-1] = Condition("F", F[-1, -1] * (1 - way), False)
+            if spread is not None:
+                spread(F, way, conditions)
             return Segment(conditions, follows, volume)
 
         return Plan(to, strain, step, shear, keeps_volume=keeps_volume or bool(follows))
@@ -293,9 +406,7 @@ def _strained(name: str, start: Start, strain: float, step: float,
 
 def _run(name: str, start: Start, planner: Callable[[Lead], Plan], loops: Loops | int,
          how: _How) -> Result:
-    state = State(start) if isinstance(start, Material) else start
-    if not isinstance(state, State):
-        raise TypeError(f"expected a Material or a State, got {type(start).__name__}")
+    state = _state_of(start)
     if how.stop is not None and not isinstance(how.stop, Stop):
         raise TypeError(f"expected stop as Stop(q=100e3) or None, got {how.stop!r}")
     tolerance = number("tolerance", how.tolerance)
@@ -328,6 +439,22 @@ def _run(name: str, start: Start, planner: Callable[[Lead], Plan], loops: Loops 
     finally:
         progress.clear()
     return result
+
+
+def _state_of(start: Start) -> State:
+    state = State(start) if isinstance(start, Material) else start
+    if not isinstance(state, State):
+        raise TypeError(f"expected a Material or a State, got {type(start).__name__}")
+    return state
+
+
+def _consolidated(start: Start, pressure: float | None, tolerance: float,
+                  progress: Listener) -> tuple[State, Result | None]:
+    """The state, and the result of what brought it to the pressure."""
+    state, wanted = _state_of(start), _pressure("consolidation", pressure)
+    if wanted is None:
+        return state, None
+    return state, isotropic(state, wanted, tolerance=tolerance, progress=progress)
 
 
 def _ask_for_units(result: Result, plan: Plan, loops: Loops | int, stop: Stop | None) -> None:

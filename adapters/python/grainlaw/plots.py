@@ -39,6 +39,45 @@ def draw(kind: str, columns: Columns, shear: bool | None, spread: Columns | None
     return _path(kind, columns, shear, members)
 
 
+def stiffness(strain: Array, modulus: Array, damping: Array) -> Any:
+    """Secant modulus and damping over the strain."""
+    figure = _figure(figsize=(6, 6))
+    stiff, lossy = figure.subplots(2, 1, sharex=True)
+    stiff.semilogx(strain, KILO**2 * modulus, "o-")
+    stiff.set_ylabel("secant shear modulus [MPa]")
+    stiff.set_ylim(bottom=0)
+    lossy.semilogx(strain, damping, "o-")
+    lossy.set_ylabel("damping [-]")
+    lossy.set_xlabel("amplitude of shear strain [-]")
+    return figure
+
+
+def batch(members: Mapping[tuple[str, float], Columns], shear: bool | None) -> Any:
+    """Tests by packing and pressure: a colour a packing, a line style a pressure."""
+    figure = _figure(figsize=(9, 7))
+    (stress, path), (volume, compression) = figure.subplots(2, 2, sharex="col", sharey="row")
+    names = list(dict.fromkeys(name for name, _ in members))
+    pressures = list(dict.fromkeys(pressure for _, pressure in members))
+    for (name, pressure), columns in members.items():
+        sheared = (np.ptp(columns["shear_strain"]) > np.ptp(columns["axial_strain"])
+                   if shear is None else shear)
+        style = {"color": f"C{names.index(name)}",
+                 "linestyle": ("-", "--", "-.", ":")[pressures.index(pressure) % 4]}
+        strain = columns["shear_strain" if sheared else "axial_strain"]
+        q = KILO * columns["shear_stress" if sheared else "deviatoric_stress"]
+        p, e = KILO * columns["mean_pressure"], columns["void_ratio"]
+        stress.plot(strain, q, label=f"{name}, {KILO * pressure:g} kPa", **style)
+        path.plot(p, q, **style)
+        volume.plot(strain, e, **style)
+        compression.plot(p, e, **style)
+    stress.set_ylabel("q, or shear stress [kPa]")
+    stress.legend()
+    volume.set_ylabel("void ratio [-]")
+    volume.set_xlabel("strain [-]")
+    compression.set_xlabel("mean pressure p [kPa]")
+    return figure
+
+
 def _history(columns: Columns, shear: bool, spread: Columns) -> Any:
     figure = _figure(figsize=(6, 7))
     over = columns["shear_strain" if shear else "axial_strain"]
