@@ -229,13 +229,7 @@ Request<D> State<D>::request_of(const Problem<D>& problem, const SplitIncrement<
   request.duration = duration_of(*material_, committed_, F, time_step_);
   if (had_trial && solver.start == Start::trial) {
     guess_from_trial(committed_, trial_, material_->packing.size(), w, request);
-    if (!trial_slopes_.empty()) {
-      Tensor<D> change;
-      for (std::size_t k = 0; k < squared<D>; ++k)
-        change[k] = request.deformation[k] - request.guess_deformation[k];
-      step_along<D>(trial_slopes_, in_directions<D>(change, committed_.deformation), w.guess_step);
-      request.guess_step = w.guess_step;
-    }
+    follow_slopes<D>(trial_slopes_, w.guess_step, request);
     request.guess_loose = trial_loose_;
     request.guess_advanced = trial_advanced_;
   }

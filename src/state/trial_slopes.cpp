@@ -29,8 +29,12 @@ void keep_slopes(const Problem<D>& problem, std::span<const ByDeformation<D>> mo
 }
 
 template <int D>
-void step_along(std::span<const float> slopes, const ByDeformation<D>& factors,
-                std::vector<double>& step) {
+void follow_slopes(std::span<const float> slopes, std::vector<double>& step, Request<D>& request) {
+  if (slopes.empty()) return;
+  Tensor<D> change;
+  for (std::size_t k = 0; k < squared<D>; ++k)
+    change[k] = request.deformation[k] - request.guess_deformation[k];
+  const ByDeformation<D> factors = in_directions<D>(change, request.from->deformation);
   const std::size_t size = slopes.size() / lanes_of_change<D>;
   resize_with_capacity(step, size);
   std::fill(step.begin(), step.end(), 0.0);
@@ -38,13 +42,14 @@ void step_along(std::span<const float> slopes, const ByDeformation<D>& factors,
     const auto column = slopes.subspan(lane * size, size);
     for (std::size_t k = 0; k < size; ++k) step[k] += factors.lane[lane] * column[k];
   }
+  request.guess_step = step;
 }
 
 template void keep_slopes(const Problem<2>&, std::span<const ByDeformation<2>>,
                           std::vector<float>&);
 template void keep_slopes(const Problem<3>&, std::span<const ByDeformation<3>>,
                           std::vector<float>&);
-template void step_along<2>(std::span<const float>, const ByDeformation<2>&, std::vector<double>&);
-template void step_along<3>(std::span<const float>, const ByDeformation<3>&, std::vector<double>&);
+template void follow_slopes(std::span<const float>, std::vector<double>&, Request<2>&);
+template void follow_slopes(std::span<const float>, std::vector<double>&, Request<3>&);
 
 }  // namespace grainlaw::core

@@ -1,7 +1,7 @@
 // Derivatives of a trial's fluctuations by F, from which the next trial of the same increment starts.
 #pragma once
 
-#include "increment/problem.hpp"
+#include "equilibrium/request.hpp"
 #include "tangent/derivatives.hpp"
 
 #include <span>
@@ -14,9 +14,9 @@ template <int D>
 void keep_slopes(const Problem<D>& problem, std::span<const ByDeformation<D>> motion,
                  std::vector<float>& slopes);
 
-// Sums the columns times the factors of their lanes.
+// Leads the guess of a request along the slopes to its F; `step` is the memory of that. Without
+// slopes the guess stays.
 template <int D>
-void step_along(std::span<const float> slopes, const ByDeformation<D>& factors,
-                std::vector<double>& step);
+void follow_slopes(std::span<const float> slopes, std::vector<double>& step, Request<D>& request);
 
 }  // namespace grainlaw::core
