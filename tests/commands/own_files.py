@@ -72,6 +72,7 @@ def every_command(place):
         "yade": ("export", "imported/i.toml"),
         "lammps": ("export", "imported/i.toml", "--format", "lammps"),
         "dump": ("export", "imported/i.toml", "--format", "dump"),
+        "choose": ("choose", write("h.toml", LATTICE), "--error", "1", "--strain", "1e-3"),
         "compare": ("compare", "a=a.csv", "b=a.csv"),
     }
 

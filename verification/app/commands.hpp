@@ -14,6 +14,7 @@ void add_dns_command(CLI::App& app);
 void add_wave_command(CLI::App& app);
 void add_pack_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
+void add_choose_command(CLI::App& app);
 void add_import_command(CLI::App& app);
 void add_export_command(CLI::App& app);
 void add_keys_command(CLI::App& app);

@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   verification::add_import_command(app);
   verification::add_export_command(app);
   verification::add_compare_command(app);
+  verification::add_choose_command(app);
   verification::add_keys_command(app);
   return verification::run_program(app, argc, argv);
 }

@@ -20,7 +20,7 @@ _grainlaw() {
   fi
   compopt -o filenames
   case $command in
-    point | solve | dns | wave | pack | export)
+    point | solve | dns | wave | pack | export | choose)
       mapfile -t COMPREPLY < <(compgen -f -X '!*.toml' -- "$word"; compgen -d -- "$word") ;;
     *) mapfile -t COMPREPLY < <(compgen -f -- "$word") ;;
   esac

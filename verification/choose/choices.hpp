@@ -1,0 +1,48 @@
+// Error of the stress against run time of one material, by what a host may set.
+#pragma once
+
+#include "app/material.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace verification {
+
+// What a host may set.
+struct Choice {
+  double increment = 0;       // of strain [-]
+  double tolerance = 0;       // solver.tolerance [-]
+  double viscous_number = 0;  // solver.viscous_number; 0: equilibrium [-]
+};
+
+// A choice along all paths of a trial.
+struct Tried {
+  Choice choice;
+  // Stress against the reference, over the largest of the path: median and most [-].
+  double error = 0, largest = 0;
+  double seconds = 0;  // of CPU, of one point and path
+  bool whole = false;  // no increment failed
+};
+
+struct Trial {
+  double strain = 0;   // at the end of each path [-]
+  double spread = 0;   // of reference paths that differ by 1e-6 at first, as the errors [-]
+  double seconds = 0;  // of one point and path, for the reference
+  Choice reference;    // tolerance and increment of the reference
+  std::vector<Tried> tried;
+};
+
+// Leads a packing along axes of compression at constant volume to this strain, by every choice, and in
+// fine increments as a reference. `done` hears the share that is done. Throws ComputationError where
+// the reference reaches nothing.
+Trial try_choices(const MaterialSource& material, double strain,
+                  const std::function<void(double)>& done);
+
+// Whole choices to which none as fast is as exact, the fastest first.
+std::vector<Tried> best_choices(const Trial& trial);
+// The fastest choice whose error is at most `error`, or null.
+const Tried* fastest(const Trial& trial, double error);
+// The choice of the least error that takes at most so many seconds, or null.
+const Tried* most_exact(const Trial& trial, double seconds);
+
+}  // namespace verification
