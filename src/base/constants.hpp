@@ -1,7 +1,7 @@
 // Every tuned number of the library stands here, with its meaning, its unit and where the value
 // comes from.
-//   sweep   varied by `verification/run sweep NAME=VALUE`; results in verification/README.md,
-//           "What the constants of the solver are chosen by";
+//   sweep   varied by `verification/run sweep NAME=VALUE`; results in
+//           verification/measured/speed.md, "What the constants of the solver are chosen by";
 //   reach, start, newton, error, spheres   chosen by that study of `verification/run study`;
 //   timed   chosen by run time, measured by a program that is not in the repository;
 //   method  follows from the method or from the quantity it is compared with;
@@ -189,8 +189,7 @@ GRAINLAW_TUNED(std::size_t, iterative_nodes, 250);
 GRAINLAW_TUNED(double, incomplete_regularisation, 1e-3);
 // Residual reductions of a linear solve in a Newton step [-]: the largest, the least as a share of
 // the tolerance, and the largest that is usable. Between them it is the square of the last
-// reduction. Chosen; verification/README.md, "Spheres by their number", has run times with these
-// values.
+// reduction. Chosen; verification/measured/spheres.md has run times with these values.
 GRAINLAW_TUNED(double, loose_step, 1e-2);
 GRAINLAW_TUNED(double, share_of_tolerance, 0.1);
 GRAINLAW_TUNED(double, usable_step, 0.1);
