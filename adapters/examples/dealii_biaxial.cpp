@@ -12,7 +12,6 @@
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparse_direct.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -34,8 +33,6 @@ constexpr double side_pressure = 100e3;       // Pa, dead load
 constexpr double shortening = 1e-3;           // m, at full load
 constexpr unsigned columns = 4, rows = 8;
 constexpr double tolerance = 1e-10;  // |force on the unknowns| / |nodal forces of P| [-]
-constexpr int max_iterations = 12;
-constexpr double smallest_cut = 0.1, usual_cut = 0.5, smallest_part = 1e-3;  // of a load step
 
 class Biaxial {
  public:
@@ -58,35 +55,41 @@ class Biaxial {
       if (!in_y_.is_element(d)) sides_(d) = side_force(where_[d]);
     points_ =
         std::make_unique<grainlaw_dealii::Points>(mapping_, dofs_, QGaussSimplex<2>(1), material);
-    if (!points_->evaluate(displacement_)) throw std::runtime_error(points_->message());
+    const auto found = points_->evaluate(displacement_);
+    if (!found) throw std::runtime_error(found.message());
     points_->commit();
+    auto options = grainlaw_march_options_default();
+    options.tolerance = tolerance;
+    march_ = std::make_unique<grainlaw::March>(&points_->set(), options);
   }
 
-  // Newton's method to a fraction of the load, in a time whose unit is a load step. True when it got there; else the state is as it was
-  // and ratio is the factor on the step to try next.
-  bool advance(double fraction, double time, std::vector<double>& residuals, double& ratio) {
-    const Vector<double> start = displacement_;
-    points_->set_time_step(time);
-    residuals.clear();
-    ratio = usual_cut;
-    std::string reason = "Newton did not converge";
-    for (int iteration = 0; iteration < max_iterations; ++iteration) {
-      correct(fraction);
-      if (!points_->evaluate(displacement_)) {
-        ratio = points_->step_ratio();
-        reason = points_->message();
-        break;
-      }
-      residuals.push_back(residual());
-      if (residuals.back() <= tolerance) {
+  // A load step, as the march leads; accepted(load, residuals) after each part of it.
+  template <class Accepted>
+  void advance(double from, double to, const Accepted& accepted) {
+    Vector<double> committed = displacement_, farthest;
+    std::vector<double> residuals;
+    march_->begin(from, to);
+    for (grainlaw_action now; (now = march_->next()) != GRAINLAW_DONE;) {
+      const grainlaw_part& part = march_->part();
+      if (part.keep) farthest = displacement_;
+      if (now == GRAINLAW_SOLVE) {
+        if (correct(part.load)) residuals.push_back(tell());
+      } else if (now == GRAINLAW_CROSS) {
+        displacement_ = farthest;
+        tell();
+      } else if (now == GRAINLAW_ACCEPT) {
         points_->commit();
-        return true;
+        committed = displacement_;
+        accepted(part.load, residuals);
+        residuals.clear();
+      } else {
+        points_->revert();
+        displacement_ = committed;
+        residuals.clear();
+        if (now == GRAINLAW_GIVE_UP) throw std::runtime_error(part.message);
+        std::printf("load %g: %s; the step is cut\n", part.load, part.message);
       }
     }
-    std::printf("load %g: %s; the step is cut\n", fraction, reason.c_str());
-    points_->revert();
-    displacement_ = start;
-    return false;
   }
 
   [[nodiscard]] double top_force() const {
@@ -109,8 +112,9 @@ class Biaxial {
     return where_[d][1] < 1e-9 || where_[d][1] > height - 1e-9;
   }
 
-  // One linear solve; the increment of the platen enters through its right-hand side.
-  void correct(double fraction) {
+  // One linear solve; the increment of the platen enters through its right-hand side. False: the
+  // stiffness is singular.
+  bool correct(double fraction) {
     AffineConstraints<double> prescribed;
     for (types::global_dof_index d = 0; d < dofs_.n_dofs(); ++d)
       if (on_platen(d)) {
@@ -128,14 +132,19 @@ class Biaxial {
     factor.initialize(stiffness_);
     factor.solve(right);
     prescribed.distribute(right);
-    displacement_ += right;
+    const double share = march_->share(points_->largest_change(right));
+    if (share > 0) displacement_.add(share, right);
+    return share > 0;
   }
 
-  double residual() {
+  // Evaluates and tells the march. The relative residual.
+  double tell() {
+    const auto found = points_->evaluate(displacement_);
     points_->internal_forces(internal_);
     double squares = 0;
     for (types::global_dof_index d = 0; d < dofs_.n_dofs(); ++d)
       if (!on_platen(d)) squares += std::pow(sides_(d) - internal_(d), 2);
+    march_->tell(found, std::sqrt(squares), internal_.l2_norm());
     return std::sqrt(squares) / internal_.l2_norm();
   }
 
@@ -149,6 +158,7 @@ class Biaxial {
   SparseMatrix<double> stiffness_;
   Vector<double> displacement_, internal_, sides_;  // m, N/m, N/m
   std::unique_ptr<grainlaw_dealii::Points> points_;
+  std::unique_ptr<grainlaw::March> march_;
 };
 
 // Written whole after every load step: on a full disk the steps before it stay.
@@ -177,28 +187,20 @@ void run(const char* material, const std::string& prefix, int steps) {
   Biaxial problem(grainlaw::Material::load(material));
   Table force(prefix + "_force.csv", "step[-],fraction[-],top_y_displacement[m],top_y_force[N/m]");
   Table newton(prefix + "_newton.csv", "step[-],iteration[-],relative_residual[-]");
-  std::vector<double> residuals;
-  double done = 0, ratio = 1;
+  double done = 0;
   for (int step = 0; step <= steps; ++step) {
     const double goal = static_cast<double>(step) / steps;
-    double next = goal;
-    do {
-      const double time = next > done ? (next - done) * steps : 1;
-      if (!problem.advance(next, time, residuals, ratio)) {
-        next = done + (next - done) * std::clamp(ratio, smallest_cut, usual_cut);
-        if (next - done <= smallest_part / steps)
-          throw std::runtime_error("load step " + std::to_string(step) + " fails in any parts");
-        continue;
-      }
-      std::printf("load %g: force %.6g N/m, residuals", next, problem.top_force());
+    std::vector<double> last;
+    problem.advance(done, goal, [&](double load, const std::vector<double>& residuals) {
+      std::printf("load %g: force %.6g N/m, residuals", load, problem.top_force());
       for (const double value : residuals) std::printf(" %.1e", value);
       std::printf("\n");
-      done = next;
-      next = goal;
-    } while (done < goal);
+      last = residuals;
+    });
+    done = goal;
     force.add({double(step), goal, -shortening * goal, problem.top_force()});
-    for (std::size_t k = 0; k < residuals.size(); ++k)
-      newton.add({double(step), double(k + 1), residuals[k]});
+    for (std::size_t k = 0; k < last.size(); ++k)
+      newton.add({double(step), double(k + 1), last[k]});
     force.save();
     newton.save();
   }

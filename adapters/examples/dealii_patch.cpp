@@ -29,7 +29,7 @@ void run(const char* material_path, const char* path_path) {
   dofs.distribute_dofs(element);
   grainlaw_dealii::Points points(mapping, dofs, QGaussSimplex<2>(1),
                                  grainlaw::Material::load(material_path));
-  points.set_time_step(1);
+  points.set().set_time_step(1);
   std::vector<Point<2>> where(dofs.n_dofs());
   DoFTools::map_dofs_to_support_points(mapping, dofs, where);
   const IndexSet in_y =
@@ -66,7 +66,8 @@ void run(const char* material_path, const char* path_path) {
       throw std::runtime_error("a line of the path is not F11,F12,F21,F22: " + line);
     F[0] -= 1;
     F[3] -= 1;
-    if (!points.evaluate(field(F))) throw std::runtime_error(points.message());
+    const auto found = points.evaluate(field(F));
+    if (!found) throw std::runtime_error(found.message());
     points.commit();
     points.internal_forces(forces);
     points.stiffness(stiffness);

@@ -5,6 +5,8 @@
 #include <deal.II/grid/tria.h>
 #include <deal.II/lac/full_matrix.h>
 
+#include <cmath>
+
 using namespace dealii;
 
 namespace grainlaw_dealii {
@@ -28,23 +30,41 @@ Points::Points(const Mapping<2>& mapping, const DoFHandler<2>& dofs,
   trial_A_ = committed_A_ = A_;
 }
 
-bool Points::evaluate(const Vector<double>& displacement) {
+void Points::gradients(const Vector<double>& displacement) {
   FEValues<2> values(mapping_, dofs_.get_fe(), quadrature_, update_gradients);
-  std::vector<Tensor<2, 2>> gradients(quadrature_.size());
+  std::vector<Tensor<2, 2>> found(quadrature_.size());
   for (const auto& cell : dofs_.active_cell_iterators()) {
     values.reinit(cell);
-    values[displacement_components].get_function_gradients(displacement, gradients);
+    values[displacement_components].get_function_gradients(displacement, found);
     for (unsigned q = 0; q < quadrature_.size(); ++q)
-      for (unsigned i = 0; i < 2; ++i)
-        for (unsigned J = 0; J < 2; ++J)
-          F_[4 * point(cell->active_cell_index(), q) + 2 * i + J] =
-              gradients[q][i][J] + (i == J ? 1 : 0);
+      for (unsigned c = 0; c < 4; ++c)
+        F_[4 * point(cell->active_cell_index(), q) + c] = found[q][c / 2][c % 2];
   }
-  last_ = points_.evaluate(F_, trial_P_, GRAINLAW_WANT_TANGENT_EXACT, trial_A_);
-  if (!last_) return false;
-  P_.swap(trial_P_);
-  A_.swap(trial_A_);
-  return true;
+}
+
+double Points::largest_change(const Vector<double>& correction) {
+  gradients(correction);
+  double largest = 0;
+  for (std::size_t k = 0; k < F_.size(); k += 4) {
+    const double norm = std::hypot(std::hypot(F_[k], F_[k + 1]), std::hypot(F_[k + 2], F_[k + 3]));
+    if (!(norm <= largest)) largest = norm;  // also one that is no number
+    if (std::isnan(largest)) break;
+  }
+  return largest;
+}
+
+grainlaw::PointsEvaluation Points::evaluate(const Vector<double>& displacement) {
+  gradients(displacement);
+  for (std::size_t k = 0; k < F_.size(); k += 4) {
+    F_[k] += 1;
+    F_[k + 3] += 1;
+  }
+  const auto found = points_.evaluate(F_, trial_P_, GRAINLAW_WANT_TANGENT_EXACT, trial_A_);
+  if (found) {
+    P_.swap(trial_P_);
+    A_.swap(trial_A_);
+  }
+  return found;
 }
 
 void Points::commit() {

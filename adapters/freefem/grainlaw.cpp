@@ -17,6 +17,21 @@
 //   grainlawWriteVtk(sand, point, "file.vtp")
 //   grainlawPoints(sand), grainlawDimension(sand), grainlawDestroy(sand)
 //
+// Which part of a load step comes next, as march.h tells; names are those of its structs:
+//
+//   grainlawMarchOption(sand, "tolerance", 1e-6)       between load steps; the default of the
+//   grainlawMarchOption("tolerance")                   library
+//   grainlawMarchBegin(sand, from, to)                 a load step
+//   grainlawMarchNext(sand)                            grainlawSOLVE, grainlawACCEPT,
+//                                                      grainlawBACK, grainlawCROSS,
+//                                                      grainlawGIVEUP or grainlawDONE
+//   grainlawMarchPart(sand, "load")                    where it stands
+//   grainlawMarchMessage(sand)                         why an attempt failed
+//   grainlawMarchShare(sand, dF)                       share of a correction to apply, of its
+//                                                      changes of F
+//   grainlawMarchTell(sand, residual, scale, unforeseen)
+//   grainlawMarchFail(sand, stepRatio, message)        points found no equilibrium
+//
 // What cannot be done throws an ExecError, which `try ... catch(...)` catches; grainlawLastError()
 // has its text, and grainlawThrowAgain() in the catch block goes on with it. What was committed
 // stays as it was. On several ranks one that ends by an error, or by exit(n), ends all of them; an
@@ -27,6 +42,7 @@
 #include "floating_environment.hpp"
 #include "last_words.hpp"
 #include "point_set.hpp"
+#include "step_march.hpp"
 
 #include <ff++.hpp>
 
@@ -45,12 +61,20 @@ namespace {
 using grainlaw_freefem::Array;
 using grainlaw_freefem::LastWords;
 using grainlaw_freefem::PointSet;
+using grainlaw_freefem::StepMarch;
 
 using Vector = KN<double>*;   // real[int]
 using Matrix = KNM<double>*;  // real[int,int]
 
+// Points and their march.
+struct Led {
+  PointSet points;
+  StepMarch march;
+  Led(const std::string& material, long count) : points(material, count), march(points.points()) {}
+};
+
 // Numbers of sets are never used twice, so that a stale one is told.
-std::map<long, std::unique_ptr<PointSet>> sets;
+std::map<long, std::unique_ptr<Led>> sets;
 long last_number = 0;
 std::string last_error;
 LastWords* last_words = nullptr;  // on several ranks
@@ -101,7 +125,7 @@ auto guarded(const char* name, Command&& command) {
   }
 }
 
-PointSet& find(long number) {
+Led& find_led(long number) {
   const auto found = sets.find(number);
   if (found == sets.end())
     throw std::invalid_argument("there is no set of points number " + std::to_string(number) +
@@ -109,9 +133,16 @@ PointSet& find(long number) {
   return *found->second;
 }
 
+PointSet& find(long number) { return find_led(number).points; }
+StepMarch& find_march(long number) { return find_led(number).march; }
+
+string* for_script(Stack stack, const std::string& text) {
+  return Add2StackOfPtr2Free(stack, new string(text));
+}
+
 long create(string* const& path, const long& points) {
   return guarded("grainlawCreate", [&] {
-    sets.emplace(last_number + 1, std::make_unique<PointSet>(*path, points));
+    sets.emplace(last_number + 1, std::make_unique<Led>(*path, points));
     return ++last_number;
   });
 }
@@ -187,9 +218,8 @@ long first_failed(const long& number) {
 }
 
 string* message(Stack stack, const long& number) {
-  return guarded("grainlawMessage", [&] {
-    return Add2StackOfPtr2Free(stack, new string(find(number).last().message()));
-  });
+  return guarded("grainlawMessage",
+                 [&] { return for_script(stack, find(number).last().message()); });
 }
 
 long points(const long& number) {
@@ -206,6 +236,47 @@ long destroy(const long& number) {
     sets.erase(number);
     return 0L;
   });
+}
+
+double default_option(string* const& name) {
+  return guarded("grainlawMarchOption", [&] { return StepMarch::default_option(*name); });
+}
+
+long set_option(const long& number, string* const& name, const double& value) {
+  return guarded("grainlawMarchOption",
+                 [&] { return find_march(number).set_option(*name, value), 0L; });
+}
+
+long march_begin(const long& number, const double& from, const double& to) {
+  return guarded("grainlawMarchBegin", [&] { return find_march(number).begin(from, to), 0L; });
+}
+
+long march_next(const long& number) {
+  return guarded("grainlawMarchNext", [&] { return static_cast<long>(find_march(number).next()); });
+}
+
+double march_part(const long& number, string* const& name) {
+  return guarded("grainlawMarchPart", [&] { return find_march(number).part(*name); });
+}
+
+string* march_message(Stack stack, const long& number) {
+  return guarded("grainlawMarchMessage",
+                 [&] { return for_script(stack, find_march(number).message()); });
+}
+
+double march_share(const long& number, const Vector& changes) {
+  return guarded("grainlawMarchShare", [&] { return find_march(number).share(view(changes)); });
+}
+
+long march_tell(const long& number, const double& residual, const double& scale,
+                const double& unforeseen) {
+  return guarded("grainlawMarchTell",
+                 [&] { return find_march(number).tell(residual, scale, unforeseen), 0L; });
+}
+
+long march_fail(const long& number, const double& step_ratio, string* const& reason) {
+  return guarded("grainlawMarchFail",
+                 [&] { return find_march(number).fail(step_ratio, *reason), 0L; });
 }
 
 string* text_of_last_error() { return &last_error; }
@@ -244,8 +315,29 @@ void add_array_functions() {
   Global.Add("grainlawMeasure", "(", new OneOperator3_<long, long, string*, Field>(measure<Field>));
 }
 
+void add_march_functions() {
+  Global.New("grainlawSOLVE", CConstant<long>(GRAINLAW_SOLVE));
+  Global.New("grainlawACCEPT", CConstant<long>(GRAINLAW_ACCEPT));
+  Global.New("grainlawBACK", CConstant<long>(GRAINLAW_BACK));
+  Global.New("grainlawCROSS", CConstant<long>(GRAINLAW_CROSS));
+  Global.New("grainlawGIVEUP", CConstant<long>(GRAINLAW_GIVE_UP));
+  Global.New("grainlawDONE", CConstant<long>(GRAINLAW_DONE));
+  Global.Add("grainlawMarchOption", "(", new OneOperator1_<double, string*>(default_option));
+  Global.Add("grainlawMarchOption", "(",
+             new OneOperator3_<long, long, string*, double>(set_option));
+  Global.Add("grainlawMarchBegin", "(", new OneOperator3_<long, long, double, double>(march_begin));
+  Global.Add("grainlawMarchNext", "(", new OneOperator1_<long, long>(march_next));
+  Global.Add("grainlawMarchPart", "(", new OneOperator2_<double, long, string*>(march_part));
+  Global.Add("grainlawMarchMessage", "(", new OneOperator1s_<string*, long>(march_message));
+  Global.Add("grainlawMarchShare", "(", new OneOperator2_<double, long, Vector>(march_share));
+  Global.Add("grainlawMarchTell", "(",
+             new OneOperator4_<long, long, double, double, double>(march_tell));
+  Global.Add("grainlawMarchFail", "(", new OneOperator3_<long, long, double, string*>(march_fail));
+}
+
 void add_functions() {
   hear_last_words();
+  add_march_functions();
   Global.Add("grainlawCreate", "(", new OneOperator2_<long, string*, long>(create));
   add_array_functions<Vector>();
   add_array_functions<Matrix>();

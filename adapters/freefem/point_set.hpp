@@ -50,6 +50,8 @@ class PointSet {
   void measure(const std::string& name, const Array& values) const;
   void write_vtk(long point, const std::string& path) const;
 
+  [[nodiscard]] grainlaw::Points& points() { return points_; }
+
  private:
   grainlaw::Points points_;
   grainlaw::PointsEvaluation last_;  // evaluation

@@ -20,7 +20,6 @@ namespace grainlaw::adapters {
 namespace {
 
 constexpr std::size_t message_size = 512;
-constexpr double unreliable_step = 0.5;  // asked for after an approximate answer
 
 constexpr std::array<std::size_t, 9> tensor_order{0, 4, 8, 1, 3, 2, 6, 5, 7};
 constexpr std::array<std::size_t, 6> symmetric_order{0, 4, 8, 1, 2, 5};
@@ -130,6 +129,11 @@ class NotKept {
   long long name_;
 };
 
+// Asks the host for a shorter step, as a march takes it after this suggestion of a point.
+void shorten(const grainlaw_mgis_data& data, double step_ratio) {
+  if (data.rdt != nullptr) *data.rdt = std::min(*data.rdt, grainlaw_march_cut(step_ratio));
+}
+
 void require(const void* pointer, const char* what) {
   if (pointer == nullptr) throw std::runtime_error(std::string(what) + " is a null pointer");
 }
@@ -165,8 +169,7 @@ int integrate(PointTable& points, int dimension, grainlaw_mgis_data& data) {
   const Answer answer = request.symmetric() ? evaluate_symmetric(table, call, response)
                                             : evaluate(table, call, response);
   if (answer.status != GRAINLAW_OK) {
-    const double ratio = answer.report.step_ratio;
-    if (data.rdt != nullptr && ratio > 0) *data.rdt = std::min(*data.rdt, ratio);
+    if (answer.status > 0) shorten(data, answer.report.step_ratio);
     throw std::runtime_error(std::string(grainlaw_status_text(answer.status)) +
                              (answer.report.message[0] != '\0' ? ": " : "") +
                              answer.report.message);
@@ -177,7 +180,7 @@ int integrate(PointTable& points, int dimension, grainlaw_mgis_data& data) {
   data.s1.internal_state_variables[0] = static_cast<double>(name);
   data.s1.internal_state_variables[1] = token;
   if (!answer.approximate) return 1;
-  if (data.rdt != nullptr) *data.rdt = std::min(*data.rdt, unreliable_step);
+  shorten(data, 1);
   if (data.error_message != nullptr) {
     std::snprintf(data.error_message, message_size,
                   "the equilibrium was only found by advancing the friction history; approximate");

@@ -402,6 +402,29 @@ TEST(march, ranks_cut_together_where_the_points_of_one_refuse) {
   });
 }
 
+TEST(march, ranks_go_back_together_where_the_evaluation_of_one_is_an_error) {
+  on_ranks([](int rank, Points& set) {
+    const auto before = set.save();
+    March march(&set);
+    march.begin(0, 1);
+    EXPECT_EQ(march.next(), GRAINLAW_SOLVE);
+    auto F = deformations();
+    if (rank == 0) F[3] = nan;
+    F.resize(4 * set.size());
+    const Summarised found = evaluate_at(set, F, 1);
+    EXPECT_EQ(grainlaw_march_tell(march.get(), found.status, &found.summary, 0, 1, -1),
+              GRAINLAW_OK);
+    EXPECT_EQ(march.next(), GRAINLAW_BACK);
+    EXPECT_EQ(std::string(march.part().message).rfind("rank 0, point 0: F22 is", 0), 0U)
+        << march.part().message;
+    set.revert();
+    EXPECT_EQ(grainlaw_points_commit(set.get()), GRAINLAW_NO_TRIAL);
+    EXPECT_TRUE(same_bits(set.save(), before));
+    EXPECT_EQ(march.next(), GRAINLAW_SOLVE);
+    EXPECT_EQ(march.part().load, 0.1);
+  });
+}
+
 TEST(bad_march, arguments_are_refused) {
   grainlaw_march* march = nullptr;
   const auto refuses = [&](const char* what, auto change) {

@@ -84,6 +84,47 @@ TEST(ranks, agree_on_what_else_fails) {
   });
 }
 
+TEST(ranks, are_told_of_a_refused_answer_of_one_of_them) {
+  on_ranks([](int rank, Points& set) {
+    std::vector<double> P(4 * set.size());
+    grainlaw_summary summary = grainlaw_summary_default();
+    const unsigned want = rank == 0 ? 3 : 0;
+    EXPECT_EQ(grainlaw_points_answer(set.get(), want, P.data(), nullptr, 1, &summary),
+              GRAINLAW_BAD_ARGUMENT);
+    EXPECT_EQ(summary.rank, 0);
+    EXPECT_EQ(grainlaw_points_answer(set.get(), 0, P.data(), nullptr, 1, &summary), GRAINLAW_OK);
+  });
+}
+
+// What a host does to restart: load, agree, and on a failure of any rank go back on all.
+TEST(ranks, whose_restart_fails_on_one_of_them_go_on_from_where_they_were) {
+  on_ranks([](int rank, Points& set) {
+    const auto checkpoint = set.save();
+    EXPECT_EQ(evaluate_rank(set, deformations()).status, GRAINLAW_OK);
+    set.commit();
+    const auto before = set.save();
+    auto bytes = checkpoint;
+    if (rank == 1) bytes.resize(bytes.size() / 2);
+    std::string mine, told;
+    try {
+      set.load(bytes);
+    } catch (const grainlaw::StatusError& error) {
+      mine = error.what();
+    }
+    EXPECT_EQ(mine.empty(), rank != 1);
+    try {
+      set.agree(mine.empty() ? GRAINLAW_OK : GRAINLAW_BAD_BYTES, mine);
+      ADD_FAILURE() << "expected an error on rank " << rank;
+    } catch (const grainlaw::StatusError& error) {
+      told = error.what();
+      set.load(before);
+    }
+    EXPECT_EQ(told, "saved points: damaged or truncated");
+    EXPECT_EQ(rank == 1, told == mine);
+    EXPECT_TRUE(same_bits(set.save(), before));
+  });
+}
+
 TEST(ranks, of_a_copy_are_none_and_a_set_may_be_alone_again) {
   Points set = make_set();
   Allreduce nobody;

@@ -158,6 +158,29 @@ TEST_F(points_without_memory, are_all_evaluated_later) {
   EXPECT_GT(k, 100);
 }
 
+// Ranks wait in as many reductions for one that has no memory as for one that has.
+TEST_F(points_without_memory, do_not_leave_other_ranks_waiting) {
+  const auto count = [](void* reductions, double*, int, grainlaw_op) {
+    ++*static_cast<int*>(reductions);
+  };
+  bool refused = true;
+  for (long k = 1; refused && !HasFailure(); ++k) {
+    std::thread([&] {  // without the memory of earlier evaluations
+      const Set set = make();
+      int reductions = 0;
+      EXPECT_EQ(grainlaw_points_share(set.get(), 0, count, &reductions), GRAINLAW_OK);
+      Answer answer;
+      refused =
+          with_refused_allocation(k, Refuse::rest, [&] { answer = evaluate(set.get()); }).refused;
+      EXPECT_EQ(answer.status, refused ? GRAINLAW_OUT_OF_MEMORY : GRAINLAW_OK);
+      EXPECT_EQ(reductions, refused ? 2 : 1) << "allocation " << k;  // the second tells why
+      EXPECT_EQ(grainlaw_points_commit(set.get()), refused ? GRAINLAW_NO_TRIAL : GRAINLAW_OK);
+      EXPECT_EQ(reductions, refused ? 3 : 2);
+    })
+        .join();
+  }
+}
+
 TEST_F(points_without_memory, are_all_loaded_or_none) {
   const Set other = with_trial();
   ASSERT_EQ(grainlaw_points_commit(other.get()), GRAINLAW_OK);

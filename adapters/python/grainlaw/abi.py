@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import threading
 from collections.abc import Callable
 from typing import Any
 
@@ -33,6 +34,33 @@ class Error(Exception):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (int(self.status), self.message, self.point)
+
+
+class _Raised(threading.local):
+    """What a callback raised in a call of the library that this thread has not left."""
+    error: BaseException | None = None
+
+
+_raised = _Raised()
+
+
+def callback(function: Callable[..., None]) -> Callable[..., None]:
+    """A function that the library calls. What it raises is raised by the call of the library, once that
+    is over; it is not called again before."""
+    def call(*arguments: Any) -> None:
+        if _raised.error is None:
+            try:
+                function(*arguments)
+            except BaseException as error:   # ctypes would print it and go on
+                _raised.error = error
+    return call
+
+
+def _raise_of_callback(result: Any, _function: Any, _arguments: Any) -> Any:
+    error, _raised.error = _raised.error, None
+    if error is not None:
+        raise error
+    return result
 
 
 def _open() -> ctypes.CDLL:
@@ -127,6 +155,8 @@ def _declare(library: ctypes.CDLL) -> None:
     for name, (result, *arguments) in functions.items():
         function = getattr(library, f"grainlaw_{name}")
         function.restype, function.argtypes = result, arguments
+        if result is not None:
+            function.errcheck = _raise_of_callback
 
 
 class _Any(ctypes.Structure):

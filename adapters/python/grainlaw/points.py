@@ -13,8 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import plots
-from .abi import (REDUCE, Error, Handle, as_bytes, bad_argument, c_text, check, library, load_by,
-                  saved_by, status_text)
+from .abi import (REDUCE, Error, Handle, as_bytes, bad_argument, c_text, callback, check, library,
+                  load_by, saved_by, status_text)
 from .arrays import Array, Records
 from .arguments import LARGEST_INT, masked, number, whole
 from .material import AnyPath, Material
@@ -202,18 +202,20 @@ class States:
     def share(self, rank: int, reduce: Callable[[Array, str], npt.ArrayLike] | None) -> None:
         """Share failures with other ranks: evaluations and commits are then calls of all of them, and
         agree on status, message and step ratio. reduce(values, "min" or "sum") returns what the
-        ranks' values come to, e.g. by mpi4py's allreduce; None: not shared any more."""
+        ranks' values come to, e.g. by mpi4py's allreduce; None: not shared any more. What it raises is
+        raised by the evaluation or commit, on this rank alone: a commit is then not made."""
         def call(_: Any, values: Any, n: int, op: int) -> None:
             own = np.ctypeslib.as_array(values, (n,))
             assert reduce is not None
             native = np.empty(n)   # mpi4py takes no array whose type ctypes has named
             native[:] = own
+            own[:] = 0   # not agreed, should it raise
             own[:] = reduce(native, "sum" if op else "min")
 
-        callback = REDUCE(call) if reduce else REDUCE(0)
+        called = REDUCE(callback(call)) if reduce else REDUCE(0)
         rank = whole("rank", rank, 0, LARGEST_INT, bad_argument)
-        check(library.grainlaw_points_share(self._handle, rank, callback, None))
-        self._reduce = callback   # as long as the set may call it
+        check(library.grainlaw_points_share(self._handle, rank, called, None))
+        self._reduce = called   # as long as the set may call it
 
     def agree(self, error: Exception | None = None) -> None:
         """Tell the ranks of a shared set how something else went, a call of all of them: raises Error

@@ -126,6 +126,45 @@ class Ranks(Case):
                                 None if rank else OSError("no such file"))
         self.on_ranks(on_rank)
 
+    def test_what_a_reduction_raises_is_raised_by_the_call(self):
+        """Of every call that reduces, once; a commit that could not be agreed is none."""
+        class Lost(Exception):
+            pass
+
+        calls = []
+
+        def reduce(values, op):
+            calls.append(op)
+            if lost:
+                raise Lost("a rank is gone")
+            return values
+
+        lost = False
+        states = grainlaw.States(material(), 1)
+        states.share(0, reduce)
+        self.assertTrue(states.evaluate([COMPRESSED]).ok)
+        before = states.save()
+        march = grainlaw.March(states)
+        march.begin(1)
+        lost = True
+        march.next()
+        for call in (states.commit, states.agree, states.answer,
+                     lambda: states.evaluate([COMPRESSED]),
+                     lambda: states.evaluate_some([0], [COMPRESSED]),
+                     lambda: march.share(0.2), lambda: (march.next(), march.next(),
+                                                        march.tell(grainlaw.Status.OK, 0.0, 3.0))):
+            calls.clear()
+            self.assertRaisesRegex(Lost, "a rank is gone", call)
+            self.assertEqual(len(calls), 1)
+        lost = False
+        self.assertEqual(states.save(), before)
+        states.share(0, lambda values, op: "min")
+        self.assertRaisesRegex(ValueError, "min", states.commit)
+        states.share(0, reduce)
+        states.evaluate([COMPRESSED])
+        states.commit()
+        self.assertNotEqual(states.save(), before)
+
     def test_a_set_is_alone_again(self):
         states = grainlaw.States(material(), 1)
         states.share(0, lambda values, op: values)
