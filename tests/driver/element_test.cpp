@@ -34,6 +34,11 @@ class element : public testing::TestWithParam<ElementKind> {
   }
 };
 
+TEST(element_kinds, those_that_do_not_lock_are_the_default) {
+  EXPECT_EQ(element_kinds_of(2).front(), ElementKind::q4fbar);
+  EXPECT_EQ(element_kinds_of(3).front(), ElementKind::hex8fbar);
+}
+
 TEST_P(element, shape_functions_are_one_at_their_node_and_zero_at_the_others) {
   const ElementType& type = element_type(GetParam());
   for (int a = 0; a < type.nodes; ++a) {

@@ -62,7 +62,7 @@ class gmsh : public testing::Test {
 TEST_F(gmsh, quadrilaterals_with_their_named_sets_are_read) {
   for (const int order : {1, 2}) {
     const Mesh mesh = read(text(order));
-    EXPECT_EQ(mesh.kind, order == 1 ? ElementKind::q4 : ElementKind::q8);
+    EXPECT_EQ(mesh.kind, order == 1 ? ElementKind::q4fbar : ElementKind::q8);
     EXPECT_EQ(mesh.nodes.size(), order == 1 ? 6U : 13U);
     ASSERT_EQ(mesh.elements.size(), 2U);
     double area = 0;
@@ -119,7 +119,7 @@ std::string solid_text(ElementKind kind) {
 }
 
 TEST_F(gmsh, solids_are_read_with_faces_seen_from_outside) {
-  for (const ElementKind kind : {ElementKind::hex8, ElementKind::hex20, ElementKind::tet10}) {
+  for (const ElementKind kind : {ElementKind::hex8fbar, ElementKind::hex20, ElementKind::tet10}) {
     const Mesh mesh = read(solid_text(kind)), box = box_mesh({2, 1, 1}, {2, 1, 1}, kind);
     EXPECT_EQ(mesh.kind, kind);
     EXPECT_EQ(mesh.elements, box.elements);

@@ -91,8 +91,8 @@ const ElementType& element_type(ElementKind kind) {
 
 std::span<const ElementKind> element_kinds_of(int dimension) {
   using enum ElementKind;
-  static constexpr std::array plane{q4, q4fbar, q4r, q8, t3, t6};
-  static constexpr std::array solid{hex8, hex8fbar, hex20, tet10};
+  static constexpr std::array plane{q4fbar, q4, q4r, q8, t3, t6};
+  static constexpr std::array solid{hex8fbar, hex8, hex20, tet10};
   if (dimension == 2) return plane;
   return solid;
 }

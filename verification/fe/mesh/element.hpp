@@ -64,7 +64,7 @@ struct ElementType {
 
 const ElementType& element_type(ElementKind kind);
 
-// All kinds of a dimension. Of those with one Gmsh type the plainest comes first.
+// All kinds of a dimension. The first one is the default, and the first of a Gmsh type that of a file.
 std::span<const ElementKind> element_kinds_of(int dimension);
 
 // A point in the reference configuration of its element.
