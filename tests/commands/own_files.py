@@ -7,7 +7,7 @@ import shutil
 import unittest
 
 from command import DNS, LATTICE, PERIODIC, POINT, SOLVE, WAVE, Place
-from starts import BRICK, SPHERES
+from starts import SOLID_BODY, SPHERES
 
 PACKING = ("_particles.csv", "_contacts.csv", "_cell.csv")
 # What commands need for a moment.
@@ -63,7 +63,7 @@ def every_command(place):
                                    '[[prestress.segment]]\nsteps = 1\nF22 = 0.9999\n'
                                    '[[probe]]\nname = "p"\non = "top"\n')),
         "dynamics": ("solve", write("t.toml", 'steps = 2\nsolver = "dynamics"\n' + PERIODIC + DYNAMICS)),
-        "bricks": ("solve", write("b.toml", "steps = 1\n[material]" + SPHERES + BRICK)),
+        "solid": ("solve", write("b.toml", "steps = 1\nvtk_every = 1\n[material]" + SPHERES + SOLID_BODY)),
         "dns": ("dns", write("d.toml", "vtk_every = 1\npictures = [0.0]\n" + DNS.format(steps=1))),
         "wave": ("wave", write("w.toml", WAVE.format(repeat=3, duration=1e-4))),
         "pack": ("pack", write("r.toml", LATTICE), "--vtk"),

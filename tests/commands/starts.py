@@ -9,7 +9,7 @@ dimension = 3
 packing = { generator = "fcc", cells = [2, 2, 2], radius = 5e-3, pressure = 1e5 }
 contact = { law = "frictional", young = 1e8, ratio = 0.8, friction = 0.5463 }
 """
-BRICK = """
+SOLID_BODY = """
 [mesh]
 size = [1.0, 1.0, 1.0]
 divisions = [1, 1, 2]
@@ -54,7 +54,7 @@ class Starts(unittest.TestCase):
         wanted = 1e5, 1e8 / 2 / 1e5, 0.350
         material = "[material]" + SPHERES
         self.check(self.start("point", material + "[[segment]]\nsteps = 1\nF33 = 0.9999\n"), *wanted)
-        self.check(self.start("solve", "steps = 1\n" + material + BRICK), *wanted)
+        self.check(self.start("solve", "steps = 1\n" + material + SOLID_BODY), *wanted)
         self.check(self.start("pack", SPHERES), *wanted)
         self.assertTrue((self.place.path / "out/s_contacts.csv").exists())
 

@@ -204,13 +204,13 @@ TEST(conditions, a_platen_needs_a_straight_side) {
   const toml::table content = toml::parse("[[platen]]\non = 'top'").table();
   SceneTable scene(content, "scene.toml", "");
   Model model;
-  model.mesh = rectangle_mesh({1, 1}, {2, 2}, ElementKind::q4);
+  model.mesh = box_mesh({1, 1}, {2, 2}, ElementKind::q4);
   model.mesh.nodes.back().y() += 0.01;
   EXPECT_THROW(read_conditions(scene, 1, model), InputError);
 }
 
 std::string shape_refusal(ElementKind kind, std::size_t node, const Eigen::Vector2d& shift) {
-  Mesh mesh = rectangle_mesh({2, 1}, {2, 1}, kind);
+  Mesh mesh = box_mesh({2, 1}, {2, 1}, kind);
   EXPECT_NO_THROW(check_shapes(mesh, "mesh"));
   mesh.nodes[node] += shift;
   try {

@@ -24,7 +24,7 @@ class cycle : public testing::Test {
       const toml::table content = toml::parse("[cycle]\non = 'top'\n" + options + sides()).table();
       SceneTable scene(content, "scene.toml", "");
       // Two rows, so that there is something to solve.
-      model.mesh = rectangle_mesh({1, 1}, {1, 2}, ElementKind::q4);
+      model.mesh = box_mesh({1, 1}, {1, 2}, ElementKind::q4);
       const Cycle cycle = read_cycle(scene.table("cycle"), model);
       read_conditions(scene, 1, model);
       control.emplace(cycle, model, 1e-3);

@@ -31,7 +31,7 @@ Material string_material() {
 // A bar of square elements that moves along x alone, held at its left end.
 Model bar(int elements, double size) {
   Model model;
-  model.mesh = rectangle_mesh({elements * size, size}, {elements, 1}, ElementKind::q4r);
+  model.mesh = box_mesh({elements * size, size}, {elements, 1}, ElementKind::q4r);
   const Program held{{{0, 0}}, {}};
   model.displacements.push_back({model.mesh.node_sets["left"], 0, held, "left_x"});
   model.displacements.push_back({model.mesh.node_sets["bottom"], 1, held, "bottom_y"});
@@ -58,7 +58,7 @@ struct Oscillator {
 
 TEST(dynamics, masses_add_up_and_are_positive) {
   for (const auto kind : {ElementKind::q4, ElementKind::q4r, ElementKind::q8, ElementKind::t3}) {
-    const Mesh mesh = rectangle_mesh({2, 3}, {3, 2}, kind);
+    const Mesh mesh = box_mesh({2, 3}, {3, 2}, kind);
     const Eigen::VectorXd mass = lumped_mass(mesh, 10);
     EXPECT_GT(mass.minCoeff(), 0);
     EXPECT_NEAR(mass.sum(), 2 * 60, 1e-11);

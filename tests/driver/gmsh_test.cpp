@@ -2,9 +2,13 @@
 #include "fe/mesh/gmsh_file.hpp"
 #include "fe/mesh/mesh_scene.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 
@@ -58,7 +62,7 @@ class gmsh : public testing::Test {
 TEST_F(gmsh, quadrilaterals_with_their_named_sets_are_read) {
   for (const int order : {1, 2}) {
     const Mesh mesh = read(text(order));
-    EXPECT_EQ(mesh.kind, order == 1 ? ElementKind::q4 : ElementKind::q8);
+    EXPECT_EQ(mesh.kind, order == 1 ? ElementKind::q4fbar : ElementKind::q8);
     EXPECT_EQ(mesh.nodes.size(), order == 1 ? 6U : 13U);
     ASSERT_EQ(mesh.elements.size(), 2U);
     double area = 0;
@@ -75,6 +79,52 @@ TEST_F(gmsh, quadrilaterals_with_their_named_sets_are_read) {
         EXPECT_LT((2 * place(side[2]) - place(side[0]) - place(side[1])).norm(), 1e-14);
       }
     }
+  }
+}
+
+// A box of two elements as Gmsh writes it, with the named surface "floor".
+std::string solid_text(ElementKind kind) {
+  const Mesh mesh = box_mesh({2, 1, 1}, {2, 1, 1}, kind);
+  const ElementType& type = element_type(kind);
+  const bool quadratic = type.nodes > type.corners;
+  std::string nodes, elements;
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+    nodes += fmt::format("{} {}\n", n + 1, fmt::join(mesh.nodes[n], " "));
+  std::size_t count = 0;
+  const auto add = [&](int gmsh, int group, const std::vector<int>& of,
+                       const std::vector<int>& order) {
+    elements += fmt::format("{} {} 2 {} 1", ++count, gmsh, group);
+    for (std::size_t a = 0; a < of.size(); ++a)
+      elements +=
+          fmt::format(" {}", 1 + of[order.empty() ? a : static_cast<std::size_t>(order[a])]);
+    elements += "\n";
+  };
+  const int face = type.simplex() ? 9 : quadratic ? 16 : 3;
+  for (const Side& side : mesh.side_sets.at("bottom")) {
+    Side turned = side;  // seen from inside, where Gmsh may stand
+    const auto corners = static_cast<std::ptrdiff_t>(type.simplex() ? 3 : 4);
+    std::reverse(turned.begin() + 1, turned.begin() + corners);
+    std::reverse(turned.begin() + corners, turned.end());
+    add(face, 1, turned, {});
+  }
+  // Place of the nodes of an element in the order of Gmsh.
+  std::vector<int> order(type.gmsh_order.size());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    order[static_cast<std::size_t>(type.gmsh_order[k])] = static_cast<int>(k);
+  for (const auto& element : mesh.elements) add(type.gmsh, 2, element, order);
+  return fmt::format(
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"floor\"\n3 2 \"sand\"\n"
+      "$EndPhysicalNames\n$Nodes\n{}\n{}$EndNodes\n$Elements\n{}\n{}$EndElements\n",
+      mesh.nodes.size(), nodes, count, elements);
+}
+
+TEST_F(gmsh, solids_are_read_with_faces_seen_from_outside) {
+  for (const ElementKind kind : {ElementKind::hex8fbar, ElementKind::hex20, ElementKind::tet10}) {
+    const Mesh mesh = read(solid_text(kind)), box = box_mesh({2, 1, 1}, {2, 1, 1}, kind);
+    EXPECT_EQ(mesh.kind, kind);
+    EXPECT_EQ(mesh.elements, box.elements);
+    EXPECT_EQ(mesh.node_sets.at("floor"), box.node_sets.at("bottom"));
+    EXPECT_EQ(mesh.side_sets.at("floor"), box.side_sets.at("bottom"));
   }
 }
 

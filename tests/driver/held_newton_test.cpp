@@ -15,7 +15,7 @@ namespace {
 std::vector<LoadStep> compress(const NewtonOptions& options, double strain = 0.016,
                                const Material& material = packing_material()) {
   Model model;
-  model.mesh = rectangle_mesh({0.05, 0.1}, {1, 1}, ElementKind::q4r);
+  model.mesh = box_mesh({0.05, 0.1}, {1, 1}, ElementKind::q4r);
   const auto& sets = model.mesh.node_sets;
   model.displacements.push_back({sets.at("left"), 0, Program{{{0, 0}}, {}}, "left_x"});
   model.displacements.push_back({sets.at("bottom"), 1, Program{{{0, 0}}, {}}, "bottom_y"});

@@ -11,7 +11,7 @@ namespace {
 // Smooth platens and membranes under 100 kPa, compressed to this axial strain.
 Model specimen(int divisions, double strain) {
   Model model;
-  model.mesh = rectangle_mesh({0.05, 0.1}, {divisions, divisions}, ElementKind::q4);
+  model.mesh = box_mesh({0.05, 0.1}, {divisions, divisions}, ElementKind::q4);
   auto& sets = model.mesh.node_sets;
   model.displacements = {{sets["bottom"], 1, Program::linear(0, 0), "bottom_y"},
                          {sets["top"], 1, Program::linear(0, -0.1 * strain), "top_y"},
@@ -23,7 +23,7 @@ Model specimen(int divisions, double strain) {
 }
 
 struct Result {
-  Record record;
+  BodyRecord record;
   Eigen::Vector2d corner = Eigen::Vector2d::Zero();  // where the upper right one went [m]
   int cuts = 0;
   int iterations = 0;
@@ -97,7 +97,7 @@ TEST(localising, a_correction_beyond_the_largest_is_made_in_parts_to_the_same_eq
 // stretch that no point takes, however small the part of the step is.
 TEST(localising, bands_are_followed_by_corrections_that_points_take) {
   Model model;
-  model.mesh = rectangle_mesh({0.06, 0.12}, {2, 4}, ElementKind::q4r);
+  model.mesh = box_mesh({0.06, 0.12}, {2, 4}, ElementKind::q4r);
   auto& sets = model.mesh.node_sets;
   for (const int component : {0, 1})
     model.displacements.push_back({sets["bottom"], component, Program::linear(0, 0), "bottom"});

@@ -29,7 +29,7 @@ std::string contents(const std::filesystem::path& path) {
 // A mesh of lattices between smooth platens.
 Model compressed_model(ElementKind kind) {
   Model model;
-  model.mesh = rectangle_mesh({0.5, 1}, {2, 3}, kind);
+  model.mesh = box_mesh({0.5, 1}, {2, 3}, kind);
   const auto hold = [&](const char* side, int component, double value) {
     model.displacements.push_back(
         {model.mesh.node_sets[side], component, Program::linear(0, value), std::string(side)});
@@ -74,10 +74,10 @@ TEST(fields, strains_and_stresses_are_those_of_the_paper) {
   deformation << 1.03, 0.04, -0.01, 0.99;
   stress << -2e5, 3e4, 1e4, -1e5;
   const grainlaw_report report = grainlaw_report_default();
-  const PointView point{nullptr, deformation, stress, report};
+  const PointView point{nullptr, deformation.data(), stress.data(), report};
   const auto value = [&](const char* name) {
     double result = 0;
-    field(name).value(point, &result);
+    field(name, 2).value(point, &result);
     return result;
   };
   EXPECT_NEAR(value("volumetric_strain"), 1.03 * 0.99 + 0.04 * 0.01 - 1, 1e-15);
@@ -91,7 +91,7 @@ TEST(fields, strains_and_stresses_are_those_of_the_paper) {
       value("deviatoric_stress"),
       std::sqrt(half * half + 0.5 * (cauchy(0, 1) * cauchy(0, 1) + cauchy(1, 0) * cauchy(1, 0))),
       1e-9);
-  EXPECT_THROW(field("colour"), InputError);
+  EXPECT_THROW(field("colour", 2), InputError);
 }
 
 class output : public testing::TestWithParam<ElementKind> {
@@ -113,7 +113,7 @@ class output : public testing::TestWithParam<ElementKind> {
 TEST_P(output, patches_of_a_picture_fill_their_elements_and_hold_their_points) {
   const PointField& points = solver_->points();
   const MeshPanel panel =
-      mesh_panel(model_.mesh, points, solver_->displacement(), field("deviatoric_strain"));
+      mesh_panel(model_.mesh, points, solver_->displacement(), field("deviatoric_strain", 2));
   ASSERT_EQ(panel.patches.size(), points.size());
   ASSERT_EQ(panel.elements.size(), model_.mesh.elements.size());
   const std::size_t per_element = points.size() / panel.elements.size();
@@ -132,7 +132,7 @@ TEST_P(output, patches_of_a_picture_fill_their_elements_and_hold_their_points) {
     }
     EXPECT_NEAR(area, polygon_area(panel.elements[e]), 1e-9 * area);
   }
-  EXPECT_THROW(mesh_panel(model_.mesh, points, solver_->displacement(), field("stress")),
+  EXPECT_THROW(mesh_panel(model_.mesh, points, solver_->displacement(), field("stress", 2)),
                InputError);
 }
 
@@ -172,7 +172,7 @@ TEST_P(output, files_for_paraview_hold_the_values) {
   const std::string at_points = contents(directory.path() / "s_points_0001.vtp");
   const auto place = vtk_array<double>(at_points, "points");
   ASSERT_EQ(place.size(), 3 * points.size());
-  for (const Field& field : fields()) {
+  for (const Field& field : fields(2)) {
     const auto components = static_cast<std::size_t>(field.components);
     const std::vector<double> expected = values(field, points);
     EXPECT_EQ(vtk_array<double>(at_points, std::string(field.name)), expected) << field.name;
@@ -213,10 +213,33 @@ TEST_P(output, cost_adds_up) {
 
 INSTANTIATE_TEST_SUITE_P(elements, output,
                          testing::Values(ElementKind::q4, ElementKind::q4r, ElementKind::q8,
-                                         ElementKind::t3));
+                                         ElementKind::t3, ElementKind::t6));
+
+// The front, the right side and the top of a box are seen.
+TEST(solid_picture, shows_the_outer_faces_turned_to_the_eye) {
+  for (const auto kind : {ElementKind::hex8, ElementKind::hex20, ElementKind::tet10}) {
+    Model model;
+    model.mesh = box_mesh({0.5, 0.4, 1}, {1, 1, 2}, kind);
+    const Material material = lattice_of(3);
+    PointField points(model, material);
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(model.mesh.dofs());
+    points.evaluate(rest, 0, 1);
+    const MeshPanel panel = mesh_panel(model.mesh, points, rest, field("mean_stress", 3));
+    const std::size_t faces = model.mesh.side_sets["front"].size() +
+                              model.mesh.side_sets["right"].size() +
+                              model.mesh.side_sets["top"].size();
+    EXPECT_EQ(panel.elements.size(), faces);
+    EXPECT_EQ(panel.patches.size(), panel.values.size());
+    double area = 0, patches = 0;
+    for (const Polygon& face : panel.elements) area += polygon_area(face);
+    for (const Polygon& patch : panel.patches) patches += polygon_area(patch);
+    EXPECT_NEAR(patches, area, 1e-12);
+    for (const double value : panel.values) EXPECT_NEAR(value, panel.values[0], 1e-6);
+  }
+}
 
 TEST(output_options, wrong_ones_are_refused_with_what_was_expected) {
-  const Mesh mesh = rectangle_mesh({1, 1}, {1, 2}, ElementKind::q4);  // 8 points
+  const Mesh mesh = box_mesh({1, 1}, {1, 2}, ElementKind::q4);  // 8 points
   const auto refusal = [&](const std::string& text) {
     const toml::table content = toml::parse(text).table();
     SceneTable table(content, "scene.toml", "");

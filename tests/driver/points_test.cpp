@@ -10,7 +10,7 @@ namespace {
 TEST(points, a_refusal_names_the_point) {
   Model model;
   model.hourglass = 0;
-  model.mesh = rectangle_mesh({0.1, 0.05}, {2, 1}, ElementKind::q4r);
+  model.mesh = box_mesh({0.1, 0.05}, {2, 1}, ElementKind::q4r);
   const Mesh& mesh = model.mesh;
   const Material material = lattice_material();
   PointField points(model, material);

@@ -14,7 +14,7 @@ namespace {
 // Drained biaxial compression between smooth platens.
 Model biaxial(int columns, int rows, double strain) {
   Model model;
-  model.mesh = rectangle_mesh({0.05, 0.1}, {columns, rows}, ElementKind::q4);
+  model.mesh = box_mesh({0.05, 0.1}, {columns, rows}, ElementKind::q4);
   const auto& sets = model.mesh.node_sets;
   model.displacements.push_back({sets.at("left"), 0, Program{{{0, 0}}, {}}, "left_x"});
   model.displacements.push_back({sets.at("bottom"), 1, Program{{{0, 0}}, {}}, "bottom_y"});

@@ -133,7 +133,8 @@ value = 1e3
 }
 
 TEST_F(restart, with_a_platen_on_a_hinge_ends_in_the_same_bytes) {
-  write_scene(specimen + "[newton]\ntolerance = 1e-6\n" + narrow_mesh + held_bottom + R"(
+  write_scene(specimen + "[newton]\ntolerance = 1e-6\n" + narrow_mesh + "element = 'q4'\n" +
+              held_bottom + R"(
 [[platen]]
 on = "top"
 surface = "rough"

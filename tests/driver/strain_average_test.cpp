@@ -30,7 +30,7 @@ Eigen::VectorXd force(const Mesh& mesh, double length, const Eigen::VectorXd& u)
 class strain_average : public testing::TestWithParam<ElementKind> {};
 
 TEST_P(strain_average, leaves_a_strain_that_is_the_same_everywhere) {
-  const Mesh mesh = rectangle_mesh({0.3, 0.2}, {3, 2}, GetParam());
+  const Mesh mesh = box_mesh({0.3, 0.2}, {3, 2}, GetParam());
   const Tensor gradient = (Tensor() << 0.2, -0.7, 0.4, -0.1).finished();
   const Eigen::VectorXd u =
       displacement(mesh, [&](const Eigen::Vector2d& X) { return gradient * X; });
@@ -40,7 +40,7 @@ TEST_P(strain_average, leaves_a_strain_that_is_the_same_everywhere) {
 // u = sin(k X) in a strip of a whole wave; twice its energy is H l^2 k^2 / (1 + l^2 k^2) int u'^2.
 TEST_P(strain_average, resists_a_wave_by_its_length) {
   const double k = 2 * std::numbers::pi;
-  const Mesh mesh = rectangle_mesh({1, 0.02}, {100, 1}, GetParam());
+  const Mesh mesh = box_mesh({1, 0.02}, {100, 1}, GetParam());
   const Eigen::VectorXd u = displacement(
       mesh, [&](const Eigen::Vector2d& X) { return Eigen::Vector2d(std::sin(k * X.x()) / k, 0); });
   for (const double length : {0.03, 0.3}) {
@@ -51,7 +51,7 @@ TEST_P(strain_average, resists_a_wave_by_its_length) {
 }
 
 TEST_P(strain_average, stiffness_is_the_derivative_of_the_force) {
-  const Mesh mesh = rectangle_mesh({0.3, 0.2}, {3, 2}, GetParam());
+  const Mesh mesh = box_mesh({0.3, 0.2}, {3, 2}, GetParam());
   const StrainAverage average(mesh, 0.05, modulus);
   Triplets triplets;
   average.add_stiffness(triplets);
@@ -76,7 +76,7 @@ TEST(strain_average_newton, stiffens_a_specimen_and_is_quadratic) {
   double force = 0;
   for (const double length : {0.0, 0.02}) {
     Model model;
-    model.mesh = rectangle_mesh({0.05, 0.05}, {2, 2}, ElementKind::q4fbar);
+    model.mesh = box_mesh({0.05, 0.05}, {2, 2}, ElementKind::q4fbar);
     model.average = {.length = length, .modulus = 0.2};
     const auto& sets = model.mesh.node_sets;
     for (const char* side : {"bottom", "top"})

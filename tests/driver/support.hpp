@@ -4,6 +4,7 @@
 #include "../data.hpp"
 #include "app/material.hpp"
 #include "fe/mesh/mesh.hpp"
+#include "sphere_lattice.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,6 +28,22 @@ inline Material lattice_material() {
   )")
                        .table();
   return make_material(source);
+}
+
+// Thirty-two spheres at about 700 kPa, near a lattice; those that touch keep touching and sticking in
+// small deformations.
+inline Material sphere_lattice_material() {
+  const grainlaw::test::TemporaryDirectory directory;
+  write_sphere_lattice(directory);
+  MaterialSource source;
+  source.base = directory.path();
+  source.changes =
+      *toml::parse(sphere_lattice + "solver = { tolerance = 1e-12 }")["material"].as_table();
+  return make_material(source, 3);
+}
+
+inline Material lattice_of(int dimension) {
+  return dimension == 2 ? lattice_material() : sphere_lattice_material();
 }
 
 // Discs at 100 kPa, a millisecond an evaluation; viscous_number 0: without drag.
@@ -55,10 +72,28 @@ inline Material packing_material() {
 }
 
 // Kinds of elements that a test is made for, one after the other, and its names.
-inline const auto element_kinds = testing::Values(
-    ElementKind::q4, ElementKind::q4fbar, ElementKind::q4r, ElementKind::q8, ElementKind::t3);
+inline const auto element_kinds =
+    testing::Values(ElementKind::q4, ElementKind::q4fbar, ElementKind::q4r, ElementKind::q8,
+                    ElementKind::t3, ElementKind::t6);
+inline const auto all_element_kinds =
+    testing::Values(ElementKind::q4, ElementKind::q4fbar, ElementKind::q4r, ElementKind::q8,
+                    ElementKind::t3, ElementKind::t6, ElementKind::hex8, ElementKind::hex8fbar,
+                    ElementKind::hex20, ElementKind::tet10);
 inline std::string kind_name(const testing::TestParamInfo<ElementKind>& kind) {
   return std::string(element_type(kind.param).name);
+}
+
+// Puts nodes amid edges in the middle of their corners.
+inline void straighten(Mesh& mesh) {
+  const ElementType& type = element_type(mesh.kind);
+  const auto corners = static_cast<std::size_t>(type.corners);
+  for (const auto& nodes : mesh.elements)
+    for (std::size_t m = corners; m < nodes.size(); ++m)
+      for (std::size_t a = 0; a < corners; ++a)
+        for (std::size_t b = 0; b < a; ++b)
+          if (type.local_nodes[m] == 0.5 * (type.local_nodes[a] + type.local_nodes[b]))
+            mesh.nodes[static_cast<std::size_t>(nodes[m])] =
+                0.5 * (mesh.position(nodes[a]) + mesh.position(nodes[b]));
 }
 
 inline double polygon_area(const std::vector<Eigen::Vector2d>& corners) {

@@ -10,6 +10,11 @@
 
 namespace verification {
 
+std::vector<std::string_view> abscissae(int dimension) {
+  if (dimension == 2) return {axial_abscissa, shear_abscissa};
+  return {axial_abscissa, shear_abscissa, "F13", "F23"};
+}
+
 History::History(std::filesystem::path stem, int dimension, bool drag)
     : stem_(std::move(stem)),
       drag_(drag),

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace verification {
@@ -14,6 +15,8 @@ namespace verification {
 // Abscissae a scene may choose for its picture.
 inline constexpr const char* axial_abscissa = "axial_strain";
 inline constexpr const char* shear_abscissa = "F12";
+// All of them: shears of spheres are F12, F13 and F23.
+std::vector<std::string_view> abscissae(int dimension);
 
 // A caption: "axial strain 2 [%]" or "F12 = 0.1 [-]".
 std::string strain_text(const std::string& abscissa, double strain);

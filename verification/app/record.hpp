@@ -25,24 +25,19 @@ struct Effort {
   void add(const Effort& other);
 };
 
-template <int D>
-struct RecordOf {
-  using Tensor = TensorOf<D>;
+// Numbers of a record, in the plane and in space.
+struct RecordNumbers {
   int step = 0;
-  Tensor deformation = Tensor::Identity();  // F [-]
-  Tensor stress = Tensor::Zero();           // P [Pa], tension positive
-  Tensor cauchy = Tensor::Zero();           // sigma [Pa], tension positive
   double void_ratio = 0;
   double coordination = 0;
   double coordination_no_rattlers = 0;
   double fabric_intensity = 0;
   double anisotropy = 0;
-  double mean_overlap = 0;         // [m]
-  double mean_rotation = 0;        // [rad]; spheres: length of the mean rotation vector
-  Tensor fabric = Tensor::Zero();  // spheres only [-]
-  double elastic_energy = 0;       // [J]
-  double dissipated_energy = 0;    // [J]
-  double external_work = 0;        // sum over the steps of V0 P:dF, trapezoid rule [J]
+  double mean_overlap = 0;       // [m]
+  double mean_rotation = 0;      // [rad]; spheres: length of the mean rotation vector
+  double elastic_energy = 0;     // [J]
+  double dissipated_energy = 0;  // [J]
+  double external_work = 0;      // sum over the steps of V0 P:dF, trapezoid rule [J]
   double contacts = 0;
   double sliding = 0;
   double status_changes = 0;
@@ -50,6 +45,15 @@ struct RecordOf {
   double escaped_particles = 0;  // inner particles outside the polygon of a frame
   double unbalanced = 0;         // with drag: the largest on a particle / mean contact force [-]
   Effort effort;
+};
+
+template <int D>
+struct RecordOf : RecordNumbers {
+  using Tensor = TensorOf<D>;
+  Tensor deformation = Tensor::Identity();  // F [-]
+  Tensor stress = Tensor::Zero();           // P [Pa], tension positive
+  Tensor cauchy = Tensor::Zero();           // sigma [Pa], tension positive
+  Tensor fabric = Tensor::Zero();           // spheres only [-]
 
   // Axial axis: 2 of discs, 3 of spheres. Axial strain 1 - F22 or 1 - F33, compression positive;
   // volumetric strain det F - 1, dilation positive.

@@ -13,7 +13,7 @@
 namespace verification {
 namespace {
 
-constexpr std::string_view magic = "grainlaw run 2\n";  // the number is the format's version
+constexpr std::string_view magic = "grainlaw run 3\n";  // the number is the format's version
 
 std::string header(std::string_view content) {
   const std::uint64_t sum = XXH3_64bits(content.data(), content.size());

@@ -2,27 +2,12 @@
 
 #include "app/bounds.hpp"
 #include "app/commands.hpp"
-#include "app/material.hpp"
-#include "brick/run.hpp"
 #include "fe/run.hpp"
 
 #include <memory>
 #include <string>
 
 namespace verification {
-namespace {
-
-void run(const SceneFile& file, const RunOptions& options) {
-  SceneTable table = file.root();
-  if (dimension_of(read_material_source(table)) == 2) return run_fe_scene(file, options);
-  if (options.restart || options.checkpoint_every)
-    throw InputError(file.path.string() +
-                     ": found a checkpoint asked for, expected none with dimension = 3");
-  run_brick_scene(file, options.destination, options.stop_after.value_or(-1));
-}
-
-}  // namespace
-
 void add_solve_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("solve", "solve a finite element scene with a packing in every point");
@@ -41,7 +26,7 @@ void add_solve_command(CLI::App& app) {
       ->add_option("--stop-after", options->stop_after,
                    "end after this load step and leave NAME.checkpoint")
       ->check(at_least(0));
-  command->callback([scene, options] { run(SceneFile(*scene), *options); });
+  command->callback([scene, options] { run_fe_scene(SceneFile(*scene), *options); });
 }
 
 }  // namespace verification

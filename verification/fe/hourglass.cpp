@@ -6,7 +6,7 @@ Hourglass::Hourglass(const Mesh& mesh, double coefficient, double modulus) {
   if (mesh.kind != ElementKind::q4r || coefficient == 0) return;
   constexpr std::array<double, 4> mode{1, -1, 1, -1};
   for (const auto& element : mesh.elements) {
-    const std::vector<Eigen::Vector2d> corners = mesh.positions(element);
+    const std::vector<Position> corners = mesh.positions(element);
     const QuadPoint point = quad_points(mesh.kind, corners).front();
     Eigen::Vector2d slope = Eigen::Vector2d::Zero();  // h . X
     for (std::size_t a = 0; a < 4; ++a) slope += mode[a] * corners[a];

@@ -9,74 +9,99 @@ namespace verification {
 
 namespace {
 
-// Modulus of uniaxial strain at F = I, mean of both directions [Pa].
-double initial_modulus(const Material& material) {
+// Modulus of uniaxial strain at F = I, mean over the axes [Pa].
+double initial_modulus(const Material& material, int dimension) {
   State state(material);
-  const Evaluation start = evaluate(state, Tensor::Identity(), GRAINLAW_WANT_TANGENT_EXACT);
-  check(start.status, "evaluating an integration point at F = I");
-  return 0.5 * (start.tangent(0, 0) + start.tangent(3, 3));
+  return in_dimension(dimension, [&]<int D>() {
+    const EvaluationOf<D> start =
+        evaluate_of<D>(state, TensorOf<D>::Identity(), GRAINLAW_WANT_TANGENT_EXACT);
+    check(start.status, "evaluating an integration point at F = I");
+    double sum = 0;
+    for (int i = 0; i < D; ++i) sum += start.tangent(i * (D + 1), i * (D + 1));
+    return sum / D;
+  });
+}
+
+// A list of the identity for every point.
+std::vector<double> identities(int dimension, std::size_t points) {
+  const auto axes = static_cast<std::size_t>(dimension);
+  std::vector<double> values(points * axes * axes, 0.0);
+  for (std::size_t p = 0; p < points; ++p)
+    for (std::size_t i = 0; i < axes; ++i) values[(p * axes + i) * axes + i] = 1;
+  return values;
 }
 
 }  // namespace
 
 std::vector<PointField::Point> PointField::points_of(const Mesh& mesh) {
+  const ElementType& type = element_type(mesh.kind);
   std::vector<Point> points;
   for (const auto& element : mesh.elements) {
-    const std::vector<Eigen::Vector2d> positions = mesh.positions(element);
-    NodeRows centre(0, 2);
-    if (mesh.kind == ElementKind::q4fbar)
-      centre = quad_points(ElementKind::q4r, positions).front().gradient;
+    const std::vector<Position> positions = mesh.positions(element);
+    NodeRows slopes;
+    if (type.mean_volume) slopes = quad_point(type, positions, centre(type)).gradient;
     for (const QuadPoint& geometry : quad_points(mesh.kind, positions))
-      points.push_back({element, geometry, centre, Tensor::Identity(), Tensor::Zero(), 0, {}});
+      points.push_back({element, geometry, slopes, 0, {}});
   }
   return points;
 }
 
 PointField::PointField(const Model& model, const Material& material)
-    : points_(points_of(model.mesh)), set_(material, points_.size()) {
+    : dimension_(model.mesh.dimension()),
+      points_(points_of(model.mesh)),
+      set_(material, points_.size()) {
   const Mesh& mesh = model.mesh;
   if (mesh.kind == ElementKind::q4r && model.hourglass > 0)
-    hourglass_ = Hourglass(mesh, model.hourglass, initial_modulus(material));
+    hourglass_ = Hourglass(mesh, model.hourglass, initial_modulus(material, dimension_));
   if (model.average.length > 0)
-    average_ = {mesh, model.average.length, model.average.modulus * initial_modulus(material)};
-  displacement_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * mesh.nodes.size()));
+    average_ = {mesh, model.average.length,
+                model.average.modulus * initial_modulus(material, dimension_)};
+  displacement_ = Eigen::VectorXd::Zero(mesh.dofs());
   const std::size_t n = points_.size();
   reports_.resize(n, grainlaw_report_default());
-  mesh_deformation_.resize(n, Tensor::Identity());
+  const std::size_t components = per_tensor();
+  mesh_deformation_ = deformation_ = committed_deformation_ = identities(dimension_, n);
   mean_volume_.resize(n);
-  deformation_.resize(n, Tensor::Identity());
-  stress_.resize(n, Tensor::Zero());
-  tangent_.resize(n, Tangent::Zero());
+  stress_.resize(n * components);
+  committed_stress_.resize(n * components);
+  tangent_.resize(n * components * components);
   volume_ = measure_scalar(state(0), GRAINLAW_REFERENCE_VOLUME);
 }
 
-Tensor PointField::gradient(const Point& point, const NodeRows& slopes,
-                            const Eigen::VectorXd& displacement) {
-  Tensor gradient = Tensor::Zero();
+template <int D>
+TensorOf<D> PointField::gradient(const Point& point, const NodeRows& slopes,
+                                 const Eigen::VectorXd& displacement) {
+  TensorOf<D> gradient = TensorOf<D>::Zero();
   for (std::size_t a = 0; a < point.nodes.size(); ++a)
     gradient +=
-        displacement.segment<2>(2 * point.nodes[a]) * slopes.row(static_cast<Eigen::Index>(a));
+        displacement.segment<D>(D * point.nodes[a]) * slopes.row(static_cast<Eigen::Index>(a));
   return gradient;
 }
 
 void PointField::deform(const Eigen::VectorXd& displacement) {
   displacement_ = displacement;
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    const Point& point = points_[p];
-    const NodeRows& slopes = point.geometry.gradient;
-    const Tensor here = gradient(point, slopes, displacement);
-    mesh_deformation_[p] = Tensor::Identity() + here;
-    if (point.centre.rows() > 0)
-      mean_volume_[p] = {here, gradient(point, point.centre, displacement), slopes, point.centre};
-    deformation_[p] = mean_volume_[p].packing_deformation(mesh_deformation_[p]);
-  }
+  in_dimension(dimension_, [&]<int D>() {
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      const Point& point = points_[p];
+      const NodeRows& slopes = point.geometry.gradient;
+      const TensorOf<D> here = gradient<D>(point, slopes, displacement);
+      const TensorOf<D> deformation = TensorOf<D>::Identity() + here;
+      if (point.centre.rows() > 0)
+        mean_volume_[p] = {here, gradient<D>(point, point.centre, displacement), slopes,
+                           point.centre};
+      put(mesh_deformation_, p, deformation);
+      put(deformation_, p, mean_volume_[p].packing_deformation(deformation));
+    }
+  });
 }
 
 double PointField::largest_change(const Eigen::VectorXd& displacement) const {
-  double largest = 0;
-  for (const Point& point : points_)
-    largest = std::max(largest, gradient(point, point.geometry.gradient, displacement).norm());
-  return largest;
+  return in_dimension(dimension_, [&]<int D>() {
+    double largest = 0;
+    for (const Point& point : points_)
+      largest = std::max(largest, gradient<D>(point, point.geometry.gradient, displacement).norm());
+    return largest;
+  });
 }
 
 void PointField::set_time_step(double step) {
@@ -88,8 +113,9 @@ grainlaw_status PointField::evaluate(const Eigen::VectorXd& displacement, unsign
   const auto measure = cost_.measure(Stage::points);
   deform(displacement);
   for (grainlaw_report& report : reports_) report = grainlaw_report_default();
-  last_ = set_.evaluate(numbers(deformation_), numbers(stress_), want,
-                        want != 0 ? numbers(tangent_) : std::span<double>(), threads, {}, reports_);
+  last_ =
+      set_.evaluate(deformation_, stress_, want,
+                    want != 0 ? std::span(tangent_) : std::span<double>(), threads, {}, reports_);
   for (std::size_t p = 0; p < points_.size(); ++p) points_[p].effort.add(reports_[p]);
   return last_.status;
 }
@@ -101,13 +127,15 @@ std::string PointField::message() const {
 Eigen::VectorXd PointField::internal_force() const {
   const auto measure = cost_.measure(Stage::assembly);
   Eigen::VectorXd force = Eigen::VectorXd::Zero(displacement_.size());
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    const auto& [gradient, weight, shape] = points_[p].geometry;
-    const Tensor stress = mean_volume_[p].on_mesh(stress_[p]);
-    for (std::size_t a = 0; a < points_[p].nodes.size(); ++a)
-      force.segment<2>(2 * points_[p].nodes[a]) +=
-          weight * stress * gradient.row(static_cast<Eigen::Index>(a)).transpose();
-  }
+  in_dimension(dimension_, [&]<int D>() {
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      const auto& [gradient, weight, shape] = points_[p].geometry;
+      const TensorOf<D> stress = mean_volume_[p].on_mesh(tensor<D>(stress_, p));
+      for (std::size_t a = 0; a < points_[p].nodes.size(); ++a)
+        force.segment<D>(D * points_[p].nodes[a]) +=
+            weight * stress * gradient.row(static_cast<Eigen::Index>(a)).transpose();
+    }
+  });
   hourglass_.add_force(displacement_, force);
   average_.add_force(displacement_, force);
   return force;
@@ -115,38 +143,47 @@ Eigen::VectorXd PointField::internal_force() const {
 
 void PointField::add_stiffness(Triplets& triplets) const {
   const auto measure = cost_.measure(Stage::assembly);
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    const auto& [gradient, weight, shape] = points_[p].geometry;
-    const NodeRows& area = mean_volume_[p].by_node();
-    const Tensor follow =
-        MeanVolume::follow(tangent_[p], mesh_deformation_[p], mean_volume_[p].on_mesh(stress_[p]));
-    // Adds K of @formula host for every pair of nodes a, b and components i, k.
-    for (int a = 0; a < gradient.rows(); ++a)
-      for (int b = 0; b < gradient.rows(); ++b)
-        for (int i = 0; i < 2; ++i)
-          for (int k = 0; k < 2; ++k) {
-            double value = gradient.row(a) * tangent_[p].block<2, 2>(2 * i, 2 * k) *
-                           gradient.row(b).transpose();
-            if (area.rows() > 0) value += follow.row(i).dot(gradient.row(a)) * area(b, k);
-            triplets.emplace_back(2 * points_[p].nodes[static_cast<std::size_t>(a)] + i,
-                                  2 * points_[p].nodes[static_cast<std::size_t>(b)] + k,
-                                  weight * value);
-          }
-  }
+  in_dimension(dimension_, [&]<int D>() {
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      const auto& [gradient, weight, shape] = points_[p].geometry;
+      const MeanVolume& mean = mean_volume_[p];
+      const NodeRows& ratio = mean.by_node();
+      const TangentOf<D> tangent = mean.tangent_on_mesh<D>(this->tangent<D>(p));
+      const TensorOf<D> follow = MeanVolume::follow<D>(tangent, tensor<D>(mesh_deformation_, p),
+                                                       mean.on_mesh(tensor<D>(stress_, p)));
+      // Adds K of @formula host for every pair of nodes a, b and components i, k.
+      for (int a = 0; a < gradient.rows(); ++a)
+        for (int b = 0; b < gradient.rows(); ++b)
+          for (int i = 0; i < D; ++i)
+            for (int k = 0; k < D; ++k) {
+              double value = gradient.row(a) * tangent.template block<D, D>(D * i, D * k) *
+                             gradient.row(b).transpose();
+              if (ratio.rows() > 0) value += follow.row(i).dot(gradient.row(a)) * ratio(b, k);
+              triplets.emplace_back(D * points_[p].nodes[static_cast<std::size_t>(a)] + i,
+                                    D * points_[p].nodes[static_cast<std::size_t>(b)] + k,
+                                    weight * value);
+            }
+    }
+  });
   hourglass_.add_stiffness(triplets);
   average_.add_stiffness(triplets);
 }
 
 void PointField::commit() {
   set_.commit();
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    Point& point = points_[p];
-    const Tensor change = deformation_[p] - point.committed_deformation;
-    point.work += 0.5 * volume_ * (point.committed_stress + stress_[p]).cwiseProduct(change).sum();
-    point.committed_deformation = deformation_[p];
-    point.committed_stress = stress_[p];
-    point.effort.history_advanced += reports_[p].history_advanced;
-  }
+  in_dimension(dimension_, [&]<int D>() {
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      const TensorOf<D> before = tensor<D>(committed_deformation_, p),
+                        now = tensor<D>(deformation_, p);
+      const TensorOf<D> change = now - before;
+      const TensorOf<D> stress_before = tensor<D>(committed_stress_, p),
+                        stress = tensor<D>(stress_, p);
+      points_[p].work += 0.5 * volume_ * (stress_before + stress).cwiseProduct(change).sum();
+      points_[p].effort.history_advanced += reports_[p].history_advanced;
+    }
+  });
+  committed_deformation_ = deformation_;
+  committed_stress_ = stress_;
 }
 
 void PointField::revert() { set_.revert(); }
@@ -154,15 +191,11 @@ void PointField::revert() { set_.revert(); }
 void PointField::save(CheckpointWriter& out) const {
   const std::vector<std::byte> bytes = set_.save();
   out.write(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
-  for (const Point& point : points_) {
-    out.write(point.committed_deformation);
-    out.write(point.committed_stress);
-    out.write(point.work);
-  }
+  for (const Point& point : points_) out.write(point.work);
   out.write(displacement_);
-  out.write(deformation_);
-  out.write(stress_);
-  out.write(tangent_);
+  for (const auto* values :
+       {&committed_deformation_, &committed_stress_, &deformation_, &stress_, &tangent_})
+    out.write(*values);
 }
 
 void PointField::restore(CheckpointReader& in) {
@@ -176,17 +209,16 @@ void PointField::restore(CheckpointReader& in) {
     throw;
   }
   for (Point& point : points_) {
-    in.read(point.committed_deformation);
-    in.read(point.committed_stress);
     in.read(point.work);
     point.effort = {};
   }
   in.read(displacement_);
-  in.read(deformation_);
-  in.read(stress_);
-  in.read(tangent_);
-  if (deformation_.size() != size() || stress_.size() != size() || tangent_.size() != size())
-    in.fail();
+  for (auto* values :
+       {&committed_deformation_, &committed_stress_, &deformation_, &stress_, &tangent_}) {
+    const std::size_t expected = values->size();
+    in.read(*values);
+    if (values->size() != expected) in.fail();
+  }
   deform(displacement_);
 }
 
@@ -207,15 +239,18 @@ Effort PointField::effort() const {
   return sum;
 }
 
-Record PointField::record() {
-  std::vector<Record> records;
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    // F is that of the mesh, whose mean is that of the body; the Cauchy stress is the packing's.
-    records.push_back(make_record(state(p), mesh_deformation_[p],
-                                  mean_volume_[p].on_mesh(stress_[p]), reports_[p]));
-    records.back().external_work = points_[p].work;
-  }
-  Record record = mean(records);
+BodyRecord PointField::record() {
+  BodyRecord record = in_dimension(dimension_, [&]<int D>() {
+    std::vector<RecordOf<D>> records;
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      // F is that of the mesh, whose mean is that of the body; the Cauchy stress is the packing's.
+      records.push_back(make_record<D>(state(p), tensor<D>(mesh_deformation_, p),
+                                       mean_volume_[p].on_mesh(tensor<D>(stress_, p)),
+                                       reports_[p]));
+      records.back().external_work = points_[p].work;
+    }
+    return BodyRecord(mean(records));
+  });
   record.effort = effort();
   for (Point& point : points_) point.effort = {};
   return record;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/library.hpp"
-#include "app/record.hpp"
+#include "fe/body_record.hpp"
 #include "fe/checkpoint.hpp"
 #include "fe/conditions/conditions.hpp"
 #include "fe/conditions/side_loads.hpp"
@@ -46,7 +46,8 @@ class PointField {
   // Largest change of F (Frobenius norm) at a point due to this change of displacement.
   [[nodiscard]] double largest_change(const Eigen::VectorXd& displacement) const;
 
-  // Nodal forces of the last evaluation's stresses, @formula host [N/m], and their derivative.
+  // Nodal forces of the last evaluation's stresses, @formula host [N/m], of solids [N], and their
+  // derivative.
   [[nodiscard]] Eigen::VectorXd internal_force() const;
   void add_stiffness(Triplets& triplets) const;
 
@@ -62,9 +63,10 @@ class PointField {
   // Cost of evaluations and assembly; the solver adds its own.
   [[nodiscard]] Cost& cost() const { return cost_; }
 
+  [[nodiscard]] int dimension() const { return dimension_; }
   [[nodiscard]] std::size_t size() const { return points_.size(); }
   // Mean over the points of the last evaluation, and the effort since the last call.
-  Record record();
+  BodyRecord record();
   // Effort since the last record().
   [[nodiscard]] Effort effort() const;
   [[nodiscard]] const std::vector<int>& nodes(std::size_t point) const {
@@ -73,9 +75,15 @@ class PointField {
   [[nodiscard]] const QuadPoint& geometry(std::size_t point) const {
     return points_[point].geometry;
   }
-  // Values of the last evaluation, as the packings have them.
-  [[nodiscard]] const Tensor& deformation(std::size_t point) const { return deformation_[point]; }
-  [[nodiscard]] const Tensor& stress(std::size_t point) const { return stress_[point]; }
+  // F and P of the last evaluation, as the packings have them.
+  using Values =
+      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+  [[nodiscard]] Values deformation(std::size_t point) const {
+    return {&deformation_[point * per_tensor()], dimension_, dimension_};
+  }
+  [[nodiscard]] Values stress(std::size_t point) const {
+    return {&stress_[point * per_tensor()], dimension_, dimension_};
+  }
   [[nodiscard]] const grainlaw_report& report(std::size_t point) const { return reports_[point]; }
   [[nodiscard]] const grainlaw_state* state(std::size_t point) const { return set_.state(point); }
 
@@ -83,19 +91,35 @@ class PointField {
   struct Point {
     std::vector<int> nodes;
     QuadPoint geometry;
-    NodeRows centre;  // q4fbar: dN_a/dX at the element's centre; others: empty
-    Tensor committed_deformation = Tensor::Identity();
-    Tensor committed_stress = Tensor::Zero();
+    NodeRows centre;  // F-bar: dN_a/dX at the element's centre; others: empty
     double work = 0;  // external work since F = I [J]
     Effort effort;
   };
 
   [[nodiscard]] static std::vector<Point> points_of(const Mesh& mesh);
-  [[nodiscard]] static Tensor gradient(const Point& point, const NodeRows& slopes,
-                                       const Eigen::VectorXd& displacement);
+  [[nodiscard]] std::size_t per_tensor() const {
+    return static_cast<std::size_t>(dimension_ * dimension_);
+  }
+  // Tensor of a point in a list.
+  template <int D>
+  [[nodiscard]] static TensorOf<D> tensor(const std::vector<double>& values, std::size_t point) {
+    return TensorOf<D>::Map(&values[point * D * D]);
+  }
+  template <int D>
+  static void put(std::vector<double>& values, std::size_t point, const TensorOf<D>& tensor) {
+    TensorOf<D>::Map(&values[point * D * D]) = tensor;
+  }
+  template <int D>
+  [[nodiscard]] TangentOf<D> tangent(std::size_t point) const {
+    return TangentOf<D>::Map(&tangent_[point * D * D * D * D]);
+  }
+  template <int D>
+  [[nodiscard]] static TensorOf<D> gradient(const Point& point, const NodeRows& slopes,
+                                            const Eigen::VectorXd& displacement);
   // Computes F of mesh and packing at every point.
   void deform(const Eigen::VectorXd& displacement);
 
+  int dimension_;
   std::vector<Point> points_;
   Hourglass hourglass_;
   StrainAverage average_;
@@ -103,11 +127,13 @@ class PointField {
   Points set_;
   grainlaw::PointsEvaluation last_;  // last evaluation
   std::vector<grainlaw_report> reports_;
-  std::vector<Tensor> mesh_deformation_;
+  // Components of all points, as the library wants them.
+  std::vector<double> mesh_deformation_;
+  std::vector<double> deformation_;  // of the packings, with their stress and tangent
+  std::vector<double> stress_;
+  std::vector<double> tangent_;
+  std::vector<double> committed_deformation_, committed_stress_;
   std::vector<MeanVolume> mean_volume_;
-  std::vector<Tensor> deformation_;  // of the packings, with their stress and tangent
-  std::vector<Tensor> stress_;
-  std::vector<Tangent> tangent_;
   mutable Cost cost_;
   double volume_ = 0;  // of one representative volume at F = I [m3]
 };

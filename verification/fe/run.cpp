@@ -85,7 +85,8 @@ class Run {
         progress_(scene_.name) {
     const Material material = make_material(
         scene_.prestress.empty() ? scene_.material
-                                 : prestressed(scene_.material, scene_.prestress, stem_));
+                                 : prestressed(scene_.material, scene_.prestress, stem_),
+        scene_.dimension);
     start_ = measure_start(State(material).get(), scene_.material);
     print_start(scene_.name, start_);
     if (scene_.cycle) cycle_.emplace(*scene_.cycle, scene_.model, 1.0 / scene_.steps);
@@ -192,10 +193,10 @@ class Run {
     }
     if (signal != 0) throw Interrupted{signal};
     if (!stops)
-      progress_.update(
-          static_cast<double>(done_) / scene_.steps,
-          fmt::format("axial strain {:.2f} %, sigma22 {:.1f} kPa", 100 * step.record.axial_strain(),
-                      step.record.cauchy(1, 1) / 1e3));
+      progress_.update(static_cast<double>(done_) / scene_.steps,
+                       fmt::format("axial strain {1:.2f} %, sigma{0}{0} {2:.1f} kPa",
+                                   scene_.dimension, 100 * step.record.axial_strain(),
+                                   step.record.cauchy.bottomRightCorner<1, 1>().value() / 1e3));
   }
 
   void save() {

@@ -17,17 +17,18 @@ FiniteElementScene read_fe_scene(const SceneFile& file) {
   FiniteElementScene scene;
   scene.name = table.file_name_or("name", file.path.stem().string());
   scene.material = read_material_source(table);
+  scene.dimension = dimension_of(scene.material);
   scene.prestress = read_prestress(table, scene.material);
   scene.solver = read_solver(table, scene.material);
   const double duration = scene.solver.duration();
   scene.threads = table.integer_or("threads", 0, 0);
   scene.steps = table.integer("steps", 1);
   scene.solver.steps = scene.steps;
-  scene.abscissa = table.choice_or("abscissa", axial_abscissa, {axial_abscissa, shear_abscissa});
+  scene.abscissa = table.choice_or("abscissa", axial_abscissa, abscissae(scene.dimension));
 
   Model& model = scene.model;
   SceneTable mesh = table.table("mesh");
-  model.mesh = read_mesh(mesh);
+  model.mesh = read_mesh(mesh, scene.dimension);
   model.hourglass = mesh.number_or("hourglass", model.hourglass, not_negative);
   model.average.length = mesh.number_or("average_length", 0, not_negative);
   if (model.average.length > 0) {

@@ -18,6 +18,7 @@ namespace verification {
 struct FiniteElementScene {
   std::string name;
   MaterialSource material;
+  int dimension = 2;               // of material and mesh
   std::vector<Segment> prestress;  // empty: none
   Model model;
   SolverOptions solver;

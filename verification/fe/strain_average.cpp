@@ -1,14 +1,18 @@
 #include "fe/strain_average.hpp"
 
-#include <array>
+#include "fe/dimension.hpp"
+
+#include <vector>
 
 namespace verification {
 
-StrainAverage::StrainAverage(const Mesh& mesh, double length, double modulus) {
+StrainAverage::StrainAverage(const Mesh& mesh, double length, double modulus)
+    : dimension_(mesh.dimension()) {
   const auto n = static_cast<Eigen::Index>(mesh.nodes.size());
   Eigen::MatrixXd smooth = Eigen::MatrixXd::Zero(n, n);  // of N N + l^2 grad N . grad N
-  std::array<Eigen::MatrixXd, 2> slope{smooth, smooth};  // of N_a dN_b/dX_J
-  stiffness_ = smooth;                                   // of grad N . grad N
+  std::vector<Eigen::MatrixXd> slope(static_cast<std::size_t>(dimension_),
+                                     smooth);  // of N_a dN_b/dX_J
+  stiffness_ = smooth;                         // of grad N . grad N
   for (const auto& element : mesh.elements)
     for (const auto& [gradient, weight, shape] : quad_points(mesh.kind, mesh.positions(element)))
       for (std::size_t a = 0; a < element.size(); ++a)
@@ -17,7 +21,7 @@ StrainAverage::StrainAverage(const Mesh& mesh, double length, double modulus) {
           const double along = weight * gradient.row(i).dot(gradient.row(k));
           stiffness_(element[a], element[b]) += along;
           smooth(element[a], element[b]) += weight * shape(i) * shape(k) + length * length * along;
-          for (std::size_t J = 0; J < 2; ++J)
+          for (std::size_t J = 0; J < slope.size(); ++J)
             slope[J](element[a], element[b]) +=
                 weight * shape(i) * gradient(k, static_cast<Eigen::Index>(J));
         }
@@ -28,14 +32,18 @@ StrainAverage::StrainAverage(const Mesh& mesh, double length, double modulus) {
 
 void StrainAverage::add_force(const Eigen::VectorXd& displacement, Eigen::VectorXd& force) const {
   if (stiffness_.size() == 0) return;
-  const Eigen::Map<const Eigen::Matrix2Xd> u(displacement.data(), 2, stiffness_.rows());
-  Eigen::Map<Eigen::Matrix2Xd>(force.data(), 2, stiffness_.rows()) += u * stiffness_;
+  in_dimension(dimension_, [&]<int D>() {
+    using Nodes = Eigen::Matrix<double, D, Eigen::Dynamic>;
+    const Eigen::Map<const Nodes> u(displacement.data(), D, stiffness_.rows());
+    Eigen::Map<Nodes>(force.data(), D, stiffness_.rows()) += u * stiffness_;
+  });
 }
 
 void StrainAverage::add_stiffness(Triplets& triplets) const {
   for (int a = 0; a < stiffness_.rows(); ++a)
     for (int b = 0; b < stiffness_.cols(); ++b)
-      for (int i = 0; i < 2; ++i) triplets.emplace_back(2 * a + i, 2 * b + i, stiffness_(a, b));
+      for (int i = 0; i < dimension_; ++i)
+        triplets.emplace_back(dimension_ * a + i, dimension_ * b + i, stiffness_(a, b));
 }
 
 }  // namespace verification

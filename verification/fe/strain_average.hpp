@@ -14,7 +14,7 @@ struct AverageOptions {
 };
 
 // Energy H/2 (g : (g - A)) per area, with the displacement gradient g and its implicit average A -
-// l^2 div grad A = g, natural at the sides. A uniform strain has none. A strain that varies over
+// l^2 div grad A = g, natural at the sides; in space per volume. A uniform strain has none. A strain that varies over
 // many l has H l^2/2 |grad g|^2 (second gradient), one that varies within l has H/2 |g|^2. The
 // packing has F itself; its P gains H (g - A), whose mean over the body is 0.
 //
@@ -22,7 +22,7 @@ struct AverageOptions {
 // length; an average divides the tangent by 1 + l^2 k^2 and leaves its sign.
 //
 // A is linear in the displacement. The stiffness is thus constant, symmetric, positive, one for
-// both components: exact in Newton and invariant under rotations. It is a full matrix, for meshes
+// all components: exact in Newton and invariant under rotations. It is a full matrix, for meshes
 // of some thousand nodes.
 class StrainAverage {
  public:
@@ -33,7 +33,8 @@ class StrainAverage {
   void add_stiffness(Triplets& triplets) const;
 
  private:
-  Eigen::MatrixXd stiffness_;  // per pair of nodes [Pa]; empty without a length
+  int dimension_ = 2;
+  Eigen::MatrixXd stiffness_;  // per pair of nodes [Pa], of solids [N/m]; empty without a length
 };
 
 }  // namespace verification

@@ -80,9 +80,8 @@ void add_keys_command(CLI::App& app) {
       "keys", "list the keys of material files and scenes, and what results have");
   command
       ->add_option("OF", options->of,
-                   "material; point, solve, bricks, dns or wave: of their scenes; columns, "
-                   "balance, measures or "
-                   "statuses: of results")
+                   "material; point, solve, dns or wave: of their scenes; columns, "
+                   "balance, measures or statuses: of results")
       ->required();
   command->add_flag("--markdown", options->markdown, "as tables of a page");
   command->callback([options] {

@@ -27,7 +27,7 @@ struct Key {
 // All keys of a material file in the order of reading, logged over examples that together ask for
 // every key. Throws std::logic_error for a key without a text, and for a text without a key.
 std::vector<Key> material_keys();
-// All keys of a command's scenes: point, solve, bricks (solve with spheres), dns or wave. Texts
+// All keys of a command's scenes: point, solve, dns or wave. Texts
 // come from verification/scenes/README.md. Throws InputError for another command.
 std::vector<Key> scene_keys(std::string_view command);
 

@@ -1,5 +1,4 @@
 #include "app/text.hpp"
-#include "brick/scene.hpp"
 #include "dns/scene.hpp"
 #include "fe/scene.hpp"
 #include "keys/keys.hpp"
@@ -32,17 +31,12 @@ mean_pressure = 1
 constexpr std::string_view box = R"(
 steps = 1
 mesh = { size = [1, 1, 1], divisions = [1, 1, 1] }
-newton = {}
-[[displacement]]
-on = "left"
-component = "x"
-value = 0
-[[tie]]
-on = "top"
-component = "z"
-[[pressure]]
-on = "right"
-value = 1
+[[periodic]]
+sides = ["left", "right"]
+jump_z = { value = 1 }
+[[probe]]
+name = "middle"
+z = 0
 )";
 constexpr std::string_view rectangle = R"(
 steps = 1
@@ -130,11 +124,9 @@ Examples examples_of(std::string_view command) {
     return {[](const SceneFile& file) { static_cast<void>(read_point_scenes(file)); },
             {with(discs, point), with(spheres, point), with(discs, free_stretch)}};
   if (command == "solve")
-    return {[](const SceneFile& file) { static_cast<void>(read_fe_scene(file)); },
-            {with(discs, rectangle), with(discs, driven), with(discs, dynamics)}};
-  if (command == "bricks")
-    return {[](const SceneFile& file) { static_cast<void>(read_brick_scene(file)); },
-            {with(spheres, box)}};
+    return {
+        [](const SceneFile& file) { static_cast<void>(read_fe_scene(file)); },
+        {with(discs, rectangle), with(discs, driven), with(discs, dynamics), with(spheres, box)}};
   if (command == "dns")
     return {[](const SceneFile& file) { static_cast<void>(read_specimen_scenes(file)); },
             {with(discs, specimen)}};
@@ -142,7 +134,7 @@ Examples examples_of(std::string_view command) {
     return {[](const SceneFile& file) { static_cast<void>(read_wave_scene(file)); },
             {with(discs, pulse)}};
   throw InputError(
-      fmt::format("keys: found {}, expected material, point, solve, bricks, dns or wave", command));
+      fmt::format("keys: found {}, expected material, point, solve, dns or wave", command));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 
 Model make_model(const WaveCase& one, const WaveDomain& domain, int divisions) {
   Model model;
-  model.mesh = rectangle_mesh({domain.length, domain.height}, {divisions, 1}, ElementKind::q4r);
+  model.mesh = box_mesh({domain.length, domain.height}, {divisions, 1}, ElementKind::q4r);
   const auto& sets = model.mesh.node_sets;
   const auto prescribe = [&](const char* set, int component, const Program& value) {
     model.displacements.push_back(

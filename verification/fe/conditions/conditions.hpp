@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -43,12 +44,13 @@ Weights angle_weights(const Tie& tie);
 // u(second) = u(first) + jump for every pair of nodes.
 struct Periodic {
   std::vector<std::pair<int, int>> pairs;
-  std::array<std::optional<Program>, 2> jump;  // [m]; absent: 0
+  std::array<std::optional<Program>, 3> jump;  // by components [m]; absent: 0
   std::string name;                            // for tables, e.g. "left_right"
   std::string place = {};
 };
 
-// Total force on the nodes of a tie in this component, per metre of thickness [N/m].
+// Total force on the nodes of a tie in this component, in the plane per metre of thickness [N/m], of
+// solids [N].
 struct Resultant {
   std::string set;
   int component = 0;
@@ -57,6 +59,11 @@ struct Resultant {
   std::string place = {};
 };
 
-inline const char* component_name(int component) { return component == 0 ? "x" : "y"; }
+// The first `dimension` names of axes.
+inline std::vector<std::string_view> component_names(int dimension) {
+  return dimension == 2 ? std::vector<std::string_view>{"x", "y"}
+                        : std::vector<std::string_view>{"x", "y", "z"};
+}
+inline char component_name(int component) { return "xyz"[component]; }
 
 }  // namespace verification

@@ -23,16 +23,16 @@ std::string read_set(SceneTable& table, const Sets& sets) {
   return table.choice_or("on", set, names(sets));
 }
 
-int read_component(SceneTable& table) {
+int read_component(SceneTable& table, const Model& model) {
   const std::string component = table.text("component");
-  return table.choice_or("component", component, {"x", "y"}) == "x" ? 0 : 1;
+  return table.choice_or("component", component, component_names(model.mesh.dimension()))[0] - 'x';
 }
 
 void read_displacement(SceneTable& table, double duration, Model& model) {
   PrescribedDisplacement condition;
   condition.set = read_set(table, model.mesh.node_sets);
   condition.nodes = model.mesh.node_sets[condition.set];
-  condition.component = read_component(table);
+  condition.component = read_component(table, model);
   condition.name = condition.set + '_' + component_name(condition.component);
   condition.value = read_program(table, duration, Rise::from_zero);
   condition.place = table.place();
@@ -46,22 +46,22 @@ void read_displacement(SceneTable& table, double duration, Model& model) {
 
 void read_tie(SceneTable& table, Model& model) {
   const std::string set = read_set(table, model.mesh.node_sets);
-  const int component = read_component(table);
+  const int component = read_component(table, model);
   table.close();
   model.ties.push_back({model.mesh.node_sets[set], component, set, table.place(), false});
 }
 
-// Direction in which the nodes do not extend, 0 or 1; -1: none.
+// Axis along which the nodes do not extend; -1: none.
 int normal_component(const Mesh& mesh, const std::vector<int>& nodes) {
-  Eigen::Vector2d low = mesh.nodes[static_cast<std::size_t>(nodes.front())], high = low;
+  Position low = mesh.position(nodes.front()), high = low;
   for (const int node : nodes) {
-    low = low.cwiseMin(mesh.nodes[static_cast<std::size_t>(node)]);
-    high = high.cwiseMax(mesh.nodes[static_cast<std::size_t>(node)]);
+    low = low.cwiseMin(mesh.position(node));
+    high = high.cwiseMax(mesh.position(node));
   }
-  const Eigen::Vector2d extent = high - low;
+  const Position extent = high - low;
   constexpr double flat = 1e-9;
-  for (const int i : {0, 1})
-    if (extent(i) <= flat * extent(1 - i)) return i;
+  for (int i = 0; i < mesh.dimension(); ++i)
+    if (extent(i) <= flat * extent.maxCoeff()) return i;
   return -1;
 }
 
@@ -69,7 +69,7 @@ int normal_component(const Mesh& mesh, const std::vector<int>& nodes) {
 std::vector<double> read_arms(SceneTable& table, const Mesh& mesh, const std::vector<int>& nodes,
                               int normal) {
   const int along = 1 - normal;
-  const auto position = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)](along); };
+  const auto position = [&](int node) { return mesh.position(node)(along); };
   const auto [low, high] = std::minmax_element(
       nodes.begin(), nodes.end(), [&](int a, int b) { return position(a) < position(b); });
   if (!(position(*high) > position(*low)))
@@ -90,13 +90,16 @@ void read_platen(SceneTable& table, Model& model) {
   const int normal = normal_component(model.mesh, nodes);
   if (normal < 0)
     table.fail("on", fmt::format("the bent or inclined set {}", set),
-               "a straight side along x or y");
+               model.mesh.dimension() == 2 ? "a straight side along x or y"
+                                           : "a flat side across x, y or z");
+  if (rotates && model.mesh.dimension() == 3)
+    table.fail("rotation", "\"free\" of a body of spheres", "\"fixed\"");
   std::vector<double> arms;
   if (rotates) arms = read_arms(table, model.mesh, nodes, normal);
   if (!rotates && table.has("hinge"))
     table.fail("hinge", "a platen that does not turn", "rotation = \"free\" beside it");
   table.close();
-  for (const int i : {0, 1})
+  for (int i = 0; i < model.mesh.dimension(); ++i)
     if (rough || i == normal)
       model.ties.push_back(
           {nodes, i, set, table.place(), true, i == normal ? arms : std::vector<double>{}});
@@ -106,18 +109,18 @@ void read_platen(SceneTable& table, Model& model) {
 std::vector<std::pair<int, int>> match(SceneTable& table, const Mesh& mesh,
                                        const std::vector<int>& first,
                                        const std::vector<int>& second) {
-  const auto position = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)]; };
   const std::string expected = "two sides whose nodes differ by one shift";
   if (first.size() != second.size())
     table.fail("sides", fmt::format("{} and {} nodes", first.size(), second.size()), expected);
-  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
-  for (std::size_t k = 0; k < first.size(); ++k) shift += position(second[k]) - position(first[k]);
+  Position shift = Position::Zero(mesh.dimension());
+  for (std::size_t k = 0; k < first.size(); ++k)
+    shift += mesh.position(second[k]) - mesh.position(first[k]);
   shift /= static_cast<double>(first.size());
   constexpr double close = 1e-6;  // relative to the shift
   std::vector<std::pair<int, int>> pairs;
   for (const int node : first) {
     const auto partner = std::find_if(second.begin(), second.end(), [&](int other) {
-      return (position(node) + shift - position(other)).norm() <= close * shift.norm();
+      return (mesh.position(node) + shift - mesh.position(other)).norm() <= close * shift.norm();
     });
     if (partner == second.end() || *partner == node)
       table.fail("sides", fmt::format("node {} without a partner", node + 1), expected);
@@ -141,7 +144,7 @@ void read_periodic(SceneTable& table, double duration, Model& model) {
   periodic.pairs = match(table, model.mesh, sets.at(sides[0]), sets.at(sides[1]));
   periodic.name = sides[0] + '_' + sides[1];
   periodic.place = table.place();
-  for (const int i : {0, 1}) {
+  for (int i = 0; i < model.mesh.dimension(); ++i) {
     const std::string key = fmt::format("jump_{}", component_name(i));
     if (!table.has(key)) continue;
     SceneTable jump = table.table(key);
@@ -155,7 +158,7 @@ void read_periodic(SceneTable& table, double duration, Model& model) {
 void read_resultant(SceneTable& table, double duration, Model& model) {
   Resultant resultant;
   resultant.set = read_set(table, model.mesh.node_sets);
-  resultant.component = read_component(table);
+  resultant.component = read_component(table, model);
   resultant.value = read_program(table, duration, Rise::from_zero);
   resultant.place = table.place();
   table.close();
@@ -191,7 +194,7 @@ void read_traction(SceneTable& table, double duration, Model& model) {
   Traction traction;
   traction.place = table.place();
   traction.sides = model.mesh.side_sets[read_set(table, model.mesh.side_sets)];
-  traction.component = read_component(table);
+  traction.component = read_component(table, model);
   traction.value = read_program(table, duration, Rise::from_zero);
   table.close();
   model.loads.tractions.push_back(traction);

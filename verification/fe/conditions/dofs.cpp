@@ -61,8 +61,6 @@ Eigen::VectorXd Dofs::prescribed_at(double time) const {
 
 namespace {
 
-std::size_t dof(int node, int component) { return static_cast<std::size_t>(2 * node + component); }
-
 [[noreturn]] void refuse(const std::string& place, int node, int component,
                          const std::string& found, const std::string& expected) {
   throw InputError(fmt::format("{}: found component {} of node {} {}, expected {}", place,
@@ -73,7 +71,8 @@ std::size_t dof(int node, int component) { return static_cast<std::size_t>(2 * n
 class Linker {
  public:
   Linker(const Model& model, std::vector<Program>& programs)
-      : regularisation_(2 * model.mesh.nodes.size()),
+      : mesh_(model.mesh),
+        regularisation_(static_cast<std::size_t>(mesh_.dofs())),
         prescribed_by_(regularisation_, nullptr),
         tied_by_(regularisation_, nullptr),
         linkage_(regularisation_, programs) {
@@ -123,7 +122,7 @@ class Linker {
   }
 
   void repeat(const Periodic& periodic) {
-    for (const int i : {0, 1}) {
+    for (int i = 0; i < mesh_.dimension(); ++i) {
       for (const auto& pair : periodic.pairs)
         for (const int node : {pair.first, pair.second}) {
           const Tie* other = tied_by_[dof(node, i)];
@@ -148,6 +147,11 @@ class Linker {
     }
   }
 
+  [[nodiscard]] std::size_t dof(int node, int component) const {
+    return static_cast<std::size_t>(mesh_.dof(node, component));
+  }
+
+  const Mesh& mesh_;
   std::size_t regularisation_;
   std::vector<const PrescribedDisplacement*> prescribed_by_;
   std::vector<const Tie*> tied_by_;
@@ -173,7 +177,8 @@ Dofs number_dofs(const Model& model) {
   for (const Tie& tie : model.ties) {
     if (tie.arms.empty()) continue;
     for (std::size_t k = 0; k < tie.nodes.size(); ++k)
-      dofs.platen_rotation[dof(tie.nodes[k], tie.component)] = {dofs.unknowns, tie.arms[k]};
+      dofs.platen_rotation[static_cast<std::size_t>(model.mesh.dof(tie.nodes[k], tie.component))] =
+          {dofs.unknowns, tie.arms[k]};
     ++dofs.unknowns;
   }
   if (dofs.prescribed_at(0).any())

@@ -11,7 +11,7 @@ namespace verification {
 
 struct Model;
 
-// Displacement components are numbered dof = 2 * node + component. Each is at most one unknown plus
+// Displacement components are numbered dof = dimension * node + component. Each is at most one unknown plus
 // programs of prescribed displacements and jumps; tied components share an unknown. Those of a
 // rotating platen also depend on its angle.
 struct Dofs {

@@ -13,9 +13,9 @@ Weights sum_of(const std::vector<int>& nodes) {
   return weights;
 }
 
-double sum(const Weights& weights, const Eigen::VectorXd& field, int component) {
+double sum(const Weights& weights, const Mesh& mesh, const Eigen::VectorXd& field, int component) {
   double result = 0;
-  for (const auto& [node, weight] : weights) result += weight * field(2 * node + component);
+  for (const auto& [node, weight] : weights) result += weight * field(mesh.dof(node, component));
   return result;
 }
 
@@ -52,7 +52,7 @@ std::vector<Monitor> make_monitors(const Model& model) {
     if (!tie.arms.empty()) monitors.push_back(monitor_angle(tie));
   }
   for (const Periodic& periodic : model.periodics)
-    for (const int i : {0, 1}) {
+    for (int i = 0; i < model.mesh.dimension(); ++i) {
       const auto& [first, second] = periodic.pairs.front();
       Monitor monitor{
           periodic.name + '_' + component_name(i), i, {{second, 1.0}, {first, -1.0}}, {}};
@@ -62,15 +62,18 @@ std::vector<Monitor> make_monitors(const Model& model) {
   return monitors;
 }
 
-std::array<std::string, 2> columns(const Monitor& monitor) {
+const char* force_unit(int dimension) { return dimension == 2 ? "N/m" : "N"; }
+
+std::array<std::string, 2> columns(const Monitor& monitor, int dimension) {
   if (monitor.angle) return {monitor.name + "_angle[rad]", monitor.name + "_moment[N]"};
-  return {monitor.name + "_displacement[m]", monitor.name + "_force[N/m]"};
+  return {monitor.name + "_displacement[m]",
+          monitor.name + "_force[" + force_unit(dimension) + "]"};
 }
 
 Monitored monitored(const Monitor& monitor, const Model& model, double time,
                     const Eigen::VectorXd& displacement, const Eigen::VectorXd& imbalance) {
-  Monitored result{sum(monitor.motion, displacement, monitor.component),
-                   -sum(monitor.force, imbalance, monitor.component)};
+  Monitored result{sum(monitor.motion, model.mesh, displacement, monitor.component),
+                   -sum(monitor.force, model.mesh, imbalance, monitor.component)};
   if (monitor.resultant >= 0)
     result.force += model.resultants[static_cast<std::size_t>(monitor.resultant)].value.at(time);
   return result;

@@ -23,7 +23,7 @@ struct Monitor {
 
 struct Monitored {
   double displacement;  // [m], or angle [rad]
-  double force;         // per metre of thickness [N/m], or moment [N]
+  double force;         // per metre of thickness [N/m], of solids [N]; or moment [N]
 };
 
 // Monitors of every prescribed displacement, tie or platen, and jump of periodic sides, in this
@@ -31,8 +31,10 @@ struct Monitored {
 // second monitor "NAME_hinge" for its angle and moment.
 std::vector<Monitor> make_monitors(const Model& model);
 
+// Unit of forces: "N/m" or "N".
+const char* force_unit(int dimension);
 // Column names of the displacement and the force.
-std::array<std::string, 2> columns(const Monitor& monitor);
+std::array<std::string, 2> columns(const Monitor& monitor, int dimension);
 
 // Values of a monitor. imbalance: external minus internal (and inertial) nodal forces at this time
 // [N/m].

@@ -11,7 +11,7 @@
 
 namespace verification {
 
-// A Cauchy pressure is normal to the deformed sides and acts on their length; a dead load keeps its
+// A Cauchy pressure is normal to the deformed sides and acts on their length or area; a dead load keeps its
 // force on the undeformed sides.
 struct Pressure {
   std::vector<Side> sides;
@@ -35,7 +35,7 @@ struct Loads {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-// Adds the nodal forces of the loads at this time [N/m] and, when wanted, minus their exact
+// Adds the nodal forces of the loads at this time [N/m], of solids [N], and, when wanted, minus their exact
 // derivative by the displacements.
 void add_loads(const Loads& loads, double time, const Mesh& mesh,
                const Eigen::VectorXd& displacement, Eigen::VectorXd& force, Triplets* stiffness);

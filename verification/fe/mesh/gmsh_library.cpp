@@ -130,7 +130,8 @@ GmshContent read_gmsh(const std::filesystem::path& path) {
   const std::vector<double> flat = gmsh.take(positions, position_count);
   for (std::size_t k = 0; k + 2 < flat.size(); k += 3)
     content.node_positions.push_back({flat[k], flat[k + 1], flat[k + 2]});
-  content.surface = elements(gmsh, 2, -1);
+  content.elements = elements(gmsh, content.dimension = 3, -1);
+  if (content.elements.empty()) content.elements = elements(gmsh, content.dimension = 2, -1);
   content.groups = groups(gmsh);
   return content;
 }

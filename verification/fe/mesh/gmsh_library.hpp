@@ -25,7 +25,8 @@ struct GmshGroup {
 struct GmshContent {
   std::vector<std::size_t> node_tags;
   std::vector<std::array<double, 3>> node_positions;  // [m]
-  std::vector<GmshElements> surface;                  // all elements of dimension 2
+  int dimension = 2;                                  // 3: there are solids
+  std::vector<GmshElements> elements;                 // all of that dimension
   std::vector<GmshGroup> groups;                      // named physical groups
 };
 

@@ -5,48 +5,55 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace verification {
 namespace {
 
-ElementKind read_element_kind(SceneTable& table) {
-  const std::string name = table.choice_or("element", "q4", {"q4", "q4fbar", "q4r", "q8", "t3"});
-  for (const auto kind : {ElementKind::q4fbar, ElementKind::q4r, ElementKind::q8, ElementKind::t3})
-    if (name == element_type(kind).name) return kind;
-  return ElementKind::q4;
+ElementKind read_element_kind(SceneTable& table, int dimension) {
+  const auto kinds = element_kinds_of(dimension);
+  std::vector<std::string_view> names;
+  for (const ElementKind kind : kinds) names.push_back(element_type(kind).name);
+  const std::string name = table.choice_or("element", names.front(), names);
+  return *std::find_if(kinds.begin(), kinds.end(),
+                       [&](ElementKind kind) { return element_type(kind).name == name; });
 }
 
-Mesh read_rectangle(SceneTable& table) {
-  constexpr Range counts{1, 1e4, false, "an integer >= 1"};
-  const std::vector<double> size = table.numbers("size", 2, positive);
-  const std::vector<double> divisions = table.numbers("divisions", 2, counts);
-  for (const double value : divisions)
+Mesh read_box(SceneTable& table, int dimension) {
+  const auto axes = static_cast<std::size_t>(dimension);
+  const Range counts{1, dimension == 2 ? 1e4 : 100, false,
+                     dimension == 2 ? "an integer >= 1" : "an integer from 1 to 100"};
+  const std::vector<double> size = table.numbers("size", axes, positive);
+  std::vector<int> divisions;
+  for (const double value : table.numbers("divisions", axes, counts)) {
     if (value != std::floor(value)) table.fail("divisions", fmt::format("{}", value), counts.text);
-  return rectangle_mesh({size[0], size[1]},
-                        {static_cast<int>(divisions[0]), static_cast<int>(divisions[1])},
-                        read_element_kind(table));
+    divisions.push_back(static_cast<int>(value));
+  }
+  return box_mesh(size, divisions, read_element_kind(table, dimension));
 }
 
-// Reads a file, which has the kind of its elements; for q4 the scene may ask for q4r or q4fbar.
-Mesh read_file(SceneTable& table) {
+// Reads a file, which has the kind of its elements; the scene may ask for another one on their nodes.
+Mesh read_file(SceneTable& table, int dimension) {
   for (const char* key : {"size", "divisions"})
     if (table.has(key)) table.fail(key, fmt::format("both file and {}", key), "one of them");
   Mesh mesh = read_gmsh_mesh(table.file().parent_path() / table.text("file"));
+  if (mesh.dimension() != dimension)
+    table.fail("file", fmt::format("elements of dimension {}", mesh.dimension()),
+               fmt::format("those of the material, {}", dimension));
   if (!table.has("element")) return mesh;
-  const ElementKind wanted = read_element_kind(table);
-  const bool quadrilateral = wanted == ElementKind::q4r || wanted == ElementKind::q4fbar;
-  if (quadrilateral && mesh.kind == ElementKind::q4) mesh.kind = wanted;
-  if (wanted != mesh.kind)
+  const ElementKind wanted = read_element_kind(table, dimension);
+  if (element_type(wanted).gmsh != element_type(mesh.kind).gmsh)
     table.fail("element", element_type(wanted).name,
                fmt::format("{}, as the file has them", element_type(mesh.kind).name));
+  mesh.kind = wanted;
   return mesh;
 }
 
 }  // namespace
 
-Mesh read_mesh(SceneTable& table) {
-  const Mesh mesh = table.has("file") ? read_file(table) : read_rectangle(table);
+Mesh read_mesh(SceneTable& table, int dimension) {
+  const Mesh mesh = table.has("file") ? read_file(table, dimension) : read_box(table, dimension);
   check_shapes(mesh, table.place());
   return mesh;
 }

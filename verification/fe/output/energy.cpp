@@ -2,9 +2,11 @@
 
 namespace verification {
 
-std::vector<std::string> energy_columns() {
-  return {"step[-]",       "time[s]",     "kinetic[J/m]", "internal[J/m]",
-          "external[J/m]", "damped[J/m]", "balance[J/m]"};
+std::vector<std::string> energy_columns(int dimension) {
+  std::vector<std::string> columns{"step[-]", "time[s]"};
+  for (const char* name : {"kinetic", "internal", "external", "damped", "balance"})
+    columns.push_back(std::string(name) + (dimension == 2 ? "[J/m]" : "[J]"));
+  return columns;
 }
 
 std::vector<double> energy_values(const LoadStep& step) {

@@ -8,7 +8,7 @@
 
 namespace verification {
 
-std::vector<std::string> energy_columns();
+std::vector<std::string> energy_columns(int dimension);
 std::vector<double> energy_values(const LoadStep& step);  // for a step with energies
 
 }  // namespace verification

@@ -12,13 +12,13 @@ namespace verification {
 // An integration point after a load step.
 struct PointView {
   const grainlaw_state* state;
-  const Tensor& deformation;  // F [-]
-  const Tensor& stress;       // P [Pa]
+  const double* deformation;  // F row by row [-]
+  const double* stress;       // P row by row [Pa]
   const grainlaw_report& report;
 };
 PointView point_view(const PointField& points, std::size_t point);
 
-// A quantity at a point: a number, or the components 11, 12, 21, 22 of a tensor.
+// A quantity at a point: a number, or the components of a tensor row by row.
 struct Field {
   std::string_view name;
   std::string_view unit;
@@ -32,11 +32,12 @@ struct Field {
   [[nodiscard]] std::string_view picture_unit() const { return pascal() ? "kPa" : unit; }
 };
 
-// All fields. Tension is positive in stress and strain, compression in mean_stress. Strains, p and
-// q are those of Guo & Zhao (2014), eqs. 6, 7, 10, 12, 13.
-const std::vector<Field>& fields();
+// All fields in a dimension. Tension is positive in stress and strain, compression in mean_stress.
+// In the plane strains, p and q are those of Guo & Zhao (2014), eqs. 6, 7, 10, 12, 13. In space q =
+// sqrt(3/2 s:s) and the deviatoric strain sqrt(2/3 e:e) with the deviators s and e.
+const std::vector<Field>& fields(int dimension);
 // Field of this name. Throws InputError with all names.
-const Field& field(std::string_view name);
+const Field& field(std::string_view name, int dimension);
 // "name[unit]" of every component.
 std::vector<std::string> columns(const Field& field);
 
@@ -44,8 +45,8 @@ std::vector<std::string> columns(const Field& field);
 std::vector<double> values(const Field& field, const PointField& points);
 
 // Position of a point, in the reference and with these displacements [m].
-Eigen::Vector2d reference_position(const Mesh& mesh, const PointField& points, std::size_t point);
-Eigen::Vector2d current_position(const Mesh& mesh, const PointField& points, std::size_t point,
-                                 const Eigen::VectorXd& displacement);
+Position reference_position(const Mesh& mesh, const PointField& points, std::size_t point);
+Position current_position(const Mesh& mesh, const PointField& points, std::size_t point,
+                          const Eigen::VectorXd& displacement);
 
 }  // namespace verification

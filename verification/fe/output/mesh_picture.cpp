@@ -166,10 +166,17 @@ bool draw_mesh(const std::vector<MeshPanel>& panels, const std::string& title,
         (right + 12) / wide, foot / high, 12 / wide, std::min(size.y(), 260.0) / high);
     body += fmt::format("set label 2 {} at screen {:.5f},{:.5f} left noenhanced\n",
                         gnuplot_text(panels[k].title), left / wide, 1 - 42 / high);
-    body += fmt::format(
-        "set label 3 'x [mm]' at screen {:.5f},{:.5f} center\n"
-        "set label 4 'y [mm]' at screen {:.5f},{:.5f} center rotate by 90\n",
-        0.5 * (left + right) / wide, 14 / high, (left - 54) / wide, (foot + 0.5 * size.y()) / high);
+    if (panels[k].axes.empty())
+      body += fmt::format(
+          "set label 3 'x [mm]' at screen {:.5f},{:.5f} center\n"
+          "set label 4 'y [mm]' at screen {:.5f},{:.5f} center rotate by 90\n",
+          0.5 * (left + right) / wide, 14 / high, (left - 54) / wide,
+          (foot + 0.5 * size.y()) / high);
+    else
+      body += fmt::format(
+          "unset border\nunset tics\nset cbtics\n"
+          "set label 3 {} at screen {:.5f},{:.5f} center\n",
+          gnuplot_text(panels[k].axes), 0.5 * (left + right) / wide, 14 / high);
     body += command + "unset label 1\n";
     left = right + gap + numbers + scale_margin;
   }

@@ -12,12 +12,14 @@ namespace verification {
 
 using Polygon = std::vector<Eigen::Vector2d>;  // [m]
 
-// A mesh with one value per integration point, on its patch of the element.
+// A mesh with one value per patch: the part of an element, or of an outer face of a solid, around an
+// integration point. Solids are seen from the front, right and above.
 struct MeshPanel {
   std::string title;
   std::vector<Polygon> patches;
   std::vector<double> values;  // of the patches
   std::vector<Polygon> elements;
+  std::string axes = {};          // of a solid: what is seen
   std::array<double, 2> range{};  // of the colours; equal ends: the range of the values
 };
 

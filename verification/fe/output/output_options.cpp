@@ -36,9 +36,9 @@ std::vector<std::size_t> read_points(SceneTable& table, std::string_view key, st
   return {read.begin(), read.end()};
 }
 
-std::vector<std::string> read_fields(SceneTable& table, std::string_view key) {
+std::vector<std::string> read_fields(SceneTable& table, std::string_view key, int dimension) {
   std::vector<std::string> names;
-  for (const Field& candidate : fields())
+  for (const Field& candidate : fields(dimension))
     if (candidate.components == 1) names.emplace_back(candidate.name);
   const std::string expected = fmt::format("a list of {}", fmt::join(names, ", "));
   std::vector<std::string> result;
@@ -65,11 +65,11 @@ OutputOptions read_output(SceneTable& scene, const Mesh& mesh, int steps) {
   if (!options.packings.empty() && options.vtk_every == 0)
     scene.fail("vtk_every", "0", "how often the packings are written, a number of load steps >= 1");
   options.points = read_points(scene, "points", points);
-  options.every_point = read_fields(scene, "every_point");
+  options.every_point = read_fields(scene, "every_point", mesh.dimension());
   if (!scene.has("picture")) return options;
   SceneTable table = scene.table("picture");
-  options.pictures.fields = read_fields(table, "fields");
-  options.pictures.extremes = read_fields(table, "extremes");
+  options.pictures.fields = read_fields(table, "fields", mesh.dimension());
+  options.pictures.extremes = read_fields(table, "extremes", mesh.dimension());
   options.pictures.packings = read_points(table, "packings", points);
   options.pictures.steps = table.has("steps")
                                ? read_integers(table, "steps", steps,

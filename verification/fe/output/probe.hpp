@@ -14,12 +14,12 @@ struct DisplacementProbe {
 };
 
 // Mean displacement of the nodes [m].
-Eigen::Vector2d mean_displacement(const DisplacementProbe& probe,
-                                  const Eigen::VectorXd& displacement);
+Position mean_displacement(const DisplacementProbe& probe, const Mesh& mesh,
+                           const Eigen::VectorXd& displacement);
 
-// Columns of the probes' table: step, time, and two components per probe.
-std::vector<std::string> probe_columns(const std::vector<DisplacementProbe>& probes);
-std::vector<double> probe_values(const std::vector<DisplacementProbe>& probes, const LoadStep& step,
-                                 const Eigen::VectorXd& displacement);
+// Columns of the probes' table: step, time, and the components of every probe.
+std::vector<std::string> probe_columns(const std::vector<DisplacementProbe>& probes, int dimension);
+std::vector<double> probe_values(const std::vector<DisplacementProbe>& probes, const Mesh& mesh,
+                                 const LoadStep& step, const Eigen::VectorXd& displacement);
 
 }  // namespace verification

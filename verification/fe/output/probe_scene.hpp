@@ -6,8 +6,8 @@
 
 namespace verification {
 
-// Reads `name` and one of: `on`, a set of nodes; `x` or `y` [m], the nodes on this line of the
-// undeformed mesh. Throws InputError.
+// Reads `name` and one of: `on`, a set of nodes; `x`, `y` or `z` [m], the nodes at
+// this coordinate of the undeformed mesh. Throws InputError.
 DisplacementProbe read_probe(SceneTable& table, const Mesh& mesh);
 
 }  // namespace verification

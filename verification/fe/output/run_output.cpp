@@ -20,7 +20,7 @@ namespace {
 std::vector<std::string> force_columns(const Model& model) {
   std::vector<std::string> names{"step[-]"};
   for (const Monitor& monitor : make_monitors(model))
-    for (const std::string& name : columns(monitor)) names.push_back(name);
+    for (const std::string& name : columns(monitor, model.mesh.dimension())) names.push_back(name);
   return names;
 }
 
@@ -34,9 +34,11 @@ std::vector<std::string> leading_conditions(const Model& model) {
   return names;
 }
 
-std::vector<std::string> point_columns() {
-  std::vector<std::string> names{"step[-]", "time[s]", "x[m]", "y[m]"};
-  for (const Field& field : fields())
+std::vector<std::string> point_columns(int dimension) {
+  std::vector<std::string> names{"step[-]", "time[s]"};
+  for (const std::string_view axis : component_names(dimension))
+    names.push_back(fmt::format("{}[m]", axis));
+  for (const Field& field : fields(dimension))
     for (const std::string& name : columns(field)) names.push_back(name);
   return names;
 }
@@ -92,23 +94,26 @@ RunOutput::RunOutput(const FiniteElementScene& scene, RunTables tables, const So
       tables_(std::move(tables)),
       written_(tables_.stem()),
       drag_(has_drag(scene.material)),
-      history_(open(".csv", record_columns(drag_))),
+      history_(open(".csv", in_dimension(scene.dimension,
+                                         [&]<int D>() { return record_columns<D>(drag_); }))),
       newton_(open("_newton.csv", {"step[-]", "iteration[-]", "relative_residual[-]"})),
       forces_(open("_force.csv", force_columns(scene.model))),
       costs_(open("_cost.csv", cost_columns())),
       cost_(solver),
       series_(scene.model, tables_.stem(), scene.output.packings) {
   if (scene.solver.kind == SolverKind::dynamics)
-    energies_ = &open("_energy.csv", energy_columns());
+    energies_ = &open("_energy.csv", energy_columns(scene.dimension));
   else
     balance_ = &open("_balance.csv", balance_columns());
-  if (!scene.probes.empty()) probes_ = &open("_probes.csv", probe_columns(scene.probes));
+  if (!scene.probes.empty())
+    probes_ = &open("_probes.csv", probe_columns(scene.probes, scene.dimension));
   for (const std::size_t point : scene.output.points)
-    points_.push_back(&open(fmt::format("_point{}.csv", point), point_columns(), "_pointN.csv"));
+    points_.push_back(
+        &open(fmt::format("_point{}.csv", point), point_columns(scene.dimension), "_pointN.csv"));
   for (const std::string& name : scene.output.every_point) {
     std::vector<std::string> columns{"step[-]"};
     for (std::size_t p = 0; p < solver.points().size(); ++p)
-      columns.push_back(fmt::format("point{}[{}]", p, field(name).unit));
+      columns.push_back(fmt::format("point{}[{}]", p, field(name, scene.dimension).unit));
     every_point_.push_back(&open(fmt::format("_every_{}.csv", name), columns, "_every_FIELD.csv"));
   }
 }
@@ -123,7 +128,7 @@ void RunOutput::add(const LoadStep& step, bool ends_before) {
 
 void RunOutput::write(const LoadStep& step, bool ends_before) {
   const int number = step.record.step;
-  history_.row(record_values(step.record, drag_));
+  history_.row(step.record.values(drag_));
   for (std::size_t k = 0; k < step.residuals.size(); ++k)
     newton_.row({static_cast<double>(number), static_cast<double>(k), step.residuals[k]});
   std::vector<double> forces{static_cast<double>(number)};
@@ -134,11 +139,13 @@ void RunOutput::write(const LoadStep& step, bool ends_before) {
   forces_.row(forces);
   if (energies_ != nullptr) energies_->row(energy_values(step));
   if (balance_ != nullptr) balance_->row(balance_values(step));
-  if (probes_ != nullptr) probes_->row(probe_values(scene_.probes, step, solver_.displacement()));
+  if (probes_ != nullptr)
+    probes_->row(probe_values(scene_.probes, scene_.model.mesh, step, solver_.displacement()));
   const OutputOptions& output = scene_.output;
   for (std::size_t k = 0; k < points_.size(); ++k) add_point(output.points[k], step, *points_[k]);
   for (std::size_t k = 0; k < every_point_.size(); ++k) {
-    std::vector<double> row = values(field(output.every_point[k]), solver_.points());
+    std::vector<double> row =
+        values(field(output.every_point[k], scene_.dimension), solver_.points());
     row.insert(row.begin(), static_cast<double>(number));
     every_point_[k]->row(row);
   }
@@ -153,12 +160,12 @@ void RunOutput::write(const LoadStep& step, bool ends_before) {
 
 void RunOutput::add_point(std::size_t point, const LoadStep& step, CsvWriter& table) const {
   const PointField& points = solver_.points();
-  const Eigen::Vector2d position =
+  const Position position =
       current_position(scene_.model.mesh, points, point, solver_.displacement());
-  std::vector<double> row{static_cast<double>(step.record.step), step.time, position.x(),
-                          position.y()};
-  for (const Field& field : fields()) {
-    std::array<double, 4> value{};
+  std::vector<double> row{static_cast<double>(step.record.step), step.time};
+  row.insert(row.end(), position.begin(), position.end());
+  for (const Field& field : fields(scene_.dimension)) {
+    std::array<double, 9> value{};
     field.value(point_view(points, point), value.data());
     row.insert(row.end(), value.begin(), value.begin() + field.components);
   }
@@ -170,14 +177,15 @@ void RunOutput::draw(const LoadStep& step) {
   const std::string stem = fmt::format("{}_{:04d}", tables_.stem().string(), step.record.step);
   const std::string title = fmt::format("load step {}", step.record.step);
   for (const std::string& name : scene_.output.pictures.fields)
-    if (draw_mesh({mesh_panel(scene_.model.mesh, points, solver_.displacement(), field(name))},
+    if (draw_mesh({mesh_panel(scene_.model.mesh, points, solver_.displacement(),
+                              field(name, scene_.dimension))},
                   title, stem + "_" + name))
       written_.add("_STEP_FIELD.svg");
   std::vector<SnapshotPanel> packings;
   for (const std::size_t point : scene_.output.pictures.packings)
     packings.push_back({fmt::format("point {}", point), take_snapshot(points.state(point))});
   for (const std::string& name : scene_.output.pictures.extremes) {
-    const Field& shown = field(name);
+    const Field& shown = field(name, scene_.dimension);
     const std::vector<double> all = values(shown, points);
     const auto [least, largest] = std::minmax_element(all.begin(), all.end());
     for (const auto& [end, word] : {std::pair{least, "min"}, std::pair{largest, "max"}}) {
@@ -198,8 +206,8 @@ void RunOutput::add_unfinished(int step, const Effort& effort) {
 
 void RunOutput::finish() {
   written_.add_pictures(draw_history(read_csv(history_.path()), scene_.abscissa, tables_.stem()));
-  if (draw_load_figure(read_csv(forces_.path()), leading_conditions(scene_.model), "N/m",
-                       tables_.stem().string() + "_force"))
+  if (draw_load_figure(read_csv(forces_.path()), leading_conditions(scene_.model),
+                       force_unit(scene_.dimension), tables_.stem().string() + "_force"))
     written_.add("_force.svg");
 }
 

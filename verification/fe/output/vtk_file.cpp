@@ -43,10 +43,12 @@ std::string encoded(const std::vector<T>& values) {
 
 std::string array(std::string_view type, std::string_view name, int components,
                   const std::string& values) {
-  constexpr std::string_view of_tensor =
-      " ComponentName0=\"11\" ComponentName1=\"12\" ComponentName2=\"21\" ComponentName3=\"22\"";
-  return vtk_array(type, xml_text(name), components, "binary", values + "\n",
-                   components == 4 ? of_tensor : "");
+  std::string names;  // of the components of a tensor
+  const int rows = components == 4 ? 2 : components == 9 ? 3 : 0;
+  for (int k = 0; k < rows * rows; ++k)
+    fmt::format_to(std::back_inserter(names), " ComponentName{}=\"{}{}\"", k, k / rows + 1,
+                   k % rows + 1);
+  return vtk_array(type, xml_text(name), components, "binary", values + "\n", names);
 }
 
 std::string data(std::string_view element, const std::vector<VtkArray>& arrays) {

@@ -11,7 +11,7 @@ namespace verification {
 
 struct VtkArray {
   std::string name;
-  int components = 1;  // 4: a tensor 11, 12, 21, 22
+  int components = 1;  // 4 or 9: a tensor row by row
   std::vector<double> values;
 };
 

@@ -9,37 +9,32 @@
 namespace verification {
 namespace {
 
-std::uint8_t cell_type(ElementKind kind) {
-  constexpr std::uint8_t triangle = 5, quadrilateral = 9, quadratic_quadrilateral = 23;
-  if (kind == ElementKind::t3) return triangle;
-  return kind == ElementKind::q8 ? quadratic_quadrilateral : quadrilateral;
-}
-
-void append(std::vector<double>& points, const Eigen::Vector2d& point) {
-  points.insert(points.end(), {point.x(), point.y(), 0.0});
+void append(std::vector<double>& points, const Position& point) {
+  points.insert(points.end(), {point.x(), point.y(), point.size() == 3 ? point.z() : 0.0});
 }
 
 // Nodal vectors with a third component for ParaView.
-VtkArray nodal(const char* name, const Eigen::VectorXd& vector) {
+VtkArray nodal(const char* name, const Mesh& mesh, const Eigen::VectorXd& vector) {
   VtkArray array{name, 3, {}};
-  for (Eigen::Index k = 0; k < vector.size(); k += 2) append(array.values, vector.segment<2>(k));
+  for (int node = 0; node < static_cast<int>(mesh.nodes.size()); ++node)
+    append(array.values, mesh.moved(node, vector));
   return array;
 }
 
-// Area-weighted means by element; points of an element are consecutive.
+// Means by element, weighted by area or volume; points of an element are consecutive.
 std::vector<double> element_means(const PointField& points, std::size_t elements,
                                   std::size_t components, const std::vector<double>& values) {
   const std::size_t per_element = points.size() / elements;
   std::vector<double> means(elements * components, 0.0);
   for (std::size_t e = 0; e < elements; ++e) {
-    double area = 0;
+    double sum = 0;
     for (std::size_t p = e * per_element; p < (e + 1) * per_element; ++p) {
       const double weight = points.geometry(p).weight;
-      area += weight;
+      sum += weight;
       for (std::size_t c = 0; c < components; ++c)
         means[e * components + c] += weight * values[p * components + c];
     }
-    for (std::size_t c = 0; c < components; ++c) means[e * components + c] /= area;
+    for (std::size_t c = 0; c < components; ++c) means[e * components + c] /= sum;
   }
   return means;
 }
@@ -57,7 +52,7 @@ void VtkSeries::add(const LoadStep& step, const Solver& solver) {
   const Eigen::VectorXd& displacement = solver.displacement();
 
   std::vector<VtkArray> at_points, at_elements;
-  for (const Field& field : fields()) {
+  for (const Field& field : fields(mesh.dimension())) {
     const std::string name(field.name);
     at_points.push_back({name, field.components, values(field, points)});
     at_elements.push_back(
@@ -71,17 +66,17 @@ void VtkSeries::add(const LoadStep& step, const Solver& solver) {
   write_vtp(file("points", number, "vtp"), positions, at_points);
 
   VtkMesh grid;
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-    append(grid.points, mesh.nodes[n] + displacement.segment<2>(2 * static_cast<Eigen::Index>(n)));
+  for (int node = 0; node < static_cast<int>(mesh.nodes.size()); ++node)
+    append(grid.points, mesh.position(node) + mesh.moved(node, displacement));
   for (const std::vector<int>& element : mesh.elements) {
     grid.connectivity.insert(grid.connectivity.end(), element.begin(), element.end());
     grid.offsets.push_back(static_cast<std::int64_t>(grid.connectivity.size()));
-    grid.types.push_back(cell_type(mesh.kind));
+    grid.types.push_back(element_type(mesh.kind).vtk);
   }
   Eigen::VectorXd applied = Eigen::VectorXd::Zero(displacement.size());
   add_external_force(model_, step.time, displacement, applied);
-  grid.point_data = {nodal("displacement", displacement),
-                     nodal("reaction_force", points.internal_force() - applied)};
+  grid.point_data = {nodal("displacement", mesh, displacement),
+                     nodal("reaction_force", mesh, points.internal_force() - applied)};
   grid.cell_data = std::move(at_elements);
   write_vtu(file("mesh", number, "vtu"), grid);
 

@@ -11,7 +11,7 @@ namespace verification {
 
 // Writer of the series.
 //   STEM_mesh.pvd      the deformed mesh: displacement and reaction force at nodes (internal minus
-//                      applied, per metre of thickness), area-weighted means of fields by element;
+//                      applied), means of fields by element, weighted by area or volume;
 //   STEM_points.pvd    the integration points with all fields;
 //   STEM_packingN.pvd  particles and force chains of point N.
 class VtkSeries {

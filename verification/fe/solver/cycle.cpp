@@ -24,7 +24,8 @@ Cycle read_cycle(SceneTable table, Model& model) {
       known += (known.empty() ? "" : ", ") + entry.first;
     table.fail("on", '"' + set + '"', "one of " + known);
   }
-  const std::string component = table.choice_or("component", "x", {"x", "y"});
+  const std::string component =
+      table.choice_or("component", "x", component_names(model.mesh.dimension()));
   cycle.drive = set + '_' + component;
   cycle.step = table.number("step", positive);
   const double never = cycle.limit_force;
@@ -40,7 +41,7 @@ Cycle read_cycle(SceneTable table, Model& model) {
   cycle.segment = std::make_shared<LinearSegment>();
   PrescribedDisplacement drive;
   drive.nodes = model.mesh.node_sets.at(set);
-  drive.component = component == "x" ? 0 : 1;
+  drive.component = component[0] - 'x';
   drive.name = cycle.drive;
   drive.set = set;
   drive.place = table.place();
@@ -85,7 +86,7 @@ LoadStep CycleControl::advance(Solver& solver, int number) {
     step.record.effort.add(taken_back);
     time_ = next;
     displacement_ = goal;
-    look(step.reactions[monitor_], -0.5 * (step.record.cauchy(0, 0) + step.record.cauchy(1, 1)));
+    look(step.reactions[monitor_], step.record.mean_pressure());
     return step;
   }
 }

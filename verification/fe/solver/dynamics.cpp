@@ -64,7 +64,8 @@ class DynamicsSolver final : public Solver {
     points_.commit();
     const double energy_density = points_.record().elastic_energy /
                                   measure_scalar(points_.state(0), GRAINLAW_REFERENCE_VOLUME);
-    motion_.turnover = energy_density * 0.5 * mass_.sum() / options_.density;
+    motion_.turnover =
+        energy_density * (1.0 / points_.dimension()) * mass_.sum() / options_.density;
   }
 
   LoadStep advance(double to, int number) override {

@@ -9,7 +9,7 @@ void add_external_force(const Model& model, double time, const Eigen::VectorXd& 
   add_loads(model.loads, time, model.mesh, displacement, force, stiffness);
   for (const Resultant& resultant : model.resultants)
     for (const auto& [node, weight] : resultant.nodes)
-      force(2 * node + resultant.component) += weight * resultant.value.at(time);
+      force(model.mesh.dof(node, resultant.component)) += weight * resultant.value.at(time);
 }
 
 void report_supports(const Model& model, double time, const Eigen::VectorXd& displacement,

@@ -14,7 +14,8 @@ double highest_frequency(const PointField& points, const Dofs& dofs, const Eigen
   // part of all modes.
   Eigen::VectorXd vector(dofs.unknowns);
   for (Eigen::Index k = 0; k < vector.size(); ++k)
-    vector(k) = (k / 2 % 2 == 0 ? 1 : -1) * (1 + 0.5 * std::sin(3.0 * static_cast<double>(k * k)));
+    vector(k) = (k / points.dimension() % 2 == 0 ? 1 : -1) *
+                (1 + 0.5 * std::sin(3.0 * static_cast<double>(k * k)));
   vector.normalize();
   double square = 0;
   constexpr int iterations = 300;

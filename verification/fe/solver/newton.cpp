@@ -27,8 +27,7 @@ class NewtonSolver final : public Solver {
         threads_(threads),
         dofs_(number_dofs(model)),
         points_(model, material),
-        displacement_(
-            Eigen::VectorXd::Zero(static_cast<Eigen::Index>(2 * model.mesh.nodes.size()))) {
+        displacement_(Eigen::VectorXd::Zero(model.mesh.dofs())) {
     if (dofs_.unknowns == 0) throw InputError("every displacement is prescribed: nothing to solve");
     check(points_.evaluate(displacement_, options_.tangent, threads_),
           "evaluating the integration points at F = I");

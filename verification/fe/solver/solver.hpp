@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/parts.hpp"
+#include "fe/body_record.hpp"
 #include "fe/checkpoint.hpp"
 #include "fe/model.hpp"
 
@@ -12,7 +13,8 @@
 
 namespace verification {
 
-// Energies of a dynamic run since its start, per metre of thickness [J/m]. Their balance, kinetic +
+// Energies of a dynamic run since its start, in the plane per metre of thickness [J/m], of
+// solids [J]. Their balance, kinetic +
 // internal + damped - external, vanishes with the time step.
 struct Energies {
   double kinetic = 0;
@@ -26,7 +28,7 @@ struct Energies {
 // One solved load step. `residuals` has those of all attempts: the first of an attempt is the
 // imbalance after the load increment, entry k that after k corrections.
 struct LoadStep {
-  Record record;  // means over the integration points
+  BodyRecord record;  // means over the integration points
   double time = 0;
   std::vector<double> residuals;
   std::vector<std::size_t> attempts;  // index of each attempt's first residual
