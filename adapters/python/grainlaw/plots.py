@@ -18,7 +18,7 @@ WIDEST = 4.0   # line of the largest normal force [points]
 
 def _figure(**options: Any) -> Any:
     try:
-        from matplotlib.figure import Figure  # type: ignore[import]
+        from matplotlib.figure import Figure
     except ImportError:
         raise ImportError("plot() needs matplotlib (Debian: apt-get install "
                           "python3-matplotlib)") from None
@@ -127,7 +127,7 @@ def _path(kind: str, columns: Columns, shear: bool, members: Sequence[Columns]) 
 
 def _plain_numbers(axis: Any) -> None:
     """200, not 2 x 10^2, on a logarithmic axis."""
-    from matplotlib.ticker import ScalarFormatter  # type: ignore[import]
+    from matplotlib.ticker import ScalarFormatter
     axis.set_major_formatter(ScalarFormatter())
     axis.set_minor_formatter(ScalarFormatter())
 
@@ -146,8 +146,8 @@ def packing(particles: Records, contacts: Records) -> Any:
     """Particles and force chains: a bar joins two centres, its width goes with the normal force. Of
     spheres, which are seen along axis 2, the contacts that carry more than the mean."""
     figure = _figure(figsize=(6, 6))
-    from matplotlib.collections import LineCollection, PatchCollection  # type: ignore[import]
-    from matplotlib.patches import Circle  # type: ignore[import]
+    from matplotlib.collections import LineCollection, PatchCollection
+    from matplotlib.patches import Circle
     seen = [0, particles["position"].shape[1] - 1]
     axes = figure.subplots()
     axes.set_aspect("equal")

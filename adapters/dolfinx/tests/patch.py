@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The patch through DOLFINx:  dolfinx_patch.py MATERIAL.toml PATH.csv > dolfinx.csv
+"""The patch through DOLFINx:  patch.py MATERIAL.toml PATH.csv > dolfinx.csv
 
 A unit square follows u = (F - I) X; P and A come back as integrals of the forms that residual and
 stiffness are made of, against virtual fields of unit gradients.
@@ -11,7 +11,7 @@ from dolfinx import fem, mesh
 from mpi4py import MPI
 
 import grainlaw
-from dolfinx_points import Points
+from grainlaw.dolfinx import Points
 
 
 def main(material, path):

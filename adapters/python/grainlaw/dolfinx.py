@@ -1,0 +1,309 @@
+# mypy: allow-untyped-calls
+"""grainlaw in DOLFINx 0.5, on any number of ranks of MPI. Debian: apt-get install python3-dolfinx
+
+    material = read_material(MPI.COMM_WORLD, "sand.toml")
+    points = Points(domain, material, degree=1)
+    newton = Newton(points, u, conditions, apply=set_load, external=lambda v: ...)
+    for part in newton.to(1.0):
+        print(part.load, newton.force(top))
+
+All functions are calls of all ranks together, and raise on all of them.
+"""
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import basix
+import numpy as np
+import numpy.typing as npt
+import ufl
+from dolfinx import fem
+from mpi4py import MPI
+from petsc4py import PETSc
+
+from .abi import Error
+from .arrays import Array
+from .checkpoint import Cells
+from .march import March
+from .material import AnyPath, Material
+from .names import Action, Status, Tangent
+from .points import Evaluation, States
+from .ranks import check_same, end_together, read_material, together
+
+_basix: Any = basix       # whose types say less than they take
+_petsc: Any = fem.petsc
+
+__all__ = ["Newton", "Points", "end_together", "read_material", "together"]
+
+
+class Points:
+    """The quadrature points of a mesh, of one material; a rank has those of the cells that it owns, which
+    may be none: forms are assembled over no others. d is the dimension of material and mesh.
+
+    domain    a dolfinx.mesh.Mesh
+    degree    of the quadrature, basix' default scheme
+
+    Raises Error for a material of another dimension than the mesh, and where ranks have different ones."""
+
+    P: Any   #: quadrature function (d, d): first Piola-Kirchhoff stress [Pa], tension positive
+    A: Any   #: quadrature function (d * d, d * d): dP_iJ/dF_kL [Pa], a row for each iJ, row-major
+    dx: Any  #: measure of forms with P or A
+    states: States                   #: of this rank, by cell and point; shared by the ranks
+    cells: npt.NDArray[np.int64]     #: number in the input mesh of each cell that this rank owns
+
+    def __init__(self, domain: Any, material: Material, degree: int) -> None:
+        self.comm, self.domain = domain.comm, domain
+        check_same(self.comm, material)
+        d = self.dimension = material.dimension
+        if not domain.geometry.dim == domain.topology.dim == d:
+            raise Error(Status.BAD_ARGUMENT, f"a mesh of dimension {domain.topology.dim} in "
+                        f"{domain.geometry.dim}D: expected {d}, as of the material")
+        cell = domain.ufl_cell()
+        rule = {"quadrature_degree": degree, "quadrature_scheme": "default"}
+        self.dx = ufl.Measure("dx", domain, metadata=rule)
+        self._where, _ = _basix.make_quadrature(_basix.cell.string_to_type(cell.cellname()), degree)
+        owned = domain.topology.index_map(d).size_local   # ghosts come after
+        self.cells = np.array(domain.topology.original_cell_index[:owned], np.int64)
+        self._owned = np.arange(owned, dtype=np.int32)
+        self.P, self._P_rows = self._function(cell, degree, d)
+        self.A, self._A_rows = self._function(cell, degree, d * d)
+        with together(self.comm):
+            self.states = States(material, owned * len(self._where))
+        if self.comm.size > 1:
+            self.states.share(self.comm.rank, self._reduce)
+        self._gradients: dict[Any, Any] = {}
+        self._keep()
+
+    def evaluate(self, u: Any) -> Evaluation:
+        """Evaluate all points at F = I + grad u, with the exact tangent. P and A follow where all points
+        found an equilibrium. The answer's arrays are of this rank, its outcome is that of all."""
+        with together(self.comm):
+            F = np.eye(self.dimension) + self._gradient(u)
+        answer = self.states.evaluate(F, Tangent.EXACT)
+        if answer.ok:
+            self._set(answer)
+        return answer
+
+    def largest_change(self, correction: Any) -> float:
+        """Largest change of F that a correction makes in a point of this rank, by its norm [-]."""
+        changes = np.linalg.norm(self._gradient(correction), axis=(1, 2))
+        return float(changes.max(initial=0.0))
+
+    def set_time_step(self, step: float) -> None:
+        """How long increments take from now on [unit of the host], as of States."""
+        self.states.set_time_step(step)
+
+    def commit(self) -> None:
+        """Make the trials the committed states, of all ranks or none."""
+        self.states.commit()
+        self._keep()
+
+    def revert(self) -> None:
+        """Back to the committed states, with their P and A."""
+        self.states.revert()
+        self.P.x.array[:], self.A.x.array[:] = self._committed
+
+    def save(self, path: AnyPath, *functions: Any, load: float = 0.0) -> None:
+        """Write the committed states of all cells to one file, with the values of functions at their
+        nodes and a load. The file is the old one or the whole new one. Raises Error."""
+        self._cells(functions).save(path, load)
+
+    def load(self, path: AnyPath, *functions: Any) -> float:
+        """Go on from a file of save(), written by any number of ranks for this mesh, material, degree and
+        these functions: states, P, A and functions have the bits that were saved. The load that was
+        saved. Raises Error, and then nothing changed."""
+        saved = self._cells(functions)
+        load = saved.load(path)
+        first = 0
+        for function in functions:
+            nodes, block = self._nodes(function), function.function_space.dofmap.bs
+            values = saved.unknowns[:, first:first + nodes.shape[1] * block]
+            function.x.array.reshape(-1, block)[nodes.ravel()] = values.reshape(-1, block)
+            function.x.scatter_forward()
+            first += values.shape[1]
+        self._set(self.states.answer(Tangent.EXACT))
+        self._keep()
+        return load
+
+    def stress_power(self, v: Any) -> Any:
+        """The form of P : grad v, for the residual."""
+        return ufl.inner(self.P, ufl.grad(v)) * self.dx
+
+    def stiffness(self, u: Any, v: Any) -> Any:
+        """The form of grad v : A : grad u, for Newton's matrix."""
+        return ufl.dot(self._row_major(v), self.A * self._row_major(u)) * self.dx
+
+    def _cells(self, functions: Sequence[Any]) -> Cells:
+        """The own cells with copies of the values of functions."""
+        owned = len(self._owned)
+        values = [np.empty((owned, 0))]
+        for function in functions:
+            nodes, block = self._nodes(function), function.function_space.dofmap.bs
+            at_nodes = function.x.array.reshape(-1, block)[nodes.ravel()]
+            values.append(at_nodes.reshape(owned, nodes.shape[1] * block))
+        total = self.domain.topology.index_map(self.dimension).size_global
+        return Cells(self.comm, self.states, self.cells, total, len(self._where),
+                     np.concatenate(values, axis=1))
+
+    def _nodes(self, function: Any) -> npt.NDArray[np.int32]:
+        """Numbers of the nodes of the own cells (n, k)."""
+        dofmap = function.function_space.dofmap
+        count = dofmap.dof_layout.num_dofs
+        nodes: npt.NDArray[np.int32] = dofmap.list.array.reshape(-1, count)[:len(self._owned)]
+        return nodes
+
+    def _function(self, cell: Any, degree: int, rows: int) -> tuple[Any, Any]:
+        """A quadrature function (rows, rows), and where its values of the own points are."""
+        element = ufl.TensorElement("Quadrature", cell, degree, shape=(rows, rows),
+                                    quad_scheme="default")
+        space = fem.FunctionSpace(self.domain, element)
+        return fem.Function(space), space.dofmap.list.array[:len(self._owned) * len(self._where)]
+
+    def _gradient(self, u: Any) -> Array:
+        """grad u at the own points (n, d, d); its form is compiled once for each function."""
+        if u not in self._gradients:
+            self._gradients[u] = fem.Expression(ufl.grad(u), self._where)
+        found: Array = self._gradients[u].eval(self._owned)
+        return found.reshape(-1, self.dimension, self.dimension)
+
+    def _row_major(self, v: Any) -> Any:
+        directions = range(self.dimension)
+        return ufl.as_vector([ufl.grad(v)[i, J] for i in directions for J in directions])
+
+    def _set(self, answer: Evaluation) -> None:
+        assert answer.A is not None
+        d = self.dimension
+        self.P.x.array.reshape(-1, d**2)[self._P_rows] = answer.P.reshape(-1, d**2)
+        self.A.x.array.reshape(-1, d**4)[self._A_rows] = answer.A.reshape(-1, d**4)
+
+    def _keep(self) -> None:
+        self._committed = self.P.x.array.copy(), self.A.x.array.copy()
+
+    def _reduce(self, values: Array, operation: str) -> Array:
+        self.comm.Allreduce(MPI.IN_PLACE, values, MPI.MIN if operation == "min" else MPI.SUM)
+        return values
+
+
+class Newton:
+    """Equilibrium of displacements along a way of loads, by Newton's method; steps are cut and jumps
+    crossed as a March decides. The start is evaluated and committed.
+
+    u           displacements, a function of a vector space [m]
+    conditions  dolfinx' Dirichlet conditions on u
+    apply       sets the constants of conditions and loads for a load
+    external    the form of the work of external loads in a test function v; loads may follow u
+    tell        is told, on rank 0, why a step was cut
+    march       options of March, as tolerance=1e-10: |force on the unknowns| / |nodal forces of P| [-]
+
+    The linear solver is MUMPS; options of PETSc with the prefix grainlaw_ choose another one. Raises
+    Error where the start has no equilibrium."""
+
+    march: March
+    correction: Any   #: of the last solve [m]
+
+    def __init__(self, points: Points, u: Any, conditions: Sequence[Any],
+                 apply: Callable[[float], None], external: Callable[[Any], Any] | None = None,
+                 tell: Callable[[str], object] | None = None, **march: float) -> None:
+        self.points, self.u, self.conditions, self.comm = points, u, list(conditions), points.comm
+        self._apply, self._tell = apply, tell
+        V = u.function_space
+        self.owned: int = V.dofmap.index_map.size_local * V.dofmap.index_map_bs   #: unknowns
+        fixed = [condition.dof_indices()[0] for condition in self.conditions]
+        self._free = np.setdiff1d(np.arange(self.owned), np.concatenate(fixed) if fixed else [])
+        v, du = ufl.TestFunction(V), ufl.TrialFunction(V)
+        residual, stiffness = points.stress_power(v), points.stiffness(du, v)
+        self._internal = fem.form(residual)
+        if external is not None:
+            residual -= external(v)
+            stiffness -= ufl.derivative(external(v), u, du)
+        self._residual, self._stiffness = fem.form(residual), fem.form(stiffness)
+        self._matrix = _petsc.create_matrix(self._stiffness)
+        self._solver = PETSc.KSP().create(self.comm)
+        self._solver.setOperators(self._matrix)
+        self._solver.setType("preonly")
+        self._solver.getPC().setType("lu")
+        self._solver.getPC().setFactorSolverType("mumps")
+        self._solver.setOptionsPrefix("grainlaw_")
+        self._solver.setFromOptions()
+        self.correction = fem.Function(V)
+        self.march = March(points.states, **march)
+        answer = points.evaluate(u)
+        if not answer.ok:
+            raise Error(Status.NOT_CONVERGED, f"no state to start from: {answer.message}")
+        points.commit()
+
+    def to(self, load: float) -> Iterator[March]:
+        """To a load from where the last call ended, 0 at first, in as many parts as it takes; a way from
+        0 to 0 brings the loads to act. Yields the march at the end of each part, with its load and
+        residuals. Raises StepError where the smallest part fails too."""
+        march, points, u = self.march, self.points, self.u.x.array
+        committed = u.copy()
+        for now in march.to(load):
+            if march.keep:
+                farthest = u.copy()
+            if now == Action.SOLVE:
+                self._apply(march.load)
+                self.solve()
+                share = march.share(points.largest_change(self.correction))
+                if share > 0:   # else the stiffness is singular
+                    u -= share * self.correction.x.array
+                    march.tell(points.evaluate(self.u), *self.norms())
+            elif now == Action.CROSS:
+                u[:] = farthest
+                march.tell(points.evaluate(self.u))
+            elif now == Action.ACCEPT:
+                points.commit()
+                committed = u.copy()
+                yield march
+            else:
+                if self._tell is not None and self.comm.rank == 0:
+                    self._tell(f"load {march.load:.6g}: {march.message}; the step is cut")
+                points.revert()
+                u[:] = committed
+
+    def save(self, path: AnyPath) -> None:
+        """Write points, displacements and load to one file, as Points.save()."""
+        self.points.save(path, self.u, load=self.march.reached)
+
+    def load(self, path: AnyPath) -> None:
+        """Go on from a file of save(), written by any number of ranks, as Points.load()."""
+        self.march.reached = self.points.load(path, self.u)
+        self._apply(self.march.reached)
+
+    def solve(self) -> None:
+        """Newton's correction, to be subtracted; prescribed values enter through the right side."""
+        self._matrix.zeroEntries()
+        _petsc.assemble_matrix(self._matrix, self._stiffness, self.conditions)
+        self._matrix.assemble()
+        right = _petsc.assemble_vector(self._residual)
+        _petsc.apply_lifting(right, [self._stiffness], [self.conditions], [self.u.vector], -1.0)
+        _to_owners(right)
+        _petsc.set_bc(right, self.conditions, self.u.vector, -1.0)
+        self._solver.solve(right, self.correction.vector)
+        self.correction.x.scatter_forward()
+
+    def norms(self) -> tuple[float, float]:
+        """|force on the free unknowns| and |nodal forces of P|, of what this rank owns [N, 2D: N/m]."""
+        residual, internal = _assembled(self._residual), _assembled(self._internal)
+        return float(np.linalg.norm(residual[self._free])), float(np.linalg.norm(internal))
+
+    def force(self, unknowns: npt.ArrayLike) -> float:
+        """Sum of the nodal forces of P on unknowns over all ranks, which give them by their own numbers;
+        those that others own are left out [N, 2D: N/m]."""
+        wanted = np.asarray(unknowns, np.int64)
+        own = _assembled(self._internal)[wanted[wanted < self.owned]]
+        return float(self.comm.allreduce(own.sum()))
+
+
+def _to_owners(vector: Any) -> None:
+    """Add what a rank assembled for unknowns of others to theirs."""
+    vector.ghostUpdate(addv=PETSc.InsertMode.ADD, mode=PETSc.ScatterMode.REVERSE)
+
+
+def _assembled(form: Any) -> Array:
+    """The vector of a form, of the unknowns that this rank owns."""
+    vector = _petsc.assemble_vector(form)
+    _to_owners(vector)
+    values: Array = vector.array
+    return values
