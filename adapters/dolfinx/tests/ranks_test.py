@@ -1,4 +1,4 @@
-"""Points of a mesh on several ranks:  mpirun -n RANKS ranks_test.py MATERIAL.toml CASE"""
+"""Points of a mesh on several ranks:  mpirun -n RANKS ranks_test.py MATERIAL.toml SPHERES.toml [alone]"""
 import os
 import sys
 import time
@@ -14,7 +14,7 @@ from grainlaw.dolfinx import Points, end_together, read_material, together
 
 COMM = MPI.COMM_WORLD
 LAST = COMM.size - 1
-MATERIAL = sys.argv[1]
+MATERIAL, SPHERES = sys.argv[1:3]
 
 
 def square(divisions):
@@ -44,6 +44,29 @@ class Ranks(unittest.TestCase):
         traces = np.trace(answer.P, axis1=1, axis2=2)   # of two cells of half the area
         told, expected = COMM.allreduce(fem.assemble_scalar(power)), COMM.allreduce(traces.sum()) / 2
         self.assertAlmostEqual(told / expected, 1, places=9)
+
+    def test_solids_have_stress_and_tangent_of_their_points(self):
+        domain = mesh.create_unit_cube(COMM, 1, 1, 1)   # six tetrahedra
+        u = fem.Function(fem.VectorFunctionSpace(domain, ("Lagrange", 1)))
+        material = read_material(COMM, SPHERES)
+        points = Points(domain, material, degree=1)
+        gradient = 1e-4 * np.array([[1, 2, 0], [-1, -3, 1], [2, 0, -2]])
+        u.interpolate(lambda x: gradient @ x)
+        points.set_time_step(1)
+        self.assertTrue(points.evaluate(u).ok)
+        state = grainlaw.State(material)
+        state.set_time_step(1)
+        expected = state.evaluate(np.eye(3) + gradient, grainlaw.Tangent.EXACT)
+        V = u.function_space
+        v, du = fem.Function(V), fem.Function(V)
+        stress, tangent = fem.form(points.stress_power(v)), fem.form(points.stiffness(du, v))
+        test, trial = np.arange(9).reshape(3, 3) / 9, np.arange(9, 0, -1).reshape(3, 3) ** 2 / 81
+        v.interpolate(lambda x: test @ x)
+        du.interpolate(lambda x: trial @ x)
+        for form, value in ((stress, np.sum(expected.P * test)),
+                            (tangent, np.einsum("ij,ijkl,kl", test, expected.A, trial))):
+            told = COMM.allreduce(fem.assemble_scalar(form))
+            self.assertLess(abs(told / value - 1), 1e-8)
 
     def test_another_material_on_one_rank_is_told_on_all(self):
         text = open(MATERIAL, encoding="utf-8").read()
@@ -90,7 +113,7 @@ def fail_alone():
 
 
 if __name__ == "__main__":
-    if sys.argv[2:] == ["alone"]:
+    if sys.argv[3:] == ["alone"]:
         fail_alone()
     with open(os.devnull, "w", encoding="utf-8") as nowhere:
         result = unittest.TextTestRunner(sys.stderr if COMM.rank == 0 else nowhere).run(

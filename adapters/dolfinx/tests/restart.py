@@ -1,6 +1,6 @@
 """A test that is saved half way, or goes on from there:
 
-    restart.py MATERIAL.toml FILE save|load|refused
+    restart.py MATERIAL.toml FILE save|load|refused [OTHER.toml]
 
 Prints P, A and u of each cell half way, by the cell's number, and the force on the top at the end.
 """
@@ -59,14 +59,12 @@ def refused(newton, path, status, words):
     assert lines(newton) == before
 
 
-def refuse(material, path):
+def refuse(material, path, other):
     newton, _ = problem(material)
     refused(newton, "nowhere.cells", grainlaw.Status.FILE_ERROR, "nowhere.cells")
     refused(problem(material, 2)[0], path, grainlaw.Status.BAD_ARGUMENT,
             "the checkpoint has 18 cells, expected 8")
-    other = grainlaw.Material.parse(material.text.replace("friction = ", "friction = 1.5 # "),
-                                    material.directory)
-    refused(problem(other)[0], path, grainlaw.Status.WRONG_MATERIAL, "of another material")
+    refused(problem(read_material(COMM, other))[0], path, grainlaw.Status.WRONG_MATERIAL, "of another material")
     with open(path, "rb") as file:
         saved = file.read()
     damaged = f"{path}.damaged"
@@ -91,10 +89,10 @@ def refuse(material, path):
         assert file.read() == saved
 
 
-def main(material_path, path, what):
+def main(material_path, path, what, other=None):
     material = read_material(COMM, material_path)
     if what == "refused":
-        refuse(material, path)
+        refuse(material, path, other)
         return
     newton, top = problem(material)
     if what == "save":

@@ -1,12 +1,10 @@
-// A rectangle of linear triangles for the examples: cells cut from bottom left to top right.
+// A rectangle of linear triangles for the example: cells cut from bottom left to top right.
 #pragma once
 
 #include <deal.II/grid/tria.h>
 
 #include <array>
 #include <vector>
-
-namespace grainlaw_dealii {
 
 inline void make_triangles(dealii::Triangulation<2>& mesh, const std::array<double, 2>& size,
                            const std::array<unsigned, 2>& divisions) {
@@ -29,5 +27,3 @@ inline void make_triangles(dealii::Triangulation<2>& mesh, const std::array<doub
     }
   mesh.create_triangulation(vertices, cells, dealii::SubCellData());
 }
-
-}  // namespace grainlaw_dealii

@@ -8,13 +8,14 @@
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparse_matrix.h>
 
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <grainlaw/dealii.hpp>
 
-#include "dealii_mesh.hpp"
-#include "dealii_points.hpp"
+#include "../triangles.hpp"
 
 using namespace dealii;
 
@@ -22,13 +23,13 @@ namespace {
 
 void run(const char* material_path, const char* path_path) {
   Triangulation<2> mesh;
-  grainlaw_dealii::make_triangles(mesh, {{1, 1}}, {{1, 1}});
+  make_triangles(mesh, {{1, 1}}, {{1, 1}});
   const FESystem<2> element(FE_SimplexP<2>(1), 2);
   const MappingFE<2> mapping(FE_SimplexP<2>(1));
   DoFHandler<2> dofs(mesh);
   dofs.distribute_dofs(element);
-  grainlaw_dealii::Points points(mapping, dofs, QGaussSimplex<2>(1),
-                                 grainlaw::Material::load(material_path));
+  grainlaw::dealii::Points<2> points(mapping, dofs, QGaussSimplex<2>(1),
+                                     grainlaw::Material::load(material_path));
   points.set().set_time_step(1);
   std::vector<Point<2>> where(dofs.n_dofs());
   DoFTools::map_dofs_to_support_points(mapping, dofs, where);
@@ -54,7 +55,9 @@ void run(const char* material_path, const char* path_path) {
   SparsityPattern pattern;
   pattern.copy_from(entries);
   SparseMatrix<double> stiffness(pattern);
-  Vector<double> forces(dofs.n_dofs());
+  Vector<double> forces(dofs.n_dofs()), right(dofs.n_dofs());
+  AffineConstraints<double> none;
+  none.close();
 
   std::ifstream path(path_path);
   std::string line;
@@ -70,7 +73,7 @@ void run(const char* material_path, const char* path_path) {
     if (!found) throw std::runtime_error(found.message());
     points.commit();
     points.internal_forces(forces);
-    points.stiffness(stiffness);
+    points.newton_system(stiffness, right, none);
     for (unsigned k = 0; k < 4; ++k) std::printf("%s%.17g", k == 0 ? "" : ",", unit[k] * forces);
     for (const auto& test : unit)
       for (const auto& trial : unit)
@@ -86,6 +89,7 @@ int main(int count, char** arguments) {
     std::fprintf(stderr, "usage: dealii_patch MATERIAL.toml PATH.csv\n");
     return 2;
   }
+  const Utilities::MPI::MPI_InitFinalize mpi(count, arguments, 1);
   try {
     run(arguments[1], arguments[2]);
   } catch (const std::exception& error) {
