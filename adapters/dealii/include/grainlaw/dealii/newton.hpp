@@ -20,8 +20,8 @@ template <int dim, class Vector, class Matrix>
 class Newton {
  public:
   // What the caller says: values of u that a load prescribes, with hanging nodes if any; forces of
-  // external loads on free unknowns, added to a vector of zeros; the solution x of matrix x = b; `tell`, why a step was
-  // cut, on rank 0.
+  // external loads on free unknowns, added to a vector of zeros; the solution x of matrix x = b;
+  // `tell`, why a step was cut, on rank 0.
   struct Problem {
     std::function<void(double load, ::dealii::AffineConstraints<double>&)> conditions;
     std::function<void(double load, Vector& forces)> external;
