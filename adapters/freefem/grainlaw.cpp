@@ -2,6 +2,11 @@
 // tensors are columns of real[int,int] (components by points), or the same numbers in a real[int].
 //
 //   int sand = grainlawCreate("sand.toml", n)          n points at F = I; the number of the set
+//   grainlawCreate(materials, counts)                  counts[k] points of materials[k], one after
+//                                                      the other (string[int], int[int])
+//   grainlawConsolidate(sand, sigma, reached, "k0", overconsolidation)
+//       leads all points to Cauchy stresses [dim^2, n] and makes that F = I; also "proportional"
+//       and "isotropic"; all points or none
 //   grainlawEvaluate(sand, F, P [, A [, threads]])     number of points that found no equilibrium
 //       F, P [dim^2, n]: component i*dim+J; A [dim^4, n]: dP_iJ/dF_kL at ((i*dim+J)*dim+k)*dim+L
 //   grainlawAnswer(sand, P [, A])                      P and A as they were committed, without an
@@ -55,6 +60,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -70,7 +76,8 @@ using Matrix = KNM<double>*;  // real[int,int]
 struct Led {
   PointSet points;
   StepMarch march;
-  Led(const std::string& material, long count) : points(material, count), march(points.points()) {}
+  Led(const std::vector<std::string>& materials, const std::vector<long>& counts)
+      : points(materials, counts), march(points.points()) {}
 };
 
 // Numbers of sets are never used twice, so that a stale one is told.
@@ -142,8 +149,32 @@ string* for_script(Stack stack, const std::string& text) {
 
 long create(string* const& path, const long& points) {
   return guarded("grainlawCreate", [&] {
-    sets.emplace(last_number + 1, std::make_unique<Led>(*path, points));
+    sets.emplace(last_number + 1,
+                 std::make_unique<Led>(std::vector{std::string(*path)}, std::vector{points}));
     return ++last_number;
+  });
+}
+
+using Strings = KN<String>*;  // string[int]
+using Integers = KN<long>*;   // int[int]
+
+long create(const Strings& paths, const Integers& points) {
+  return guarded("grainlawCreate", [&] {
+    std::vector<std::string> materials;
+    for (long k = 0; k < paths->N(); ++k) materials.emplace_back(**(*paths)[k].getap());
+    std::vector<long> counts;
+    for (long k = 0; k < points->N(); ++k) counts.push_back((*points)[k]);
+    sets.emplace(last_number + 1, std::make_unique<Led>(materials, counts));
+    return ++last_number;
+  });
+}
+
+template <class Field>
+long consolidate(const long& number, const Field& sigma, const Field& reached, string* const& route,
+                 const double& overconsolidation) {
+  return guarded("grainlawConsolidate", [&] {
+    find(number).consolidate(view(sigma), view(reached), *route, overconsolidation);
+    return 0L;
   });
 }
 
@@ -310,6 +341,8 @@ void add_array_functions() {
              new OneOperator4_<long, long, Field, Field, Field>(evaluate<Field>));
   Global.Add("grainlawEvaluate", "(",
              new OneOperator5_<long, long, Field, Field, Field, long>(evaluate<Field>));
+  Global.Add("grainlawConsolidate", "(",
+             new OneOperator5_<long, long, Field, Field, string*, double>(consolidate<Field>));
   Global.Add("grainlawAnswer", "(", new OneOperator2_<long, long, Field>(answer<Field>));
   Global.Add("grainlawAnswer", "(", new OneOperator3_<long, long, Field, Field>(answer<Field>));
   Global.Add("grainlawMeasure", "(", new OneOperator3_<long, long, string*, Field>(measure<Field>));
@@ -339,6 +372,7 @@ void add_functions() {
   hear_last_words();
   add_march_functions();
   Global.Add("grainlawCreate", "(", new OneOperator2_<long, string*, long>(create));
+  Global.Add("grainlawCreate", "(", new OneOperator2_<long, Strings, Integers>(create));
   add_array_functions<Vector>();
   add_array_functions<Matrix>();
   Global.Add("grainlawSetTimeStep", "(", new OneOperator2_<long, long, double>(set_time_step));

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <numeric>
 #include <span>
 #include <stdexcept>
 
@@ -63,17 +64,38 @@ grainlaw_measure measure_named(const std::string& name) {
   throw std::invalid_argument("there is no measure \"" + name + "\", expected one of " + names);
 }
 
-grainlaw::Points create(const std::string& material_path, long points) {
-  if (points < 1)
-    throw std::invalid_argument("the number of points is " + std::to_string(points) +
-                                ", expected at least 1");
-  return {grainlaw::Material::load(material_path), static_cast<std::size_t>(points)};
+grainlaw::Points create(const std::vector<std::string>& material_paths,
+                        const std::vector<long>& points) {
+  if (material_paths.empty() || material_paths.size() != points.size())
+    throw std::invalid_argument(std::to_string(material_paths.size()) + " materials and " +
+                                std::to_string(points.size()) +
+                                " numbers of points, expected as many of both");
+  const long fewest = *std::min_element(points.begin(), points.end());
+  const long count = std::accumulate(points.begin(), points.end(), 0L);
+  if (fewest < 0 || count < 1)
+    throw std::invalid_argument("the number of points is " +
+                                std::to_string(std::min(fewest, count)) + ", expected at least 1");
+  std::vector<grainlaw::Material> materials;
+  for (const std::string& path : material_paths)
+    materials.push_back(grainlaw::Material::load(path));
+  grainlaw::Points all(materials[0], static_cast<std::size_t>(points[0]));
+  for (std::size_t k = 1; k < materials.size(); ++k)
+    all.resize(all.size() + static_cast<std::size_t>(points[k]), materials[k]);
+  return all;
+}
+
+grainlaw_route route_named(const std::string& name) {
+  if (name == "k0") return GRAINLAW_K0;
+  if (name == "proportional") return GRAINLAW_PROPORTIONAL;
+  if (name == "isotropic") return GRAINLAW_ISOTROPIC;
+  throw std::invalid_argument("the route is \"" + name +
+                              "\", expected \"k0\", \"proportional\" or \"isotropic\"");
 }
 
 }  // namespace
 
-PointSet::PointSet(const std::string& material_path, long points)
-    : points_(create(material_path, points)) {}
+PointSet::PointSet(const std::vector<std::string>& material_paths, const std::vector<long>& points)
+    : points_(create(material_paths, points)) {}
 
 long PointSet::evaluate(const Array& F, const Array& P, const Array* A, long threads) {
   const std::size_t n = points_.size();
@@ -105,6 +127,23 @@ long PointSet::answer(const Array& P, const Array* A) {
   const std::span tangent(A != nullptr ? A->data : nullptr, A != nullptr ? n * square * square : 0);
   last_ = points_.answer({P.data, n * square}, GRAINLAW_WANT_TANGENT_EXACT, tangent);
   return last_.summary.failed;
+}
+
+void PointSet::consolidate(const Array& sigma, const Array& reached, const std::string& route,
+                           double overconsolidation) {
+  const std::size_t n = points_.size();
+  const auto square = static_cast<std::size_t>(dimension() * dimension());
+  expect("sigma", sigma, square, n);
+  expect("the stress that is reached", reached, square, n);
+  grainlaw_consolidation how = grainlaw_consolidation_default();
+  how.route = route_named(route);
+  how.overconsolidation = overconsolidation;
+  std::vector<std::size_t> all(n);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const auto led =
+      points_.consolidate(all, {sigma.data, n * square}, how, {reached.data, n * square});
+  if (!led) throw std::runtime_error(led.message());
+  last_ = {};
 }
 
 void PointSet::set_time_step(double step) {

@@ -19,8 +19,9 @@ struct Array {
 // changed.
 class PointSet {
  public:
-  // Points at F = I of the material of a file.
-  PointSet(const std::string& material_path, long points);
+  // Points at F = I of materials of files, so many of each, one material after the other. Every
+  // file is read before a point is made.
+  PointSet(const std::vector<std::string>& material_paths, const std::vector<long>& points);
 
   [[nodiscard]] long size() const { return static_cast<long>(points_.size()); }
   [[nodiscard]] long dimension() const { return points_.dimension(); }
@@ -34,6 +35,11 @@ class PointSet {
   // P[dim^2, n] and, unless null, A[dim^4, n] as they were committed, without an increment: what a
   // script goes on from after a restart. Returns and last() as evaluate().
   long answer(const Array& P, const Array* A);
+
+  // Leads all points to the Cauchy stresses sigma[dim^2, n] and makes that F = I; what they are
+  // there goes to reached[dim^2, n]. Route: "k0" along the last axis, "proportional", "isotropic".
+  void consolidate(const Array& sigma, const Array& reached, const std::string& route,
+                   double overconsolidation);
 
   // How long increments take from now on: a material with solver.viscous_rate asks for it.
   void set_time_step(double step);

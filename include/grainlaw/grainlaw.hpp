@@ -312,6 +312,23 @@ class Points {
     check(agreed, message.data());
   }
 
+  // Lead the points `which` to the Cauchy stress sigma[n*dim*dim] and make that F = I, all or none.
+  // reached[n*dim*dim], status[n] may be empty. Throws StatusError for a status < 0.
+  [[nodiscard]] PointsEvaluation consolidate(
+      std::span<const std::size_t> which, std::span<const double> sigma,
+      const grainlaw_consolidation& how = grainlaw_consolidation_default(),
+      std::span<double> reached = {}, int threads = 0, std::span<grainlaw_status> status = {}) {
+    if (sigma.size() != which.size() * square() || !fits(reached.size(), sigma.size()) ||
+        !fits(status.size(), which.size()))
+      refuse_sizes();
+    PointsEvaluation result;
+    result.status =
+        grainlaw_points_consolidate(get(), which.size(), which.data(), sigma.data(), &how,
+                                    given(reached), given(status), threads, &result.summary);
+    if (result.status < 0) throw StatusError(result.status, result.message());
+    return result;
+  }
+
   // Act on all points; commit fails for all where one has no trial.
   void set_time_step(double step) { check(grainlaw_points_set_time_step(get(), step)); }
   void commit() { check(grainlaw_points_commit(get())); }

@@ -160,6 +160,51 @@ GRAINLAW_API grainlaw_status grainlaw_points_clone_some(grainlaw_points* to, siz
                                                         const grainlaw_points* from,
                                                         const size_t* which_from);
 
+/* ---- initial stress ------------------------------------------------------------------------- */
+
+typedef GRAINLAW_ENUM(grainlaw_route){
+    GRAINLAW_PROPORTIONAL = 0, /* all components together, from the present stress */
+    GRAINLAW_ISOTROPIC = 1,    /* to the mean pressure with equal principal stresses, then on */
+    GRAINLAW_K0 = 2 /* the traction on the plane across `axis`, without strain within it */
+} grainlaw_route;
+
+/* How points are led to a stress. It starts with its own size and grows only at its end. */
+typedef struct grainlaw_consolidation {
+  size_t size;           /* bytes of this struct in the caller's header */
+  grainlaw_route route;  /* by which the stress is led */
+  double axis[3];        /* of K0: across the plane, e.g. against gravity; 0: the last axis [-] */
+  double first_pressure; /* isotropic pressure to lead to before; 0: none [Pa] */
+  double overconsolidation; /* stress of the past over the one asked for, at least 1 [-] */
+  double largest_step;      /* change of the stress in one increment over its norm [-] */
+} grainlaw_consolidation;
+
+/* Proportional, from the present stress, overconsolidation 1, largest_step 0.05. */
+GRAINLAW_API grainlaw_consolidation grainlaw_consolidation_default(void);
+
+/* Lead the committed states of some points to the Cauchy stress sigma[n*dim*dim] (symmetric, to 1e-8
+ * of it), and make that the state at F = I. All or none. The shape and volume there are the
+ * reference; DISSIPATED_ENERGY, BROKEN_BONDS and rotations count from there.
+ *
+ * Newton's method leads the symmetric stretch by the exact tangent. Of K0 the traction sigma n is led
+ * as asked for, and the stress within the plane is what comes of it; n need not have length 1. With
+ * overconsolidation the route leads to so much times sigma (ISOTROPIC: its mean) and back. With
+ * solver.viscous_number every increment lasts long enough for drag to fade, whatever time the host
+ * tells, and the state is held until none is left. Equal states that are to have equal stresses are
+ * led once.
+ *
+ * how NULL: the default. reached[n*dim*dim] or NULL: the stress of each point there; where a point
+ * fails, the last stress in balance on its way. status[n] or NULL. threads, summary and the returned
+ * status are as of grainlaw_points_evaluate, and agreed by the ranks of a shared set. After a failure
+ * every point is as it was. Errors, told in the summary's message: BAD_ARGUMENT (a wrong number of a point; sigma
+ * not finite, not symmetric, or in tension where contacts bear none; boundary.stress; options),
+ * NULL_POINTER, BAD_HANDLE, BAD_REPORT (size of how or summary), NOT_CONVERGED, CONTACTS_LOST,
+ * COLLAPSED (more than the packing carries), OUT_OF_MEMORY. */
+GRAINLAW_API grainlaw_status grainlaw_points_consolidate(grainlaw_points*, size_t n,
+                                                         const size_t* which, const double* sigma,
+                                                         const grainlaw_consolidation* how,
+                                                         double* reached, grainlaw_status* status,
+                                                         int threads, grainlaw_summary* summary);
+
 /* ---- ranks ---------------------------------------------------------------------------------- */
 
 typedef GRAINLAW_ENUM(grainlaw_op){

@@ -5,6 +5,7 @@
 #include "api/handle.hpp"
 #include "api/report.hpp"
 #include "api/some_points.hpp"
+#include "api/summary.hpp"
 
 #include <grainlaw/grainlaw.h>
 
@@ -17,26 +18,6 @@ using namespace grainlaw::core;
 
 namespace {
 
-// Summary of a call that was refused before any evaluation.
-Summary refusal(grainlaw_status status) {
-  Summary summary;
-  summary.status = status;
-  summary.step_ratio = 0;
-  std::strncpy(summary.message, grainlaw_status_text(status), sizeof summary.message - 1);
-  return summary;
-}
-
-void write(const Summary& found, int rank, grainlaw_summary* summary) {
-  if (summary == nullptr) return;
-  grainlaw_summary full = grainlaw_summary_default();
-  full.step_ratio = found.step_ratio;
-  full.failed = static_cast<long>(found.failed);
-  if (found.failed > 0) full.first_failed = static_cast<long>(found.first_failed);
-  std::memcpy(full.message, found.message, sizeof full.message);
-  full.rank = rank;
-  api::copy_out(full, summary);
-}
-
 // Evaluates points of a set unless they are refused, with the outcome of all ranks. evaluate(points,
 // order) returns the summary of points numbered as in the call.
 template <class Evaluate>
@@ -44,7 +25,7 @@ grainlaw_status evaluate(grainlaw_points& set, api::SomePoints some, grainlaw_st
                          grainlaw_status* status, grainlaw_summary* summary, Evaluate&& call) {
   const bool unknown = summary != nullptr && !api::known_summary_size(api::claimed_size(summary));
   if (unknown) checked = GRAINLAW_BAD_REPORT;
-  Summary found = refusal(checked);
+  Summary found = api::refusal(checked);
   if (checked == GRAINLAW_OK) {
     found = call(some.points, std::span(set.order.data(), some.points.size()));
     found.first_failed = some.number(found.first_failed);
@@ -52,7 +33,7 @@ grainlaw_status evaluate(grainlaw_points& set, api::SomePoints some, grainlaw_st
     std::fill_n(status, some.asked, checked);
   }
   const int rank = api::agree(set.ranks, found);
-  if (!unknown) write(found, rank, summary);
+  if (!unknown) api::write(found, rank, summary);
   return unknown ? GRAINLAW_BAD_REPORT : found.status;
 }
 

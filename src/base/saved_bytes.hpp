@@ -81,7 +81,7 @@ class ByteReader {
 };
 
 inline constexpr SavedKind saved_state{
-    "saved state", {'G', 'R', 'A', 'I', 'N', 'L', 'A', 'W'}, 2, 4};
+    "saved state", {'G', 'R', 'A', 'I', 'N', 'L', 'A', 'W'}, 2, 6};
 
 // Whether bytes begin with the letters of a kind.
 [[nodiscard]] bool begin_as(std::span<const std::byte> bytes, const SavedKind& kind);

@@ -1,11 +1,9 @@
 #include "state/any_state.hpp"
 
 #include "base/error.hpp"
-#include "homogenise/measures.hpp"
 #include "material/packing_file.hpp"
 #include "state/lists.hpp"
 #include "state/output.hpp"
-#include "state/serialise.hpp"
 
 #include <fmt/format.h>
 
@@ -47,6 +45,11 @@ AnyState::AnyState(AnyState&& other) noexcept = default;
 AnyState& AnyState::operator=(AnyState&& other) noexcept = default;
 AnyState::~AnyState() = default;
 
+bool AnyState::shares_material(const AnyState& other) const {
+  const auto material = [](const auto& state) -> const void* { return &state.material(); };
+  return std::visit(material, state_) == std::visit(material, other.state_);
+}
+
 void AnyState::check_deformation(const double* F) const {
   std::visit([&]<int D>(const State<D>& state) { check<D>(state.effective(F)); }, state_);
 }
@@ -79,36 +82,26 @@ bool AnyState::has_trial() const {
 std::vector<double> AnyState::committed_deformation() const {
   return std::visit(
       [](const auto& state) {
-        const auto& F = state.committed().deformation;
+        const auto F = state.deformation_of_host(state.committed());
         return std::vector<double>(F.begin(), F.end());
       },
       state_);
 }
 
 void AnyState::committed_stress(double* P) const {
-  std::visit([=](const auto& state) { std::ranges::copy(state.committed().stress, P); }, state_);
+  std::visit(
+      [=](const auto& state) { std::ranges::copy(state.stress_of_host(state.committed()), P); },
+      state_);
 }
 
 double AnyState::unforeseen(std::span<const double> tangent) const {
-  return std::visit(
-      [&]<int D>(const State<D>& state) {
-        const Configuration<D>&from = state.committed(), &to = state.current();
-        double squares = 0;
-        for (std::size_t i = 0; i < D * D; ++i) {
-          double left = to.stress[i] - from.stress[i];
-          for (std::size_t k = 0; k < D * D; ++k)
-            left -= tangent[D * D * i + k] * (to.deformation[k] - from.deformation[k]);
-          squares += left * left;
-        }
-        return squares;
-      },
-      state_);
+  return std::visit([&](const auto& state) { return state.unforeseen(tangent); }, state_);
 }
 
 std::size_t AnyState::saved_size() const {
   return std::visit(
       [](const auto& state) {
-        return grainlaw::core::saved_size(state.material(), state.committed());
+        return grainlaw::core::saved_size(state.material(), state.committed(), state.reference());
       },
       state_);
 }
@@ -116,35 +109,26 @@ std::size_t AnyState::saved_size() const {
 void AnyState::save(std::span<std::byte> bytes) const {
   std::visit(
       [&](const auto& state) {
-        save_configuration(state.material(), state.committed(), bytes, state.time_step());
+        save_configuration(state.material(), state.committed(), bytes, state.time_step(),
+                           state.reference());
       },
       state_);
 }
 
 SavedState AnyState::read(std::span<const std::byte> bytes) const {
   return std::visit(
-      [&](const auto& state) {
-        SavedState saved;
-        saved.committed = load_configuration(state.material(), bytes, &saved.time_step);
-        return saved;
-      },
+      [&](const auto& state) -> SavedState { return load_configuration(state.material(), bytes); },
       state_);
 }
 
 void AnyState::restore(SavedState saved) noexcept {
   std::visit(
-      [&]<int D>(State<D>& state) {
-        state.restore(std::get<Configuration<D>>(std::move(saved.committed)), saved.time_step);
-      },
+      [&]<int D>(State<D>& state) { state.restore(std::get<SavedStateOf<D>>(std::move(saved))); },
       state_);
 }
 
 void AnyState::measure(grainlaw_measure what, double* value) const {
-  std::visit(
-      [&](const auto& state) {
-        grainlaw::core::measure(state.material().problem(), state.current(), what, value);
-      },
-      state_);
+  std::visit([&](const auto& state) { state.measure(what, value); }, state_);
 }
 
 std::vector<grainlaw_particle> AnyState::particles() const {

@@ -1,6 +1,7 @@
 // Materials and states of either dimension behind one type.
 #pragma once
 
+#include "state/serialise.hpp"
 #include "state/state.hpp"
 
 #include <grainlaw/grainlaw.h>
@@ -21,11 +22,7 @@ using AnyMaterial =
 // make_material() in the dimension of the description.
 AnyMaterial make_any_material(MaterialDescription description);
 
-// What bytes hold of a state.
-struct SavedState {
-  std::variant<Configuration<2>, Configuration<3>> committed;
-  double time_step = untold;
-};
+using SavedState = std::variant<SavedStateOf<2>, SavedStateOf<3>>;
 
 class AnyState {
  public:
@@ -36,6 +33,7 @@ class AnyState {
   ~AnyState();
 
   [[nodiscard]] int dimension() const { return state_.index() == 0 ? 2 : 3; }
+  [[nodiscard]] bool shares_material(const AnyState& other) const;
 
   // Throws Error (NOT_FINITE, INVERTED; STEP_TOO_LARGE when the determinant overflows) for an F
   // that no packing can follow. Found components do not count.
@@ -61,6 +59,16 @@ class AnyState {
   [[nodiscard]] SavedState read(std::span<const std::byte> bytes) const;
   // Makes a loaded state the committed one and drops the trial.
   void restore(SavedState saved) noexcept;
+
+  // Calls `act` with the state of its dimension.
+  template <class Act>
+  auto visit(Act&& act) {
+    return std::visit(std::forward<Act>(act), state_);
+  }
+  template <class Act>
+  auto visit(Act&& act) const {
+    return std::visit(std::forward<Act>(act), state_);
+  }
 
   // Measure of the trial, or of the committed state without one.
   void measure(grainlaw_measure what, double* value) const;

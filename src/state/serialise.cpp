@@ -5,9 +5,10 @@
 //   contacts: i32 i  i32 j  i16 shift[dim]  u8 1 sliding, 2 bonded;
 //             tangential force, of spheres three  [moment]  [gap of the bond];
 //   [mean strain rate  velocities of the drag's masses  time step];
+//   [F of the packing where that of the host is I, dim*dim];
 //   u64 XXH3 of everything before.
-// Parts in brackets exist only with a law that has bonds, moments or drag. States with drag are of
-// version 4, others of version 2; version 3 was of an earlier drag.
+// Parts in brackets exist only with a law that has bonds, moments or drag, and of a state that was
+// consolidated. Versions: 2, with drag 4, consolidated 5, both 6; 3 was of an earlier drag.
 #include "state/serialise.hpp"
 
 #include "base/error.hpp"
@@ -21,8 +22,9 @@
 namespace grainlaw::core {
 namespace {
 
-constexpr std::uint32_t version_with_drag = saved_state.newest;
 constexpr std::size_t header_size = version_end + sizeof(std::uint32_t) + sizeof(std::uint64_t);
+template <int D>
+constexpr std::size_t reference_size = sizeof(double) * squared<D>;
 template <int D>
 constexpr std::size_t plain_contact_size =
     2 * sizeof(std::int32_t) + D * sizeof(std::int16_t) +
@@ -31,6 +33,12 @@ constexpr std::size_t plain_contact_size =
 template <int D>
 bool has_drag(const Material<D>& material) {
   return material.solver.viscosity.number > 0;
+}
+
+// Version of the bytes, which tells of a reference.
+std::uint32_t version_of(bool drag, bool reference) {
+  if (reference) return drag ? 6 : 5;
+  return drag ? 4 : saved_state.version;
 }
 
 // Number of doubles of the velocities: of positions, and rotations as vectors.
@@ -76,17 +84,20 @@ void check_contacts(const std::vector<ContactHistory<D>>& contacts, std::size_t 
 }  // namespace
 
 template <int D>
-std::size_t saved_size(const Material<D>& material, const Configuration<D>& configuration) {
-  return size_without_contacts(material) + configuration.contacts.size() * contact_size(material);
+std::size_t saved_size(const Material<D>& material, const Configuration<D>& configuration,
+                       const std::optional<Reference<D>>& reference) {
+  return size_without_contacts(material) + configuration.contacts.size() * contact_size(material) +
+         (reference ? reference_size<D> : 0);
 }
 
 template <int D>
 void save_configuration(const Material<D>& material, const Configuration<D>& configuration,
-                        std::span<std::byte> bytes, double time_step) {
+                        std::span<std::byte> bytes, double time_step,
+                        const std::optional<Reference<D>>& reference) {
   const std::size_t spins = material.law.moments() ? Dimension<D>::spins : 0;
   ByteWriter out(bytes);
   SavedKind written = saved_state;
-  if (has_drag(material)) written.version = version_with_drag;
+  written.version = version_of(has_drag(material), reference.has_value());
   out.begin(written);
   out.put(static_cast<std::uint32_t>(configuration.contacts.size()));
   out.put(material.fingerprint);
@@ -114,12 +125,13 @@ void save_configuration(const Material<D>& material, const Configuration<D>& con
     }
     out.put(time_step);
   }
+  if (reference)
+    for (const double component : reference->deformation()) out.put(component);
   out.end();
 }
 
 template <int D>
-Configuration<D> load_configuration(const Material<D>& material, std::span<const std::byte> bytes,
-                                    double* time_step) {
+SavedStateOf<D> load_configuration(const Material<D>& material, std::span<const std::byte> bytes) {
   check_envelope(bytes, saved_state);
   require(bytes.size() >= header_size + checksum_size, GRAINLAW_BAD_BYTES, "truncated");
   ByteReader in(bytes.subspan(sizeof(SavedKind::letters)));
@@ -127,14 +139,19 @@ Configuration<D> load_configuration(const Material<D>& material, std::span<const
   const std::size_t contacts = in.get<std::uint32_t>();
   require(in.get<std::uint64_t>() == material.fingerprint, GRAINLAW_WRONG_MATERIAL,
           "of another material");
-  require(version == (has_drag(material) ? version_with_drag : saved_state.version),
-          GRAINLAW_WRONG_VERSION, "of another format version");
-  const std::size_t fixed_size = size_without_contacts(material);
+  const bool has_reference = version == version_of(has_drag(material), true);
+  require(has_reference || version == version_of(has_drag(material), false), GRAINLAW_WRONG_VERSION,
+          "of another format version");
+  require(!has_reference || !material.space.finds_deformation, GRAINLAW_WRONG_MATERIAL,
+          "consolidated, which boundary.stress does not take");
+  const std::size_t fixed_size =
+      size_without_contacts(material) + (has_reference ? reference_size<D> : 0);
   require(
       bytes.size() >= fixed_size && bytes.size() - fixed_size == contacts * contact_size(material),
       GRAINLAW_BAD_BYTES, "its length does not fit its content");
 
-  Configuration<D> found;
+  SavedStateOf<D> saved;
+  Configuration<D>& found = saved.committed;
   for (std::size_t k = 0; k < squared<D>; ++k) found.deformation[k] = in.get_finite();
   for (std::size_t k = 0; k < squared<D>; ++k) found.stress[k] = in.get_finite();
   found.dissipated = in.get_finite();
@@ -156,7 +173,7 @@ Configuration<D> load_configuration(const Material<D>& material, std::span<const
     for (std::size_t k = 0; k < spins; ++k) found.moments.push_back(in.get_finite());
     if (material.law.bonds()) found.bond_gaps.push_back(in.get_finite());
   }
-  double step = untold;
+  double& step = saved.time_step;
   if (has_drag(material)) {
     for (double& component : found.strain_rate) component = in.get_finite();
     found.velocity.resize(velocities(material));
@@ -164,20 +181,26 @@ Configuration<D> load_configuration(const Material<D>& material, std::span<const
     step = in.get_finite();
   }
   require(step >= 0 || step == untold, GRAINLAW_BAD_BYTES, "a time step below 0");
-  if (time_step != nullptr) *time_step = step;
+  if (has_reference) {
+    Tensor<D> deformation{};
+    for (double& component : deformation) component = in.get_finite();
+    require(determinant<D>(deformation) > 0, GRAINLAW_BAD_BYTES, "det F <= 0");
+    saved.reference.emplace(deformation);
+  }
   const auto none = [](double gap) { return gap == 0; };
   if (std::all_of(found.bond_gaps.begin(), found.bond_gaps.end(), none)) found.bond_gaps.clear();
   require(determinant<D>(found.deformation) > 0, GRAINLAW_BAD_BYTES, "det F <= 0");
   check_contacts<D>(found.contacts, material.packing.size());
-  return found;
+  return saved;
 }
 
-#define GRAINLAW_FOR(D)                                                                        \
-  template std::size_t saved_size(const Material<D>&, const Configuration<D>&);                \
-  template void save_configuration(const Material<D>&, const Configuration<D>&,                \
-                                   std::span<std::byte>, double);                              \
-  template Configuration<D> load_configuration(const Material<D>&, std::span<const std::byte>, \
-                                               double*);
+#define GRAINLAW_FOR(D)                                                         \
+  template std::size_t saved_size(const Material<D>&, const Configuration<D>&,  \
+                                  const std::optional<Reference<D>>&);          \
+  template void save_configuration(const Material<D>&, const Configuration<D>&, \
+                                   std::span<std::byte>, double,                \
+                                   const std::optional<Reference<D>>&);         \
+  template SavedStateOf<D> load_configuration(const Material<D>&, std::span<const std::byte>);
 GRAINLAW_FOR(2)
 GRAINLAW_FOR(3)
 

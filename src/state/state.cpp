@@ -147,26 +147,26 @@ bool State<D>::commit() {
 }
 
 template <int D>
-void State<D>::restore(Configuration<D> committed, double time_step) {
-  committed_ = std::move(committed);
-  time_step_ = time_step;
-  has_trial_ = false;
-}
-
-template <int D>
-Tensor<D> State<D>::effective(const double* F) const {
-  Tensor<D> f = tensor_of<D>(F);
-  for (std::size_t k = 0; k < squared<D>; ++k) {
-    if (material_->space.found[k]) f[k] = committed_.deformation[k];
-  }
-  return f;
-}
-
-template <int D>
 grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double* P, double* A,
                                    grainlaw_report& report) {
+  Tensor<D> F = effective(given);
+  if (reference_) F = reference_->to_packing(F);
+  Answer<D> answer;
+  const auto status = follow(F, {}, kind, answer, report);
+  if (status != GRAINLAW_OK) return status;
+  if (reference_) answer.stress = reference_->stress_of_host(answer.stress);
+  if (P != nullptr) std::copy(answer.stress.begin(), answer.stress.end(), P);
+  if (A == nullptr || kind == TangentKind::none) return status;
+  if (reference_) answer.tangent = reference_->tangent_of_host(answer.tangent);
+  std::copy(answer.tangent.begin(), answer.tangent.end(), A);
+  return status;
+}
+
+template <int D>
+grainlaw_status State<D>::follow(const Tensor<D>& F, std::optional<double> duration,
+                                 TangentKind kind, Answer<D>& answer, grainlaw_report& report) {
   try {
-    return evaluate(given, kind, P, A, report, workspace<D>());
+    return follow(F, duration, kind, answer, report, workspace<D>());
   } catch (...) {
     drop_workspace<D>();
     throw;
@@ -174,9 +174,9 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
 }
 
 template <int D>
-grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double* P, double* A,
-                                   grainlaw_report& report, Workspace<D>& w) {
-  const Tensor<D> F = effective(given);
+grainlaw_status State<D>::follow(const Tensor<D>& F, std::optional<double> duration,
+                                 TangentKind kind, Answer<D>& answer, grainlaw_report& report,
+                                 Workspace<D>& w) {
   const auto split = grainlaw::core::split<D>(material_->space, F, committed_.deformation);
   const bool had_trial = std::exchange(has_trial_, false);
   if (too_far(split)) {
@@ -185,7 +185,8 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
     return GRAINLAW_STEP_TOO_LARGE;
   }
   const Problem<D> problem = material_->problem();
-  const auto request = request_of(problem, split, F, kind, had_trial, w);
+  const double lasts = duration ? *duration : duration_of(*material_, committed_, F, time_step_);
+  const auto request = request_of(problem, split, kind, lasts, had_trial, w);
   const auto outcome = solve(request, w);
   add_outcome(w.increment, outcome, report);
   if (outcome.status != GRAINLAW_OK) {
@@ -193,7 +194,6 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
     return outcome.status;
   }
 
-  Answer<D> answer;
   if (const auto status = answer_of(outcome, kind, w, answer, report); status != GRAINLAW_OK)
     return status;
   keep_trial(outcome, w, report);
@@ -203,14 +203,12 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
       return status;
     }
   }
-  rotate_back(split, F, A != nullptr && kind != TangentKind::none, answer);
+  rotate_back(split, F, kind != TangentKind::none, answer);
   if (!all_finite(answer.tangent) || !all_finite(trial_)) {
     describe(report, "numbers too large: the stress, the tangent or the state overflows");
     return GRAINLAW_NOT_CONVERGED;
   }
-  if (P != nullptr) std::copy(trial_.stress.begin(), trial_.stress.end(), P);
-  if (A != nullptr && kind != TangentKind::none)
-    std::copy(answer.tangent.begin(), answer.tangent.end(), A);
+  answer.stress = trial_.stress;
   has_trial_ = true;
   return GRAINLAW_OK;
 }
@@ -218,7 +216,7 @@ grainlaw_status State<D>::evaluate(const double* given, TangentKind kind, double
 // What the solver has to find, from the last trial if the material says so.
 template <int D>
 Request<D> State<D>::request_of(const Problem<D>& problem, const SplitIncrement<D>& split,
-                                const Tensor<D>& F, TangentKind kind, bool had_trial,
+                                TangentKind kind, double duration, bool had_trial,
                                 Workspace<D>& w) const {
   const auto& solver = material_->solver;
   Request<D> request{&problem, &solver, &committed_, split.target};
@@ -226,7 +224,7 @@ Request<D> State<D>::request_of(const Problem<D>& problem, const SplitIncrement<
   request.tolerance = solver.tolerance;
   request.loose_tolerance = solver.loose_tolerance;
   request.sensitivities = kind == TangentKind::exact;
-  request.duration = duration_of(*material_, committed_, F, time_step_);
+  request.duration = duration;
   if (had_trial && solver.start == Start::trial) {
     guess_from_trial(committed_, trial_, material_->packing.size(), w, request);
     follow_slopes<D>(trial_slopes_, w.guess_step, request);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "material/material.hpp"
+#include "state/reference.hpp"
+#include "state/serialise.hpp"
 #include "state/time_step.hpp"
 
 #include <grainlaw/grainlaw.h>
@@ -43,6 +45,22 @@ class State {
   grainlaw_status evaluate(const double* F, TangentKind kind, double* P, double* A,
                            grainlaw_report& report);
 
+  // Evaluates at the packing's own F, whatever the reference; P and A are of it. `duration` [memories]
+  // replaces the time that the host told.
+  grainlaw_status follow(const Tensor<D>& F, std::optional<double> duration, TangentKind kind,
+                         Answer<D>& answer, grainlaw_report& report);
+
+  // Makes the committed state, at rest, the one at F = I, from which losses and rotations count.
+  void set_reference_here();
+  [[nodiscard]] const std::optional<Reference<D>>& reference() const { return reference_; }
+  // F and P [Pa] of the host there.
+  [[nodiscard]] Tensor<D> deformation_of_host(const Configuration<D>& there) const;
+  [[nodiscard]] Tensor<D> stress_of_host(const Configuration<D>& there) const;
+  // Squared norm of the change of P to the trial that the tangent does not explain [Pa^2].
+  [[nodiscard]] double unforeseen(std::span<const double> tangent) const;
+  // Measure of the trial, or of the committed state without one.
+  void measure(grainlaw_measure what, double* value) const;
+
   // F with its found components replaced by the committed ones.
   [[nodiscard]] Tensor<D> effective(const double* F) const;
 
@@ -55,14 +73,15 @@ class State {
   [[nodiscard]] bool has_trial() const { return has_trial_; }
   [[nodiscard]] const Configuration<D>& committed() const { return committed_; }
   [[nodiscard]] const Configuration<D>& current() const { return has_trial_ ? trial_ : committed_; }
-  void restore(Configuration<D> committed, double time_step = untold);
+  void restore(SavedStateOf<D> saved);
+  void restore(Configuration<D> committed);  // of the packing's reference
   [[nodiscard]] const Material<D>& material() const { return *material_; }
 
  private:
-  grainlaw_status evaluate(const double* F, TangentKind kind, double* P, double* A,
-                           grainlaw_report& report, Workspace<D>& workspace);
+  grainlaw_status follow(const Tensor<D>& F, std::optional<double> duration, TangentKind kind,
+                         Answer<D>& answer, grainlaw_report& report, Workspace<D>& workspace);
   [[nodiscard]] Request<D> request_of(const Problem<D>& problem, const SplitIncrement<D>& split,
-                                      const Tensor<D>& F, TangentKind kind, bool had_trial,
+                                      TangentKind kind, double duration, bool had_trial,
                                       Workspace<D>& workspace) const;
   grainlaw_status answer_of(const Outcome& outcome, TangentKind kind, const Workspace<D>& workspace,
                             Answer<D>& answer, grainlaw_report& report) const;
@@ -71,6 +90,7 @@ class State {
                    Answer<D>& answer);
 
   std::shared_ptr<const Material<D>> material_;
+  std::optional<Reference<D>> reference_;  // none: that of the packing
   Configuration<D> committed_;
   Configuration<D> trial_;
   bool has_trial_ = false;

@@ -70,7 +70,7 @@ grainlaw_status status_after(void (*change)(Configuration&)) {
 
 TEST(serialise, round_trip_keeps_every_bit) {
   const auto bytes = save(small_configuration());
-  const Configuration loaded = load_configuration(small_material(), bytes);
+  const Configuration loaded = load_configuration(small_material(), bytes).committed;
   EXPECT_EQ(save(loaded), bytes);
   EXPECT_TRUE(std::signbit(loaded.coordinates[8]));
   EXPECT_EQ(loaded.contacts[1].shift[0], -1);
@@ -100,16 +100,35 @@ TEST(serialise, a_time_step_is_kept_with_drag) {
   material.solver.viscosity.number = 1e-3;
   std::vector<std::byte> bytes(saved_size(material, small_configuration()));
   EXPECT_EQ(bytes.size(), without + 8 * (4 + 9) + 8);
-  double step = 0;
   for (const double told : {untold, 0.0, 1e-300, 0.25}) {
     save_configuration(material, small_configuration(), bytes, told);
     EXPECT_EQ(std::memcmp(bytes.data(), "GRAINLAW\4\0\0\0", 12), 0);
-    (void)load_configuration(material, bytes, &step);
-    EXPECT_EQ(step, told);
+    EXPECT_EQ(load_configuration(material, bytes).time_step, told);
   }
   for (const double wrong : {-0.5, static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
     save_configuration(material, small_configuration(), bytes, wrong);
     EXPECT_EQ(status_of(bytes, material), GRAINLAW_BAD_BYTES) << wrong;
+  }
+}
+
+TEST(serialise, a_reference_is_kept_and_is_another_version) {
+  Material material = small_material();
+  for (const double number : {0.0, 1e-3}) {
+    material.solver.viscosity.number = number;
+    const std::optional reference = Reference<2>({0.99, 0.01, 0, 0.98});
+    const auto small = small_configuration();
+    std::vector<std::byte> bytes(saved_size(material, small, reference));
+    EXPECT_EQ(bytes.size(), saved_size(material, small) + 8 * 4);
+    save_configuration(material, small, bytes, untold, reference);
+    EXPECT_EQ(bytes[8],
+              static_cast<std::byte>(number > 0 ? 6 : 5));  // above what older libraries read
+    const auto loaded = load_configuration(material, bytes).reference;
+    ASSERT_TRUE(loaded.has_value());
+    EXPECT_EQ(loaded->deformation(), reference->deformation());
+    bytes[bytes.size() - 10] ^= std::byte{1};
+    EXPECT_EQ(status_of(bytes, material), GRAINLAW_BAD_BYTES);
+    save_configuration(material, small, bytes, untold, std::optional(Reference<2>({0, 1, 1, 0})));
+    EXPECT_EQ(status_of(bytes, material), GRAINLAW_BAD_BYTES);
   }
 }
 

@@ -60,7 +60,7 @@ class freefem_save : public testing::Test {
 
   TemporaryDirectory directory;
   std::string path = directory / "points", before, after;
-  PointSet points{GRAINLAW_TEST_DATA "/bonded100.toml", 2};
+  PointSet points{{GRAINLAW_TEST_DATA "/bonded100.toml"}, {2}};
 };
 
 TEST_F(freefem_save, with_a_call_of_the_system_that_fails) {

@@ -23,8 +23,8 @@ the dynamic loader finds.
     grainlaw.files       files that are the old one or the whole new one
 """
 from . import files, laboratory, tests
-from .abi import Error, status_text, version
-from .march import March, StepError
+from .abi import Error, StepError, status_text, version
+from .march import March
 from .material import Material
 from .names import Action, Measure, Status, Tangent
 from .points import Evaluation, State, States

@@ -8,7 +8,8 @@ from collections.abc import Callable
 from typing import Any
 
 from .arguments import LARGEST_INT, whole
-from .names import ABI, VERSION, MarchOptions, Part, Report, Status, Summary
+from .names import (ABI, VERSION, Consolidation, MarchOptions, Part, Report, Status,
+                    Summary)
 
 
 # grainlaw_reduce: context, values, how many, grainlaw_op.
@@ -63,6 +64,14 @@ def _raise_of_callback(result: Any, _function: Any, _arguments: Any) -> Any:
     return result
 
 
+class StepError(Exception):
+    """A load step that failed in its smallest part too. status is that of the last evaluation."""
+
+    def __init__(self, status: int, message: str) -> None:
+        super().__init__(message)
+        self.status = status
+
+
 def _open() -> ctypes.CDLL:
     file = f"libgrainlaw.so.{ABI}"
     here = os.path.dirname(os.path.abspath(__file__))
@@ -82,7 +91,8 @@ def _open() -> ctypes.CDLL:
                 ((library.grainlaw_report_default, Report),
                  (library.grainlaw_summary_default, Summary),
                  (library.grainlaw_part_default, Part),
-                 (library.grainlaw_march_options_default, MarchOptions)))
+                 (library.grainlaw_march_options_default, MarchOptions),
+                 (library.grainlaw_consolidation_default, Consolidation)))
     if found.split(".")[0] != str(ABI) or small:
         raise ImportError(f"{path} is grainlaw {found}; this module was made for {VERSION}")
     return library
@@ -114,6 +124,9 @@ def _declare(library: ctypes.CDLL) -> None:
                                  ctypes.POINTER(Summary)),
         "points_answer": (ctypes.c_int, pointer, ctypes.c_uint, pointer, pointer, ctypes.c_int,
                           ctypes.POINTER(Summary)),
+        "points_consolidate": (ctypes.c_int, pointer, size, pointer, pointer,
+                               ctypes.POINTER(Consolidation), pointer, pointer, ctypes.c_int,
+                               ctypes.POINTER(Summary)),
         "points_cost": (ctypes.c_int, pointer, pointer),
         "points_save_some": (ctypes.c_int, pointer, size, pointer, pointer, pointer),
         "points_load_some": (ctypes.c_int, pointer, size, pointer, text, pointer, text, size),

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .abi import StepError
 from .arguments import MOST_STEPS, number, whole
 from .control import Condition, Segment, cauchy
 from .lead import Lead
-from .march import StepError
 from .progress import Progress
 from .result import Result
 

@@ -38,11 +38,13 @@ __all__ = ["Newton", "Points", "end_together", "read_material", "together"]
 
 
 class Points:
-    """The quadrature points of a mesh, of one material; a rank has those of the cells that it owns, which
-    may be none: forms are assembled over no others. d is the dimension of material and mesh.
+    """The quadrature points of a mesh; a rank has those of the cells that it owns, which may be none: forms
+    are assembled over no others. d is the dimension of materials and mesh.
 
     domain    a dolfinx.mesh.Mesh
+    material  one, or several with `layer`
     degree    of the quadrature, basix' default scheme
+    layer     the numbers (n,) of the materials of points at x (d, n) [m]
 
     Raises Error for a material of another dimension than the mesh, and where ranks have different ones."""
 
@@ -51,11 +53,17 @@ class Points:
     dx: Any  #: measure of forms with P or A
     states: States                   #: of this rank, by cell and point; shared by the ranks
     cells: npt.NDArray[np.int64]     #: number in the input mesh of each cell that this rank owns
+    x: Array                         #: places of the points of this rank at first (n, d) [m]
+    layer: npt.NDArray[np.int64]     #: number of the material of each point (n,)
+    gone: npt.NDArray[np.bool_]      #: points that have left (n,)
 
-    def __init__(self, domain: Any, material: Material, degree: int) -> None:
+    def __init__(self, domain: Any, material: Material | Sequence[Material], degree: int,
+                 layer: Callable[[Array], npt.ArrayLike] | None = None) -> None:
         self.comm, self.domain = domain.comm, domain
-        check_same(self.comm, material)
-        d = self.dimension = material.dimension
+        materials = [material] if isinstance(material, Material) else list(material)
+        for each in materials:
+            check_same(self.comm, each)
+        d = self.dimension = materials[0].dimension
         if not domain.geometry.dim == domain.topology.dim == d:
             raise Error(Status.BAD_ARGUMENT, f"a mesh of dimension {domain.topology.dim} in "
                         f"{domain.geometry.dim}D: expected {d}, as of the material")
@@ -68,8 +76,15 @@ class Points:
         self._owned = np.arange(owned, dtype=np.int32)
         self.P, self._P_rows = self._function(cell, degree, d)
         self.A, self._A_rows = self._function(cell, degree, d * d)
+        count = owned * len(self._where)
+        self.x = fem.Expression(ufl.SpatialCoordinate(domain), self._where).eval(
+            self._owned).reshape(-1, d)
         with together(self.comm):
-            self.states = States(material, owned * len(self._where))
+            numbers = np.zeros(count) if layer is None else layer(self.x.T)
+            self.layer = np.asarray(numbers, np.int64)
+            self.states = _states(materials, self.layer)
+        self.gone = np.zeros(count, bool)
+        self._F = self._committed_F = np.tile(np.eye(d), (count, 1, 1))
         if self.comm.size > 1:
             self.states.share(self.comm.rank, self._reduce)
         self._gradients: dict[Any, Any] = {}
@@ -79,8 +94,9 @@ class Points:
         """Evaluate all points at F = I + grad u, with the exact tangent. P and A follow where all points
         found an equilibrium. The answer's arrays are of this rank, its outcome is that of all."""
         with together(self.comm):
-            F = np.eye(self.dimension) + self._gradient(u)
-        answer = self.states.evaluate(F, Tangent.EXACT)
+            self._F = np.eye(self.dimension) + self._gradient(u)
+            self._F[self.gone] = self._committed_F[self.gone]
+        answer = self.states.evaluate(self._F, Tangent.EXACT)
         if answer.ok:
             self._set(answer)
         return answer
@@ -97,12 +113,25 @@ class Points:
     def commit(self) -> None:
         """Make the trials the committed states, of all ranks or none."""
         self.states.commit()
+        self._committed_F = self._F
         self._keep()
 
     def revert(self) -> None:
         """Back to the committed states, with their P and A."""
         self.states.revert()
         self.P.x.array[:], self.A.x.array[:] = self._committed
+
+    def consolidate(self, sigma: npt.ArrayLike, **how: Any) -> None:
+        """Lead the points of this rank to Cauchy stresses (n, d, d) [Pa], as States.consolidate; their
+        shapes there are F = I."""
+        self.states.consolidate(sigma, **how)
+        self._F = self._committed_F = np.tile(np.eye(self.dimension), (len(self.gone), 1, 1))
+
+    def remove(self, points: npt.NDArray[np.bool_]) -> None:
+        """Points (n,) of this rank leave: their P and A are 0 from now on."""
+        self.gone = self.gone | points
+        self._clear_gone()
+        self._keep()
 
     def save(self, path: AnyPath, *functions: Any, load: float = 0.0) -> None:
         """Write the committed states of all cells to one file, with the values of functions at their
@@ -176,6 +205,12 @@ class Points:
         d = self.dimension
         self.P.x.array.reshape(-1, d**2)[self._P_rows] = answer.P.reshape(-1, d**2)
         self.A.x.array.reshape(-1, d**4)[self._A_rows] = answer.A.reshape(-1, d**4)
+        self._clear_gone()
+
+    def _clear_gone(self) -> None:
+        d = self.dimension
+        self.P.x.array.reshape(-1, d**2)[self._P_rows[self.gone]] = 0
+        self.A.x.array.reshape(-1, d**4)[self._A_rows[self.gone]] = 0
 
     def _keep(self) -> None:
         self._committed = self.P.x.array.copy(), self.A.x.array.copy()
@@ -183,6 +218,21 @@ class Points:
     def _reduce(self, values: Array, operation: str) -> Array:
         self.comm.Allreduce(MPI.IN_PLACE, values, MPI.MIN if operation == "min" else MPI.SUM)
         return values
+
+
+def _states(materials: Sequence[Material], layer: npt.NDArray[np.int64]) -> States:
+    """States in the order of the points, of the materials that `layer` numbers."""
+    wrong = layer[(layer < 0) | (layer >= len(materials))]
+    if wrong.size:
+        raise Error(Status.BAD_ARGUMENT, f"layer {wrong[0]}, expected a number from 0 to "
+                    f"{len(materials) - 1}: a missing material")
+    if len(materials) == 1:
+        return States(materials[0], len(layer))
+    states = States(materials[0], 0)
+    for end in range(1, len(layer) + 1):
+        if end == len(layer) or layer[end] != layer[end - 1]:
+            states.resize(end, materials[layer[end - 1]])
+    return states
 
 
 class Newton:

@@ -34,6 +34,7 @@ from typing import Any
 
 import numpy as np
 
+from .abi import StepError
 from .arguments import MOST_STEPS, number, whole
 from .arrays import Array
 from .components import read_conditions
@@ -42,7 +43,6 @@ from .course import Course, Loops, Plan, Stop, keep
 from .ensemble import Ensemble
 from .interrupt import Interrupts
 from .lead import Lead, Options
-from .march import StepError
 from .material import Material
 from .names import Measure
 from .points import State

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from .abi import status_text
+from .abi import StepError, status_text
 from .arrays import Array
 from .control import Condition, Segment, cauchy, controlled, follow_volume, solve, with_volume
 from .interrupt import Interrupts
-from .march import March, StepError
+from .march import March
 from .names import Action, Measure, Status, Tangent
 from .points import Evaluation, State
 

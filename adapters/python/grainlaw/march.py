@@ -26,21 +26,13 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from .abi import Error, Handle, check, library
+from .abi import Error, Handle, StepError, check, library
 from .arguments import MOST_STEPS, number, whole
 from .names import Action, MarchOptions, Part, Status, Summary
 from .points import Evaluation, States
 
 _WHOLE = ("max_iterations", "max_cuts", "patience", "max_crossings")
 _MOST_CUTS = 1000
-
-
-class StepError(Exception):
-    """A load step that failed in its smallest part too. status is that of the last evaluation."""
-
-    def __init__(self, status: int, message: str) -> None:
-        super().__init__(message)
-        self.status = status
 
 
 class March:

@@ -13,12 +13,12 @@ import numpy as np
 import numpy.typing as npt
 
 from . import plots
-from .abi import (REDUCE, Error, Handle, as_bytes, bad_argument, c_text, callback, check, library,
-                  load_by, saved_by, status_text)
+from .abi import (REDUCE, Error, Handle, StepError, as_bytes, bad_argument, c_text, callback, check,
+                  library, load_by, saved_by, status_text)
 from .arrays import Array, Records
 from .arguments import LARGEST_INT, masked, number, whole
 from .material import AnyPath, Material
-from .names import Contact, Particle, Report, Status, Summary
+from .names import Consolidation, Contact, Particle, Report, Status, Summary
 from .particles import records
 
 # grainlaw_report for numpy, its text as one string.
@@ -29,6 +29,8 @@ _report: np.dtype[np.void] = np.dtype({
                 for kind, _ in _layout.fields.values()],
     "offsets": [offset for _, offset in _layout.fields.values()],
     "itemsize": ctypes.sizeof(Report)})
+
+ROUTES = ("proportional", "isotropic", "k0")   # grainlaw_route
 
 
 @dataclass
@@ -151,6 +153,45 @@ class States:
             out.status.ctypes.data, out.reports.ctypes.data, _threads(threads),
             ctypes.byref(out.summary))
         return out.evaluation(result)
+
+    def consolidate(self, sigma: npt.ArrayLike, which: npt.ArrayLike | None = None, *,
+                    route: str = "proportional", axis: npt.ArrayLike | None = None,
+                    first_pressure: float = 0.0, overconsolidation: float = 1.0,
+                    largest_step: float = 0.05, threads: int = 0) -> Array:
+        """Lead these points, or all, to the Cauchy stress sigma (n, d, d) [Pa], tension positive, and
+        make that the state at F = I: all points or none. Returns the stress there (n, d, d) [Pa].
+        Raises StepError where a packing carries less; its text names the point and what it carries.
+
+        route              "proportional": all components together, from the present stress
+                           "isotropic": to the mean pressure with equal principal stresses, then on
+                           "k0": the traction on the plane across `axis` is led, without strain
+                           within the plane, whose stress is found
+        axis               (d,) across that plane, of any length; None: the last axis
+        first_pressure     isotropic pressure to lead to before all else [Pa]; 0: none
+        overconsolidation  stress of the past over sigma, at least 1 [-]
+        largest_step       change of the stress in one increment over its norm [-]
+        """
+        d = self.dimension
+        numbers = np.arange(len(self), dtype=np.uintp) if which is None else _points(which)
+        stress = _numbers(sigma, (len(numbers), d, d), "sigma")
+        if route not in ROUTES:
+            raise bad_argument(f"route {route!r}: expected one of {', '.join(ROUTES)}")
+        normal = np.zeros(3)
+        if axis is not None:
+            normal[:d] = _numbers(axis, (d,), "axis")
+        how = Consolidation(ctypes.sizeof(Consolidation), ROUTES.index(route), tuple(normal),
+                            number("first_pressure", first_pressure, bad_argument),
+                            number("overconsolidation", overconsolidation, bad_argument),
+                            number("largest_step", largest_step, bad_argument))
+        reached, summary = np.zeros_like(stress), Summary(size=ctypes.sizeof(Summary))
+        status = library.grainlaw_points_consolidate(
+            self._handle, len(numbers), numbers.ctypes.data, stress.ctypes.data, ctypes.byref(how),
+            reached.ctypes.data, None, _threads(threads), ctypes.byref(summary))
+        if status < 0:
+            raise Error(status, _message(summary), summary.first_failed if summary.failed else None)
+        if status > 0:
+            raise StepError(status, _message(summary))
+        return reached
 
     def cost(self) -> Array:
         """Processor time of the last evaluation of each point (n,) [s]; 0 before any."""
@@ -350,6 +391,18 @@ class State(States):
         committed."""
         return _of_one(super().answer(tangent, threads))
 
+    def consolidate(self, sigma: npt.ArrayLike, which: npt.ArrayLike | None = None, *,
+                    route: str = "proportional", axis: npt.ArrayLike | None = None,
+                    first_pressure: float = 0.0, overconsolidation: float = 1.0,
+                    largest_step: float = 0.05, threads: int = 0) -> Array:
+        """As States.consolidate, of one stress (d, d) [Pa]."""
+        d = self.dimension
+        reached = super().consolidate(
+            _numbers(sigma, (d, d), "sigma")[None], which, route=route, axis=axis,
+            first_pressure=first_pressure, overconsolidation=overconsolidation,
+            largest_step=largest_step, threads=threads)
+        return reached.reshape(d, d)
+
     def save(self) -> bytes:
         """The committed state as bytes, those of grainlaw_state_save. What C saves can be loaded, and
         C's grainlaw_state_load reads them."""
@@ -405,15 +458,15 @@ def _points(which: npt.ArrayLike) -> npt.NDArray[np.uintp]:
     return np.ascontiguousarray(numbers, np.uintp)
 
 
-def _numbers(F: npt.ArrayLike, shape: tuple[int, ...]) -> Array:
+def _numbers(F: npt.ArrayLike, shape: tuple[int, ...], name: str = "F") -> Array:
     if masked(F):
-        raise bad_argument("F has masked entries, expected a number in each")
+        raise bad_argument(f"{name} has masked entries, expected a number in each")
     try:
         array = np.asarray(F)
     except ValueError as error:
-        raise bad_argument(f"F is no array: {error}") from None
+        raise bad_argument(f"{name} is no array: {error}") from None
     if array.dtype.kind not in "iuf":
-        raise bad_argument(f"F holds {array.dtype}, expected real numbers")
+        raise bad_argument(f"{name} holds {array.dtype}, expected real numbers")
     if array.shape != shape:
-        raise bad_argument(f"F has the shape {array.shape}, expected {shape}")
+        raise bad_argument(f"{name} has the shape {array.shape}, expected {shape}")
     return np.ascontiguousarray(array, dtype=float)

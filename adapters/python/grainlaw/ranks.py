@@ -9,8 +9,7 @@ from collections.abc import Iterator
 
 from mpi4py import MPI
 
-from .abi import Error
-from .march import StepError
+from .abi import Error, StepError
 from .material import AnyPath, Material
 from .names import Status
 

@@ -5,6 +5,8 @@
 #define FIELD(name) printf("Report %s %zu\n", #name, offsetof(grainlaw_report, name));
 #define SUMMARY_FIELD(name) printf("Summary %s %zu\n", #name, offsetof(grainlaw_summary, name));
 
+#define CONSOLIDATION_FIELD(name) \
+  printf("Consolidation %s %zu\n", #name, offsetof(grainlaw_consolidation, name));
 #define PARTICLE_FIELD(name) printf("Particle %s %zu\n", #name, offsetof(grainlaw_particle, name));
 #define CONTACT_FIELD(name) printf("Contact %s %zu\n", #name, offsetof(grainlaw_contact, name));
 
@@ -72,6 +74,12 @@ int main(void) {
   OPTION_FIELD(crossing_part)
   OPTION_FIELD(max_crossings)
   OPTION_FIELD(step_time)
+  CONSOLIDATION_FIELD(size)
+  CONSOLIDATION_FIELD(route)
+  CONSOLIDATION_FIELD(axis)
+  CONSOLIDATION_FIELD(first_pressure)
+  CONSOLIDATION_FIELD(overconsolidation)
+  CONSOLIDATION_FIELD(largest_step)
   PARTICLE_FIELD(position)
   PARTICLE_FIELD(rotation)
   PARTICLE_FIELD(radius)
@@ -95,5 +103,6 @@ int main(void) {
   printf("sizeof MarchOptions %zu\n", sizeof(grainlaw_march_options));
   printf("sizeof Report %zu\n", sizeof(grainlaw_report));
   printf("sizeof Summary %zu\n", sizeof(grainlaw_summary));
+  printf("sizeof Consolidation %zu\n", sizeof(grainlaw_consolidation));
   return 0;
 }

@@ -17,7 +17,7 @@ README = pathlib.Path(__file__).resolve().parent.parent / "README.md"
 class Page(Case):
     def test_blocks_run_as_they_are_printed(self):
         blocks = re.findall(r"^```python\n(.*?)^```$", README.read_text(encoding="utf-8"), re.M | re.S)
-        self.assertEqual(len(blocks), 6)
+        self.assertEqual(len(blocks), 7)
         try:
             import matplotlib  # pylint: disable=import-outside-toplevel,unused-import
         except ImportError:

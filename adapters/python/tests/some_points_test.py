@@ -52,6 +52,34 @@ class SomePoints(Case):
         self.assertEqual(self.states.save_some([]), [])
         other.load_some([], [])
 
+    def test_points_are_led_to_the_stress_that_they_begin_with(self):
+        states = grainlaw.States(material(), 2)
+        wanted = np.array([np.diag([-8e4, -1e5]), np.diag([-1e5, -2e5])])
+        reached = states.consolidate(wanted)
+        self.assertLess(np.abs(reached - wanted).max(), 2e-3)
+        self.assertEqual(states.measure(Measure.DEFORMATION_GRADIENT).tolist(), [ONE.tolist()] * 2)
+        self.assertLess(np.abs(states.answer().P - wanted).max(), 2e-3)
+        one = grainlaw.State(material())
+        found = one.consolidate(2 * wanted[0], route="k0", axis=[0, 1], overconsolidation=1.5)
+        self.assertAlmostEqual(found[1, 1] / -2e5, 1, 7)
+        self.assertLess(abs(found[0, 0]), 2e5)
+
+    def test_stresses_that_points_cannot_have_are_told(self):
+        states = grainlaw.States(material(), 3)
+        before = states.save()
+        good = np.diag([-9e4, -1e5])
+        with self.assertRaises(grainlaw.StepError) as steep:
+            states.consolidate([good, np.diag([-1e3, -2e5])], [0, 2])
+        self.assertEqual(steep.exception.status, Status.NOT_CONVERGED)
+        self.assertRegex(str(steep.exception), "^point 2: carries no more than sigma .11 ")
+        for sigma, how, text in (([good, ONE], {}, "point 2: the largest principal stress"),
+                                 ([good] * 2, {"route": "K0"}, "route 'K0': expected one of"),
+                                 ([good], {}, "sigma has the shape"),
+                                 ([good] * 2, {"overconsolidation": 0.5}, "expected at least 1")):
+            with self.assertRaisesRegex(grainlaw.Error, text):
+                states.consolidate(sigma, [0, 2], **how)
+        self.assertEqual(states.save(), before)
+
     def test_failures_are_named_by_the_number_in_the_set(self):
         answer = self.states.evaluate_some([2, 0], [1.5 * ONE, FURTHER])
         self.assertFalse(answer.ok)
