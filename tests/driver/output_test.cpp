@@ -199,7 +199,9 @@ TEST_P(output, files_for_paraview_hold_the_values) {
 TEST_P(output, cost_adds_up) {
   const TemporaryDirectory directory;
   CsvWriter table(directory.path() / "cost.csv", cost_columns());
-  CostReport report(*solver_);
+  const std::size_t count = solver_->points().size();
+  CsvWriter point_table(directory.path() / "every_cost.csv", point_cost_columns(count));
+  CostReport report(*solver_, &point_table);
   report.add(solver_->advance(1.1, 2), table);
   const CsvTable costs = read_csv(directory.path() / "cost.csv");
   double stages = 0;
@@ -208,6 +210,18 @@ TEST_P(output, cost_adds_up) {
   EXPECT_GT(costs["points_core_time"][0], 0);
   EXPECT_LE(stages, costs["core_time"][0] + 1e-6);
   EXPECT_EQ(costs["failed_points"][0], 0);
+  double points = 0, dearest = 0;
+  const CsvTable every = read_csv(directory.path() / "every_cost.csv");
+  for (std::size_t p = 0; p < count; ++p) {
+    const double spent = every["point" + std::to_string(p)][0];
+    EXPECT_GT(spent, 0) << p;
+    points += spent;
+    dearest = std::max(dearest, spent);
+  }
+  EXPECT_LE(1e-3 * points, costs["points_core_time"][0] + 1e-6);
+  EXPECT_EQ(costs["dearest_point"][0], dearest);
+  EXPECT_LE(costs["median_point"][0], dearest);
+  EXPECT_GT(costs["median_point"][0], 0);
   EXPECT_NE(cost_summary(costs, 7).find("7 points: "), std::string::npos);
 }
 
@@ -251,7 +265,7 @@ TEST(output_options, wrong_ones_are_refused_with_what_was_expected) {
     }
     return std::string("accepted");
   };
-  EXPECT_EQ(refusal("points = [7]\nvtk_every = 2\npackings = [0]\n"
+  EXPECT_EQ(refusal("points = [7]\nvtk_every = 2\npackings = [0]\nevery_point = ['cost']\n"
                     "[picture]\nfields = [\"void_ratio\"]\nsteps = [10]"),
             "accepted");
   for (const auto& [text, expected] : {std::pair{"points = [8]", "integration points, 0 to 7"},
@@ -263,6 +277,7 @@ TEST(output_options, wrong_ones_are_refused_with_what_was_expected) {
                                        {"checkpoint_every = -1", "checkpoint_every"},
                                        {"[picture]\nfields = [\"colour\"]", "void_ratio"},
                                        {"[picture]\nfields = [\"stress\"]", "void_ratio"},
+                                       {"[picture]\nfields = [\"cost\"]", "void_ratio"},
                                        {"[picture]\nsteps = [11]", "load steps, 0 to 10"},
                                        {"[picture]\nstep = [1]", "picture.step"}})
     EXPECT_NE(refusal(text).find(expected), std::string::npos) << text << ": " << refusal(text);

@@ -206,6 +206,39 @@ TEST_F(solid, a_rough_platen_binds_three_components_and_periodic_sides_move_alik
     EXPECT_NEAR(body->displacement()(3 * node), 2e-4 * read.model.mesh.position(node).z(), 1e-9);
 }
 
+// Rough platens hold the ends, so that the middle bulges and the specimen bears more.
+TEST_F(solid, between_rough_platens_bulges_and_bears_more_than_one_volume) {
+  std::string tables;
+  for (const char* component : {"x", "y", "z"}) tables += moved("bottom", component, 0);
+  tables += moved("top", "x", 0) + moved("top", "y", 0) + moved("top", "z", -4e-3);
+  for (const char* side : {"left", "right", "front", "back"})
+    tables += std::string("[[pressure]]\non = '") + side + "'\nvalue = 7e5\n";
+  for (const char* side : {"left", "right", "back"})
+    tables += std::string("[[probe]]\nname = '") + side + "'\non = '" + side + "'\n";
+  PointDriverOf<3> one(
+      make_material(read_fe_scene(scene("steps = 1\n", drag + box("hex8") + drained)).material, 3),
+      {});
+  one.run(triaxial_segment(0, -lateral, 1), {});
+  one.run(triaxial_segment(-2e-3, -lateral, 2), {});
+  for (const std::string element : {"hex8fbar", "hex20"}) {
+    run_fe_scene(scene("steps = 2\nname = '" + element + "'\n",
+                       drag + "[newton]\ntolerance = 1e-6\n" + box(element, "1, 1, 2") + tables),
+                 {{directory_.string()}, false, {}, {}});
+    const auto last = [&](const std::string& table, const std::string& column) {
+      return read_csv(directory_ / (element + table))[column].back();
+    };
+    EXPECT_LE(last("_balance.csv", "residual"), 1e-6) << element;
+    EXPECT_LE(last("_balance.csv", "iterations"), 6) << element;
+    const double force = last("_force.csv", "top_z_force");
+    EXPECT_NEAR(force, -last("_force.csv", "bottom_z_force"), 1e-6 * std::abs(force)) << element;
+    EXPECT_GT(-force, -1.05 * one.record().cauchy(2, 2)) << element;
+    const double out = last("_probes.csv", "right_x");
+    EXPECT_GT(out, 1e-6) << element;
+    EXPECT_NEAR(last("_probes.csv", "left_x"), -out, 1e-2 * out) << element;
+    EXPECT_NEAR(last("_probes.csv", "back_y"), out, 1e-2 * out) << element;
+  }
+}
+
 TEST_F(solid, mistakes_of_scenes_are_told) {
   const std::string steps = "steps = 1\n", one = box("hex8");
   expect_told(steps, "[mesh]\nsize = [1.0, 1.0]\ndivisions = [1, 1, 1]\n",

@@ -59,6 +59,8 @@ PointField::PointField(const Model& model, const Material& material)
   displacement_ = Eigen::VectorXd::Zero(mesh.dofs());
   const std::size_t n = points_.size();
   reports_.resize(n, grainlaw_report_default());
+  seconds_.resize(n);
+  last_seconds_.resize(n);
   const std::size_t components = per_tensor();
   mesh_deformation_ = deformation_ = committed_deformation_ = identities(dimension_, n);
   mean_volume_.resize(n);
@@ -116,7 +118,11 @@ grainlaw_status PointField::evaluate(const Eigen::VectorXd& displacement, unsign
   last_ =
       set_.evaluate(deformation_, stress_, want,
                     want != 0 ? std::span(tangent_) : std::span<double>(), threads, {}, reports_);
-  for (std::size_t p = 0; p < points_.size(); ++p) points_[p].effort.add(reports_[p]);
+  check(grainlaw_points_cost(set_.get(), last_seconds_.data()), "asking what points took");
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    points_[p].effort.add(reports_[p]);
+    seconds_[p] += last_seconds_[p];
+  }
   return last_.status;
 }
 

@@ -62,6 +62,8 @@ class PointField {
 
   // Cost of evaluations and assembly; the solver adds its own.
   [[nodiscard]] Cost& cost() const { return cost_; }
+  // Processor time of the evaluations of each point so far [s].
+  [[nodiscard]] const std::vector<double>& seconds() const { return seconds_; }
 
   [[nodiscard]] int dimension() const { return dimension_; }
   [[nodiscard]] std::size_t size() const { return points_.size(); }
@@ -135,7 +137,8 @@ class PointField {
   std::vector<double> committed_deformation_, committed_stress_;
   std::vector<MeanVolume> mean_volume_;
   mutable Cost cost_;
-  double volume_ = 0;  // of one representative volume at F = I [m3]
+  std::vector<double> seconds_, last_seconds_;  // of all evaluations, of the last
+  double volume_ = 0;                           // of one representative volume at F = I [m3]
 };
 
 }  // namespace verification

@@ -22,15 +22,23 @@ int points_without_contacts(const PointField& points) {
 std::vector<std::string> cost_columns() {
   std::vector<std::string> names{"step[-]", "elapsed[s]", "core_time[s]"};
   for (const char* name : stage_names) names.push_back(fmt::format("{}_core_time[s]", name));
-  names.insert(names.end(), {"evaluations[-]", "iterations[-]", "cuts[-]", "loose_parts[-]",
-                             "fallbacks[-]", "failed_points[-]"});
+  names.insert(names.end(),
+               {"median_point[ms]", "dearest_point[ms]", "evaluations[-]", "iterations[-]",
+                "cuts[-]", "loose_parts[-]", "fallbacks[-]", "failed_points[-]"});
   return names;
 }
 
-CostReport::CostReport(const Solver& solver) : solver_(solver), last_(now()) {}
+std::vector<std::string> point_cost_columns(std::size_t points) {
+  std::vector<std::string> names{"step[-]"};
+  for (std::size_t p = 0; p < points; ++p) names.push_back(fmt::format("point{}[ms]", p));
+  return names;
+}
+
+CostReport::CostReport(const Solver& solver, CsvWriter* points)
+    : solver_(solver), points_(points), last_(now()) {}
 
 CostReport::Reading CostReport::now() const {
-  Reading reading{Spent::now(), {}};
+  Reading reading{Spent::now(), {}, solver_.points().seconds()};
   for (std::size_t k = 0; k < stages; ++k)
     reading.stage[k] = solver_.points().cost().of(static_cast<Stage>(k));
   return reading;
@@ -50,6 +58,16 @@ void CostReport::add(int step, const Effort& effort, CsvWriter& table) {
   const Spent total = reading.total - last_.total;
   std::vector<double> row{static_cast<double>(step), total.elapsed, total.cpu};
   for (std::size_t k = 0; k < stages; ++k) row.push_back((reading.stage[k] - last_.stage[k]).cpu);
+  std::vector<double> points(reading.points.size());
+  std::transform(reading.points.begin(), reading.points.end(), last_.points.begin(), points.begin(),
+                 [](double now, double before) { return 1e3 * (now - before); });
+  if (points_ != nullptr) {
+    std::vector<double> every{static_cast<double>(step)};
+    every.insert(every.end(), points.begin(), points.end());
+    points_->row(every);
+  }
+  std::sort(points.begin(), points.end());
+  row.insert(row.end(), {points[points.size() / 2], points.back()});
   for (const int count : {effort.evaluations, effort.iterations, effort.cuts, effort.loose,
                           effort.history_advanced, without_contacts_})
     row.push_back(count);

@@ -12,11 +12,15 @@ namespace verification {
 
 // Columns of STEM_cost.csv. Times are the only numbers of a run that are not reproducible.
 std::vector<std::string> cost_columns();
+// Name among the fields of `every_point`, and columns of STEM_every_cost.csv.
+inline constexpr const char* point_cost = "cost";
+std::vector<std::string> point_cost_columns(std::size_t points);
 
 class CostReport {
  public:
-  // Starts the clock. `solver` must outlive the report.
-  explicit CostReport(const Solver& solver);
+  // Starts the clock. `solver` must outlive the report. `points`: a table of point_cost_columns for
+  // the time of every point, or null.
+  explicit CostReport(const Solver& solver, CsvWriter* points = nullptr);
 
   // Adds a row: cost since the last one.
   void add(const LoadStep& step, CsvWriter& table);
@@ -27,11 +31,13 @@ class CostReport {
   struct Reading {
     Spent total;
     std::array<Spent, stages> stage;
+    std::vector<double> points;  // [s]
   };
   [[nodiscard]] Reading now() const;
   void add(int step, const Effort& effort, CsvWriter& table);
 
   const Solver& solver_;
+  CsvWriter* points_;
   Reading last_;
   int without_contacts_ = 0;  // points, after the last step
 };

@@ -1,5 +1,6 @@
 #include "fe/output/output_options.hpp"
 
+#include "fe/output/cost_report.hpp"
 #include "fe/output/fields.hpp"
 
 #include <fmt/format.h>
@@ -36,8 +37,9 @@ std::vector<std::size_t> read_points(SceneTable& table, std::string_view key, st
   return {read.begin(), read.end()};
 }
 
-std::vector<std::string> read_fields(SceneTable& table, std::string_view key, int dimension) {
-  std::vector<std::string> names;
+// Reads fields, or names beside them.
+std::vector<std::string> read_fields(SceneTable& table, std::string_view key, int dimension,
+                                     std::vector<std::string> names = {}) {
   for (const Field& candidate : fields(dimension))
     if (candidate.components == 1) names.emplace_back(candidate.name);
   const std::string expected = fmt::format("a list of {}", fmt::join(names, ", "));
@@ -65,7 +67,8 @@ OutputOptions read_output(SceneTable& scene, const Mesh& mesh, int steps) {
   if (!options.packings.empty() && options.vtk_every == 0)
     scene.fail("vtk_every", "0", "how often the packings are written, a number of load steps >= 1");
   options.points = read_points(scene, "points", points);
-  options.every_point = read_fields(scene, "every_point", mesh.dimension());
+  options.every_point = read_fields(scene, "every_point", mesh.dimension(), {point_cost});
+  options.point_costs = std::erase(options.every_point, point_cost) > 0;
   if (!scene.has("picture")) return options;
   SceneTable table = scene.table("picture");
   options.pictures.fields = read_fields(table, "fields", mesh.dimension());

@@ -17,6 +17,7 @@ struct OutputOptions {
   std::vector<std::size_t> packings;     // points whose particles are written
   std::vector<std::size_t> points;       // with a table of their own
   std::vector<std::string> every_point;  // fields with a table over all points
+  bool point_costs = false;              // the time of all points has one too
   struct Pictures {
     std::vector<std::string> fields;    // drawn on the mesh
     std::vector<std::size_t> packings;  // points whose particles and force chains are drawn

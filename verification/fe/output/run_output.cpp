@@ -58,6 +58,7 @@ Outputs outputs_of(const FiniteElementScene& scene, bool goes_on) {
       outputs.add(name, fmt::format("{}_point{}", name, point), {".csv"});
     for (const std::string& field : output.every_point)
       outputs.add(name, name + "_every_" + field, {".csv"});
+    if (output.point_costs) add({"_every_cost.csv"});
   }
   if (!scene.prestress.empty()) outputs.add_packing(name, name + "_prestress");
   outputs.add_pictures(name, name);
@@ -99,7 +100,10 @@ RunOutput::RunOutput(const FiniteElementScene& scene, RunTables tables, const So
       newton_(open("_newton.csv", {"step[-]", "iteration[-]", "relative_residual[-]"})),
       forces_(open("_force.csv", force_columns(scene.model))),
       costs_(open("_cost.csv", cost_columns())),
-      cost_(solver),
+      cost_(solver, scene.output.point_costs
+                        ? &open("_every_cost.csv", point_cost_columns(solver.points().size()),
+                                "_every_FIELD.csv")
+                        : nullptr),
       series_(scene.model, tables_.stem(), scene.output.packings) {
   if (scene.solver.kind == SolverKind::dynamics)
     energies_ = &open("_energy.csv", energy_columns(scene.dimension));
