@@ -20,8 +20,9 @@ constexpr std::array tolerances{1e-2, 1e-3, 1e-4};
 constexpr std::array viscous_numbers{0.0, 1e-3};
 constexpr double fine_increment = 2.5e-5;
 constexpr double fine_tolerance = 1e-9;
-// Paths that differ by this at first tell how far equilibria lie apart that no solver can choose between.
-constexpr std::array nudges{0.0, 1e-6};
+// A reference that differs by this at first tells how far equilibria lie apart that no solver can choose
+// between.
+constexpr double nudge = 1e-6;
 constexpr int looks = 5;  // along each path
 
 // Axes of compression in the plane of the first and the last direction [rad].
@@ -46,16 +47,16 @@ struct Led {
 };
 
 template <int D>
-Led<D> lead(const Material& material, double axis, double strain, double increment, double nudge,
+Led<D> lead(const Material& material, double axis, double strain, double increment, double off,
             unsigned want) {
   Led<D> result;
   State state(material);
-  const long per_look = std::max(1L, std::lround(strain / looks / increment));
+  const long per_look = std::lround(strain / looks / increment);
   const double begin = cpu_seconds();
   for (long step = 1; step <= looks * per_look; ++step) {
     const double share = static_cast<double>(step) / static_cast<double>(looks * per_look);
     TensorOf<D> F = deformation<D>(axis, strain * share);
-    if (step == 1) F(0, 0) += nudge;
+    if (step == 1) F(0, 0) += off;
     const auto found = evaluate_of<D>(state, F, want);
     if (found.status != GRAINLAW_OK) break;
     state.commit();
@@ -81,7 +82,6 @@ double median(std::vector<double>& numbers) {
   return *middle;
 }
 
-// Mean of the nudged paths, and their spread about it.
 template <int D>
 struct Reference {
   std::array<std::vector<TensorOf<D>>, axes> stress;
@@ -93,10 +93,16 @@ template <int D>
 class TrialOf {
  public:
   TrialOf(MaterialSource source, double strain, const std::function<void(double)>& done)
-      : source_(std::move(source)), strain_(strain), done_(done) {}
+      : source_(std::move(source)), strain_(strain), done_(done) {
+    // A whole number of increments from look to look.
+    const double part = strain / looks;
+    for (const double increment : increments)
+      if (increment <= part) increments_.push_back(part / std::round(part / increment));
+  }
 
   Trial run() {
     Trial trial;
+    trial.axes = axes;
     trial.strain = strain_;
     trial.reference = {fine_increment, fine_tolerance, 0};
     const Reference<D> reference = lead_reference();
@@ -104,9 +110,8 @@ class TrialOf {
     trial.seconds = reference.seconds;
     for (const double number : viscous_numbers)
       for (const double tolerance : tolerances)
-        for (const double increment : increments)
-          if (increment <= strain_ / looks)
-            trial.tried.push_back(measure({increment, tolerance, number}, reference));
+        for (const double increment : increments_)
+          trial.tried.push_back(measure({increment, tolerance, number}, reference));
     return trial;
   }
 
@@ -124,9 +129,9 @@ class TrialOf {
   // Reports work in units of increments.
   void count(double increment) {
     worked_ += 1 / increment;
-    double all = axes * nudges.size() / fine_increment;
-    for (const double each : increments)
-      if (each <= strain_ / looks) all += axes * viscous_numbers.size() * tolerances.size() / each;
+    double all = axes * 2 / fine_increment;
+    for (const double each : increments_)
+      all += axes * viscous_numbers.size() * tolerances.size() / each;
     done_(worked_ / all);
   }
 
@@ -135,26 +140,21 @@ class TrialOf {
     Reference<D> result;
     std::vector<double> distances;
     for (std::size_t w = 0; w < axes; ++w) {
-      std::vector<std::vector<TensorOf<D>>> paths;
-      for (const double nudge : nudges) {
-        Led<D> led = lead<D>(material, axis_of(w), strain_, fine_increment, nudge, 0);
-        paths.push_back(std::move(led.stress));
-        result.seconds += led.seconds / static_cast<double>(axes * nudges.size());
-        count(fine_increment);
-      }
-      auto& mean = result.stress[w];
+      auto& path = result.stress[w];
+      Led<D> led = lead<D>(material, axis_of(w), strain_, fine_increment, 0, 0);
+      result.seconds += led.seconds / static_cast<double>(axes);
+      path = std::move(led.stress);
+      count(fine_increment);
+      auto beside = lead<D>(material, axis_of(w), strain_, fine_increment, nudge, 0).stress;
+      count(fine_increment);
       // A packing that loses its contacts on the way is followed as far as it came.
-      std::size_t reached = looks;
-      for (const auto& path : paths) reached = std::min(reached, path.size());
-      if (reached == 0)
+      path.resize(std::min(path.size(), beside.size()));
+      if (path.empty())
         throw ComputationError(fmt::format(
             "the reference, in increments of {:g}, does not reach a strain of {:g}: choose a "
             "smaller --strain",
             fine_increment, strain_ / looks));
-      mean.assign(reached, TensorOf<D>::Zero());
-      for (const auto& path : paths)
-        for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += path[k] / nudges.size();
-      for (const auto& path : paths) add_distances<D>(path, mean, distances);
+      add_distances<D>(beside, path, distances);
     }
     result.spread = median(distances);
     if (!std::isfinite(result.spread))
@@ -164,19 +164,18 @@ class TrialOf {
 
   Tried measure(const Choice& choice, const Reference<D>& reference) {
     const Material material = with(choice);
-    Tried tried{choice, 0, 0, 0, true};
+    Tried tried{choice, {}, {}, 0};
     std::vector<double> errors;
+    bool whole = true;
     for (std::size_t w = 0; w < axes; ++w) {
       const Led<D> led =
           lead<D>(material, axis_of(w), strain_, choice.increment, 0, GRAINLAW_WANT_TANGENT_EXACT);
       tried.seconds += led.seconds / static_cast<double>(axes);
       count(choice.increment);
-      if (led.stress.size() < reference.stress[w].size())
-        tried.whole = false;
-      else
-        add_distances<D>(led.stress, reference.stress[w], errors);
+      whole = whole && led.stress.size() >= reference.stress[w].size();
+      if (whole) add_distances<D>(led.stress, reference.stress[w], errors);
     }
-    if (!tried.whole) return tried;
+    if (!whole) return tried;
     tried.error = median(errors);
     tried.largest = *std::max_element(errors.begin(), errors.end());
     return tried;
@@ -184,6 +183,7 @@ class TrialOf {
 
   MaterialSource source_;
   double strain_;
+  std::vector<double> increments_;
   const std::function<void(double)>& done_;
   double worked_ = 0;
 };
@@ -197,8 +197,7 @@ Trial try_choices(const MaterialSource& material, double strain,
   // The packing is made once.
   const Material as_it_is = make_material(material, dimension);
   const State state(as_it_is);
-  check(grainlaw_state_write_packing(state.get(), (scratch / "packing").c_str()),
-        "the packing of the trial");
+  write_packing(state.get(), scratch / "packing");
   const MaterialSource source = with_packing(material, scratch / "packing");
   return dimension == 2 ? TrialOf<2>(source, strain, done).run()
                         : TrialOf<3>(source, strain, done).run();
@@ -207,30 +206,12 @@ Trial try_choices(const MaterialSource& material, double strain,
 std::vector<Tried> best_choices(const Trial& trial) {
   std::vector<Tried> sorted;
   for (const Tried& tried : trial.tried)
-    if (tried.whole) sorted.push_back(tried);
+    if (tried.error) sorted.push_back(tried);
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const Tried& a, const Tried& b) { return a.seconds < b.seconds; });
   std::vector<Tried> best;
   for (const Tried& tried : sorted)
-    if (best.empty() || tried.error < best.back().error) best.push_back(tried);
-  return best;
-}
-
-const Tried* fastest(const Trial& trial, double error) {
-  const Tried* best = nullptr;
-  for (const Tried& tried : trial.tried) {
-    if (!tried.whole || tried.error > error) continue;
-    if (best == nullptr || tried.seconds < best->seconds) best = &tried;
-  }
-  return best;
-}
-
-const Tried* most_exact(const Trial& trial, double seconds) {
-  const Tried* best = nullptr;
-  for (const Tried& tried : trial.tried) {
-    if (!tried.whole || tried.seconds > seconds) continue;
-    if (best == nullptr || tried.error < best->error) best = &tried;
-  }
+    if (best.empty() || *tried.error < *best.back().error) best.push_back(tried);
   return best;
 }
 

@@ -3,7 +3,9 @@
 
 #include "app/material.hpp"
 
+#include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace verification {
@@ -15,20 +17,20 @@ struct Choice {
   double viscous_number = 0;  // solver.viscous_number; 0: equilibrium [-]
 };
 
-// A choice along all paths of a trial.
+// A choice along all paths of a trial. Without an error where an increment failed.
 struct Tried {
   Choice choice;
   // Stress against the reference, over the largest of the path: median and most [-].
-  double error = 0, largest = 0;
+  std::optional<double> error, largest;
   double seconds = 0;  // of CPU, of one point and path
-  bool whole = false;  // no increment failed
 };
 
 struct Trial {
-  double strain = 0;   // at the end of each path [-]
-  double spread = 0;   // of reference paths that differ by 1e-6 at first, as the errors [-]
-  double seconds = 0;  // of one point and path, for the reference
-  Choice reference;    // tolerance and increment of the reference
+  std::size_t axes = 0;  // of compression
+  double strain = 0;     // at the end of each path [-]
+  double spread = 0;     // of reference paths that differ by 1e-6 at first, as the errors [-]
+  double seconds = 0;    // of one point and path, for the reference
+  Choice reference;      // tolerance and increment of the reference
   std::vector<Tried> tried;
 };
 
@@ -38,11 +40,7 @@ struct Trial {
 Trial try_choices(const MaterialSource& material, double strain,
                   const std::function<void(double)>& done);
 
-// Whole choices to which none as fast is as exact, the fastest first.
+// Choices that reach the end, to which none as fast is as exact: the fastest first, the most exact last.
 std::vector<Tried> best_choices(const Trial& trial);
-// The fastest choice whose error is at most `error`, or null.
-const Tried* fastest(const Trial& trial, double error);
-// The choice of the least error that takes at most so many seconds, or null.
-const Tried* most_exact(const Trial& trial, double seconds);
 
 }  // namespace verification

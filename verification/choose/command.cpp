@@ -13,9 +13,11 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace verification {
 namespace {
@@ -35,36 +37,47 @@ void print_choice(const Trial& trial, const Tried& best) {
   fmt::print(
       "\nerror of the stress {:.1e} in the median and {:.1e} at most, {:.3g} ms of one core for a "
       "point and {:g} % of strain\n\n",
-      best.error, best.largest, thousand * best.seconds, percent * trial.strain);
+      *best.error, *best.largest, thousand * best.seconds, percent * trial.strain);
   fmt::print("# load steps of {:g} % of strain\n[solver]\ntolerance = {:g}\n",
              percent * choice.increment, choice.tolerance);
   if (choice.viscous_number > 0) fmt::print("viscous_number = {:g}\n", choice.viscous_number);
 }
 
-// The choice that was asked for. Throws ComputationError where there is none, with the nearest.
-const Tried& chosen(const ChooseArguments& asked, const Trial& trial) {
-  const Tried* best = nullptr;
-  if (asked.error) best = fastest(trial, *asked.error);
-  if (asked.budget && !asked.error) best = most_exact(trial, *asked.budget / thousand);
-  if (best != nullptr && asked.budget && best->seconds > *asked.budget / thousand)
+// The choice that was asked for, of the best. Throws ComputationError where there is none, with the
+// nearest.
+const Tried& chosen(const ChooseArguments& asked, const Trial& trial,
+                    const std::vector<Tried>& best) {
+  if (best.empty())
+    throw ComputationError("no choice reaches the end of the paths: choose a smaller --strain");
+  const auto exact = std::find_if(best.begin(), best.end(), [&](const Tried& tried) {
+    return !asked.error || *tried.error <= *asked.error;
+  });
+  if (exact == best.end())
+    throw ComputationError(fmt::format(
+        "no choice has an error of {:g}: the least is {:.1e}, with increments of {:g}; {}",
+        *asked.error, *best.back().error, best.back().choice.increment,
+        trial.spread > *asked.error
+            ? fmt::format("paths that differ by 1e-6 at first end {:.1e} apart, whatever is chosen",
+                          trial.spread)
+            : "smaller ones are not tried"));
+  if (!asked.budget) return *exact;
+  const double seconds = *asked.budget / thousand;
+  if (exact->seconds > seconds)
     throw ComputationError(
-        fmt::format("no choice has an error of {:g} within {:g} ms: the fastest takes {:.3g} ms",
-                    *asked.error, *asked.budget, thousand * best->seconds));
-  if (best != nullptr) return *best;
-  if (!asked.error)
-    throw ComputationError(
-        fmt::format("no choice takes {:g} ms or less: the times are in the table", *asked.budget));
-  const auto least =
-      std::min_element(trial.tried.begin(), trial.tried.end(), [](const Tried& a, const Tried& b) {
-        return std::pair(!a.whole, a.error) < std::pair(!b.whole, b.error);
-      });
-  throw ComputationError(fmt::format(
-      "no choice has an error of {:g}: the least is {:.1e}, with increments of {:g}; {}",
-      *asked.error, least->error, least->choice.increment,
-      trial.spread > *asked.error
-          ? fmt::format("paths that differ by 1e-6 at first end {:.1e} apart, whatever is chosen",
-                        trial.spread)
-          : "smaller ones are not tried"));
+        asked.error
+            ? fmt::format(
+                  "no choice has an error of {:g} within {:g} ms: the fastest takes {:.3g} ms",
+                  *asked.error, *asked.budget, thousand * exact->seconds)
+            : fmt::format("no choice takes {:g} ms or less: the fastest takes {:.3g} ms",
+                          *asked.budget, thousand * exact->seconds));
+  if (asked.error) return *exact;
+  const auto slower = std::find_if(best.begin(), best.end(),
+                                   [&](const Tried& tried) { return tried.seconds > seconds; });
+  return *std::prev(slower);
+}
+
+Table::Cell cell_of(const std::optional<double>& error) {
+  return error ? Table::Cell(*error) : Table::Cell("failed");
 }
 
 void run_choose(const ChooseArguments& asked) {
@@ -91,28 +104,30 @@ void run_choose(const ChooseArguments& asked) {
   }
   const auto rows_of = [&](const std::vector<Tried>& choices, const std::string& title) {
     Table table(title, {"increment[-]", "tolerance[-]", "viscous_number[-]", "error[-]",
-                        "largest_error[-]", "cpu[ms]", "whole"});
+                        "largest_error[-]", "cpu[ms]"});
     for (const Tried& tried : choices) {
       const Choice& choice = tried.choice;
       table.row({fmt::format("{:g}", choice.increment), fmt::format("{:g}", choice.tolerance),
-                 fmt::format("{:g}", choice.viscous_number), tried.error, tried.largest,
-                 thousand * tried.seconds, tried.whole ? "yes" : "no"});
+                 fmt::format("{:g}", choice.viscous_number), cell_of(tried.error),
+                 cell_of(tried.largest), thousand * tried.seconds});
     }
     return table;
   };
   const auto file = asked.destination.stem(name).string() + ".csv";
   rows_of(trial.tried, "").write(file);
+  const std::vector<Tried> best = best_choices(trial);
   rows_of(
-      best_choices(trial),
-      fmt::format("error of the stress along isochoric compression and simple shear to {:g} % of "
-                  "strain, against\nequilibrium in increments of {:g} % to {:g}, and CPU time of "
-                  "a point with the exact tangent;\nchoices to which none as fast is as exact",
-                  percent * trial.strain, percent * trial.reference.increment,
+      best,
+      fmt::format("median error of the stress along {} axes of compression at constant volume to "
+                  "{:g} % of strain,\nagainst equilibrium in increments of {:g} % to {:g}, and CPU "
+                  "time of a point with the exact tangent;\nchoices to which none as fast is as "
+                  "exact",
+                  trial.axes, percent * trial.strain, percent * trial.reference.increment,
                   trial.reference.tolerance))
       .print();
   fmt::print("  reference: {:.3g} ms; paths that differ by 1e-6 at first end {:.1e} apart\n",
              thousand * trial.seconds, trial.spread);
-  print_choice(trial, chosen(asked, trial));
+  print_choice(trial, chosen(asked, trial, best));
   fmt::print("\nwritten: {}\n", terminal_text(file));
 }
 
@@ -125,14 +140,15 @@ void add_choose_command(CLI::App& app) {
   command->add_option("MATERIAL", arguments->material, "material description (TOML)")->required();
   command
       ->add_option("--error", arguments->error,
-                   "largest error of the stress [-]; the fastest choice is printed")
+                   "median error of the stress, at most [-]; the fastest choice is printed")
       ->check(above(0));
   command
       ->add_option("--budget", arguments->budget,
                    "most CPU time of a point along one path [ms]; alone: the least error is chosen")
       ->check(above(0));
   command->add_option("--strain", arguments->strain, "strain at the end of the paths [-]")
-      ->check(finite_number("in (0, 0.1]", [](double value) { return value > 0 && value <= 0.1; }))
+      ->check(finite_number("in [0.001, 0.1]",
+                            [](double value) { return value >= 1e-3 && value <= 0.1; }))
       ->capture_default_str();
   arguments->destination.add_options(*command);
   command->callback([arguments] { run_choose(*arguments); });
