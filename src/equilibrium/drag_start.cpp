@@ -2,6 +2,7 @@
 
 #include "base/constants.hpp"
 #include "equilibrium/stages.hpp"
+#include "math/inner_product.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,13 +10,6 @@
 namespace grainlaw::core {
 
 namespace {
-
-template <int D>
-double inner(const Tensor<D>& a, const Tensor<D>& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < squared<D>; ++k) sum += a[k] * b[k];
-  return sum;
-}
 
 template <int D>
 Tensor<D> symmetric(const Tensor<D>& a) {

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "equilibrium/request.hpp"
+#include "math/inner_product.hpp"
 
 #include <fmt/format.h>
 #include <Eigen/LU>
@@ -33,17 +34,10 @@ grainlaw_march_options options_of(double tolerance) {
 }
 
 template <int D>
-double contraction(const Tensor<D>& a, const Tensor<D>& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < squared<D>; ++k) sum += a[k] * b[k];
-  return sum;
-}
-
-template <int D>
 Eigen::VectorXd components(const Directions<D>& directions, const Tensor<D>& stress) {
   Eigen::VectorXd value(static_cast<Eigen::Index>(directions.size()));
   for (std::size_t m = 0; m < directions.size(); ++m)
-    value(static_cast<Eigen::Index>(m)) = contraction<D>(stress, directions[m]);
+    value(static_cast<Eigen::Index>(m)) = inner<D>(stress, directions[m]);
   return value;
 }
 
