@@ -1,7 +1,6 @@
-"""Points of a mesh on several ranks:  mpirun -n RANKS ranks_test.py MATERIAL.toml SPHERES.toml [alone]"""
+"""Points of a mesh on several ranks:  mpirun -n RANKS ranks_test.py MATERIAL.toml SPHERES.toml"""
 import os
 import sys
-import time
 import unittest
 
 import numpy as np
@@ -10,7 +9,7 @@ from dolfinx import fem, mesh
 from mpi4py import MPI
 
 import grainlaw
-from grainlaw.dolfinx import Points, end_together, read_material, together
+from grainlaw.dolfinx import Points, read_material, together
 
 COMM = MPI.COMM_WORLD
 LAST = COMM.size - 1
@@ -104,17 +103,7 @@ class Ranks(unittest.TestCase):
         self.raised_on_all(f"rank {LAST}: no memory", call)
 
 
-def fail_alone():
-    """An error that is not told: the other ranks wait for this one."""
-    with end_together(COMM):
-        if COMM.rank == LAST:
-            raise grainlaw.Error(grainlaw.Status.BAD_ARGUMENT, "of one rank alone")
-        time.sleep(600)
-
-
 if __name__ == "__main__":
-    if sys.argv[3:] == ["alone"]:
-        fail_alone()
     with open(os.devnull, "w", encoding="utf-8") as nowhere:
         result = unittest.TextTestRunner(sys.stderr if COMM.rank == 0 else nowhere).run(
             unittest.defaultTestLoader.loadTestsFromTestCase(Ranks))

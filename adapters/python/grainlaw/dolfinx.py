@@ -31,6 +31,7 @@ from .names import Action, Status, Tangent
 from .points import Evaluation, States
 from .ranks import check_same, end_together, read_material, together
 
+_MUMPS_MEMORY = (-5, -7, -9, -13, -19)   # its errors of memory that is too small or was refused
 _basix: Any = basix       # whose types say less than they take
 _petsc: Any = fem.petsc
 
@@ -331,6 +332,11 @@ class Newton:
         _to_owners(right)
         _petsc.set_bc(right, self.conditions, self.u.vector, -1.0)
         self._solver.solve(right, self.correction.vector)
+        preconditioner = self._solver.getPC()
+        if self._solver.getConvergedReason() < 0 and preconditioner.getFactorSolverType() == "mumps":
+            told = preconditioner.getFactorMatrix().getMumpsInfog(1)
+            if told in _MUMPS_MEMORY:
+                raise Error(Status.OUT_OF_MEMORY, f"MUMPS ran out of memory (INFOG(1) = {told})")
         self.correction.x.scatter_forward()
 
     def norms(self) -> tuple[float, float]:
