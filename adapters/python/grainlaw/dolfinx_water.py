@@ -30,6 +30,7 @@ from dolfinx import fem
 from mpi4py import MPI
 
 from .abi import Error
+from .arrays import Array
 from .dolfinx import Newton, Points, assembled
 from .march import March
 from .material import AnyPath
@@ -82,8 +83,7 @@ class WaterNewton(Newton):
         self._former.x.array[:] = w.x.array
         self._set_load, self._length = apply, 0.0
         self._time, self._scale = (fem.Constant(points.domain, 0.0) for _ in range(2))
-        voids = points.states.measure(Measure.VOID_RATIO)
-        self._solid = points.scalars(points.values(ufl.det(_gradient(w))) / (1 + voids))
+        self._solid = points.scalars(_solid_shares(points, w))
         _check(points, w, conditions, water)
         super().__init__(points, w, conditions, self._apply_with_time, external=lambda test:
                          (external(ufl.split(test)[0]) if external else 0) - self._came(test),
@@ -102,6 +102,7 @@ class WaterNewton(Newton):
     def load(self, path: AnyPath) -> None:
         """As Newton.load."""
         super().load(path)
+        self._solid.x.array[:] = self.points.scalars(_solid_shares(self.points, self.u)).x.array
         self._former.x.array[:] = self.u.x.array
 
     def _apply_with_time(self, load: float) -> None:
@@ -134,6 +135,11 @@ class WaterNewton(Newton):
 def _gradient(w: Any) -> Any:
     u = ufl.split(w)[0]
     return ufl.Identity(len(u)) + ufl.grad(u)
+
+
+def _solid_shares(points: Points, w: Any) -> Array:
+    """Volume of the grains over that of each point at F = I [-]."""
+    return points.values(ufl.det(_gradient(w))) / (1 + points.states.measure(Measure.VOID_RATIO))
 
 
 def _check(points: Points, w: Any, conditions: Sequence[Any], water: PoreWater) -> None:
