@@ -75,11 +75,11 @@ class Points:
         owned = domain.topology.index_map(d).size_local   # ghosts come after
         self.cells = np.array(domain.topology.original_cell_index[:owned], np.int64)
         self._owned = np.arange(owned, dtype=np.int32)
-        self.P, self._P_rows = self._function(cell, degree, d)
-        self.A, self._A_rows = self._function(cell, degree, d * d)
+        self._element = {"family": "Quadrature", "cell": cell, "degree": degree, "quad_scheme": "default"}
+        self.P, self._P_rows = self._function(ufl.TensorElement(**self._element, shape=(d, d)))
+        self.A, self._A_rows = self._function(ufl.TensorElement(**self._element, shape=(d * d, d * d)))
         count = owned * len(self._where)
-        self.x = fem.Expression(ufl.SpatialCoordinate(domain), self._where).eval(
-            self._owned).reshape(-1, d)
+        self.x = self.values(ufl.SpatialCoordinate(domain)).reshape(-1, d)
         with together(self.comm):
             numbers = np.zeros(count) if layer is None else layer(self.x.T)
             self.layer = np.asarray(numbers, np.int64)
@@ -158,11 +158,22 @@ class Points:
 
     def stress_power(self, v: Any) -> Any:
         """The form of P : grad v, for the residual."""
-        return ufl.inner(self.P, ufl.grad(v)) * self.dx
+        return ufl.inner(self.P, self._grad(v)) * self.dx
 
     def stiffness(self, u: Any, v: Any) -> Any:
         """The form of grad v : A : grad u, for Newton's matrix."""
         return ufl.dot(self._row_major(v), self.A * self._row_major(u)) * self.dx
+
+    def values(self, expression: Any) -> Array:
+        """An expression of UFL at the own points, one after the other."""
+        found: Array = fem.Expression(expression, self._where).eval(self._owned)
+        return found.ravel()
+
+    def scalars(self, values: npt.ArrayLike) -> Any:
+        """A quadrature function of one value (n,) at each point of this rank."""
+        function, rows = self._function(ufl.FiniteElement(**self._element))
+        function.x.array[rows] = values
+        return function
 
     def _cells(self, functions: Sequence[Any]) -> Cells:
         """The own cells with copies of the values of functions."""
@@ -183,23 +194,26 @@ class Points:
         nodes: npt.NDArray[np.int32] = dofmap.list.array.reshape(-1, count)[:len(self._owned)]
         return nodes
 
-    def _function(self, cell: Any, degree: int, rows: int) -> tuple[Any, Any]:
-        """A quadrature function (rows, rows), and where its values of the own points are."""
-        element = ufl.TensorElement("Quadrature", cell, degree, shape=(rows, rows),
-                                    quad_scheme="default")
+    def _function(self, element: Any) -> tuple[Any, Any]:
+        """A quadrature function, and where its values of the own points are."""
         space = fem.FunctionSpace(self.domain, element)
         return fem.Function(space), space.dofmap.list.array[:len(self._owned) * len(self._where)]
 
     def _gradient(self, u: Any) -> Array:
         """grad u at the own points (n, d, d); its form is compiled once for each function."""
         if u not in self._gradients:
-            self._gradients[u] = fem.Expression(ufl.grad(u), self._where)
+            self._gradients[u] = fem.Expression(self._grad(u), self._where)
         found: Array = self._gradients[u].eval(self._owned)
         return found.reshape(-1, self.dimension, self.dimension)
 
     def _row_major(self, v: Any) -> Any:
         directions = range(self.dimension)
-        return ufl.as_vector([ufl.grad(v)[i, J] for i in directions for J in directions])
+        return ufl.as_vector([self._grad(v)[i, J] for i in directions for J in directions])
+
+    def _grad(self, u: Any) -> Any:
+        """Of displacements, which of a mixed function are the first components."""
+        d = self.dimension
+        return ufl.grad(u if u.ufl_shape == (d,) else ufl.as_vector([u[i] for i in range(d)]))
 
     def _set(self, answer: Evaluation) -> None:
         assert answer.A is not None
@@ -240,10 +254,11 @@ class Newton:
     """Equilibrium of displacements along a way of loads, by Newton's method; steps are cut and jumps
     crossed as a March decides. The start is evaluated and committed.
 
-    u           displacements, a function of a vector space [m]
+    u           displacements, a function of a vector space, or of a mixed one in which they come first [m]
     conditions  dolfinx' Dirichlet conditions on u
     apply       sets the constants of conditions and loads for a load
     external    the form of the work of external loads in a test function v; loads may follow u
+    internal    that of further stresses, as of water
     tell        is told, on rank 0, why a step was cut
     march       options of March, as tolerance=1e-10: |force on the unknowns| / |nodal forces of P| [-]
 
@@ -255,7 +270,8 @@ class Newton:
 
     def __init__(self, points: Points, u: Any, conditions: Sequence[Any],
                  apply: Callable[[float], None], external: Callable[[Any], Any] | None = None,
-                 tell: Callable[[str], object] | None = None, **march: float) -> None:
+                 tell: Callable[[str], object] | None = None,
+                 internal: Callable[[Any], Any] | None = None, **march: float) -> None:
         self.points, self.u, self.conditions, self.comm = points, u, list(conditions), points.comm
         self._apply, self._tell = apply, tell
         V = u.function_space
@@ -264,6 +280,9 @@ class Newton:
         self._free = np.setdiff1d(np.arange(self.owned), np.concatenate(fixed) if fixed else [])
         v, du = ufl.TestFunction(V), ufl.TrialFunction(V)
         residual, stiffness = points.stress_power(v), points.stiffness(du, v)
+        if internal is not None:
+            residual += internal(v)
+            stiffness += ufl.derivative(internal(v), u, du)
         self._internal = fem.form(residual)
         if external is not None:
             residual -= external(v)
@@ -341,14 +360,14 @@ class Newton:
 
     def norms(self) -> tuple[float, float]:
         """|force on the free unknowns| and |nodal forces of P|, of what this rank owns [N, 2D: N/m]."""
-        residual, internal = _assembled(self._residual), _assembled(self._internal)
+        residual, internal = assembled(self._residual), assembled(self._internal)
         return float(np.linalg.norm(residual[self._free])), float(np.linalg.norm(internal))
 
     def force(self, unknowns: npt.ArrayLike) -> float:
         """Sum of the nodal forces of P on unknowns over all ranks, which give them by their own numbers;
         those that others own are left out [N, 2D: N/m]."""
         wanted = np.asarray(unknowns, np.int64)
-        own = _assembled(self._internal)[wanted[wanted < self.owned]]
+        own = assembled(self._internal)[wanted[wanted < self.owned]]
         return float(self.comm.allreduce(own.sum()))
 
 
@@ -357,7 +376,7 @@ def _to_owners(vector: Any) -> None:
     vector.ghostUpdate(addv=PETSc.InsertMode.ADD, mode=PETSc.ScatterMode.REVERSE)
 
 
-def _assembled(form: Any) -> Array:
+def assembled(form: Any) -> Array:
     """The vector of a form, of the unknowns that this rank owns."""
     vector = _petsc.assemble_vector(form)
     _to_owners(vector)

@@ -1,0 +1,177 @@
+# mypy: allow-untyped-calls
+"""Pore water in DOLFINx 0.5: displacements and pore pressure (u-p) at finite strain, with Darcy's flow and
+backward Euler in time. Grains do not change their volume.
+
+    water = PoreWater(permeability=1e-9)            # refused before any point is made
+    w = fem.Function(water_space(domain))           # (u, p): P2 beside P1
+    points = Points(domain, material, degree=2)
+    newton = WaterNewton(points, w, conditions, apply=set_load, water=water, external=lambda v: ...)
+    for part in newton.to(0): ...                   # loads that act at once: nothing drains
+    newton.step_time = 3600                         # [s] of each load step from here
+    for part in newton.to(1): ...
+
+The pressure p is that above water at rest. With J = det F, s the volume of the grains over that of the
+point at F = I, and h the values at the end of the last part of a step:
+
+    stress           P - p J F^-T                  of packing and water
+    volume of water  J - s - (h.J - s) exp((h.p - p) / bulk_modulus)   that came in a part
+    flow             k J F^-1 F^-T grad p          [m/s], against it
+"""
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+import ufl
+from dolfinx import fem
+from mpi4py import MPI
+
+from .abi import Error
+from .arrays import Array
+from .dolfinx import Newton, Points, assembled
+from .march import March
+from .material import AnyPath
+from .names import Measure, Status
+
+__all__ = ["PoreWater", "WaterNewton", "water_space"]
+
+
+@dataclasses.dataclass(frozen=True)
+class PoreWater:
+    """What flows in the pores. Raises Error where it cannot."""
+
+    permeability: float             #: hydraulic conductivity over unit weight, at F = I [m2/(Pa s)]
+    bulk_modulus: float = math.inf  #: of water [Pa]; inf: incompressible
+    kozeny_carman: bool = False     #: permeability by void ratio e: k e^3 / (1 + e), over that at F = I
+
+    def __post_init__(self) -> None:
+        if not 0 < self.permeability < math.inf:
+            raise Error(Status.BAD_ARGUMENT, f"the permeability is {self.permeability} m2/(Pa s), expected "
+                        "above 0; a step_time of 0 is undrained")
+        if not self.bulk_modulus > 0:
+            raise Error(Status.BAD_ARGUMENT,
+                        f"the bulk modulus of water is {self.bulk_modulus} Pa, expected above 0")
+
+
+def water_space(domain: Any) -> Any:
+    """Of displacements and pressures: quadratic and linear (Taylor-Hood)."""
+    cell = domain.ufl_cell()
+    return fem.FunctionSpace(domain, ufl.MixedElement(ufl.VectorElement("Lagrange", cell, 2),
+                                                      ufl.FiniteElement("Lagrange", cell, 1)))
+
+
+class WaterNewton(Newton):
+    """Newton with pore water. A side without a condition on the pressure is sealed.
+
+    w           a function of water_space()
+    conditions  on w.sub(0), displacements, and w.sub(1), pressures; at least one part is drained, or
+                displacements leave the volume free, or water is compressible
+    external    the form of the work of external loads in a test displacement
+
+    The others are those of Newton. residuals and force() count the stress of packing and water. Raises
+    Error as it does, and where nothing determines the pressure."""
+
+    step_time: float = 0   #: that passes in a load step [s], in a part of it so much less; 0: undrained
+
+    def __init__(self, points: Points, w: Any, conditions: Sequence[Any], apply: Callable[[float], None],
+                 water: PoreWater, external: Callable[[Any], Any] | None = None,
+                 tell: Callable[[str], object] | None = None, **march: float) -> None:
+        self.water, self._former = water, fem.Function(w.function_space)
+        self._former.x.array[:] = w.x.array
+        self._set_load, self._length = apply, 0.0
+        self._time, self._scale = (fem.Constant(points.domain, 0.0) for _ in range(2))
+        self._solid = points.scalars(_solid_shares(points, w))
+        _check(points, w, conditions, water)
+        super().__init__(points, w, conditions, self._apply_with_time, external=lambda test:
+                         (external(ufl.split(test)[0]) if external else 0) - self._came(test),
+                         internal=self._push, tell=tell, **march)
+        self._scale.value = _modulus(points) / _size(points)
+
+    def to(self, load: float) -> Iterator[March]:
+        """As Newton.to, in step_time; from 0 to 0 no time passes."""
+        if not 0 <= self.step_time < math.inf:
+            raise Error(Status.BAD_ARGUMENT, f"step_time is {self.step_time} s, expected at least 0")
+        self._length = load - self.march.reached
+        for part in super().to(load):
+            self._former.x.array[:] = self.u.x.array
+            yield part
+
+    def load(self, path: AnyPath) -> None:
+        """As Newton.load."""
+        super().load(path)
+        self._solid.x.array[:] = self.points.scalars(_solid_shares(self.points, self.u)).x.array
+        self._former.x.array[:] = self.u.x.array
+
+    def _apply_with_time(self, load: float) -> None:
+        passed = (load - self.march.reached) / self._length if self._length else 0
+        self._time.value = self.step_time * passed
+        self._set_load(load)
+
+    def _push(self, test: Any) -> Any:
+        """The work of the pressure."""
+        F, p = _gradient(self.u), ufl.split(self.u)[1]
+        cofactor = ufl.det(F) * ufl.inv(F).T
+        return -p * ufl.inner(cofactor, ufl.grad(ufl.split(test)[0])) * self.points.dx
+
+    def _came(self, test: Any) -> Any:
+        """The volume of water that came and flowed, as the stress that it makes."""
+        F, s, k = _gradient(self.u), self._solid, self.water.permeability
+        J, p, q = ufl.det(F), ufl.split(self.u)[1], ufl.split(test)[1]
+        former_J, former_p = ufl.det(_gradient(self._former)), ufl.split(self._former)[1]
+        if self.water.kozeny_carman:
+            k *= ((J - s) / (1 - s))**3 / J
+        left = former_J - s
+        if math.isfinite(self.water.bulk_modulus):
+            left *= ufl.exp((former_p - p) / self.water.bulk_modulus)
+        f = ufl.inv(F)
+        flow = k * J * f * f.T * ufl.grad(p)
+        return self._scale * ((J - s - left) * q
+                              + self._time * ufl.inner(flow, ufl.grad(q))) * self.points.dx
+
+
+def _gradient(w: Any) -> Any:
+    u = ufl.split(w)[0]
+    return ufl.Identity(len(u)) + ufl.grad(u)
+
+
+def _solid_shares(points: Points, w: Any) -> Array:
+    """Volume of the grains over that of each point at F = I [-]."""
+    return points.values(ufl.det(_gradient(w))) / (1 + points.states.measure(Measure.VOID_RATIO))
+
+
+def _check(points: Points, w: Any, conditions: Sequence[Any], water: PoreWater) -> None:
+    """That something determines the pressure."""
+    V = w.function_space
+    own = V.dofmap.index_map.size_local * V.dofmap.index_map_bs
+    fixed = np.zeros(own, bool)
+    for condition in conditions:
+        dofs = condition.dof_indices()[0]
+        fixed[dofs[dofs < own]] = True
+    of_pressure = np.asarray(V.sub(1).collapse()[1])
+    drained = fixed[of_pressure[of_pressure < own]].any()
+    test = ufl.split(ufl.TestFunction(V))[0]
+    forces = np.abs(assembled(fem.form(ufl.div(test) * points.dx)))
+    free = forces[~fixed].max(initial=0)
+    drained, free, largest = (points.comm.allreduce(value, MPI.MAX)
+                              for value in (bool(drained), free, forces.max(initial=0)))
+    if not drained and math.isinf(water.bulk_modulus) and free <= 1e-12 * largest:
+        raise Error(Status.BAD_ARGUMENT, "nothing determines the pore pressure: no side is drained, water is "
+                    "incompressible and no displacement changes the volume; expected a condition on it")
+
+
+def _modulus(points: Points) -> float:
+    """Mean stiffness of one component of F of the points of all ranks [Pa]."""
+    square = points.dimension**2
+    diagonal = np.abs(points.values(ufl.as_vector([points.A[k, k] for k in range(square)])))
+    total, count = points.comm.allreduce(np.array([diagonal.sum(), diagonal.size]))
+    return float(total / count)
+
+
+def _size(points: Points) -> float:
+    """Mean distance of points [m]."""
+    one = fem.form(fem.Constant(points.domain, 1.0) * points.dx)
+    volume = points.comm.allreduce(np.array([fem.assemble_scalar(one), len(points.states)]))
+    return float((volume[0] / volume[1])**(1 / points.dimension))
