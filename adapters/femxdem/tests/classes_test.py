@@ -7,7 +7,7 @@ import unittest
 from unittest import mock
 
 import numpy as np
-from esys.escript import ReducedSolution, Solution, Vector, interpolate, whereZero
+from esys.escript import FunctionOnBoundary, ReducedSolution, Solution, Vector, interpolate, whereZero
 
 import grainlaw
 from grainlaw import laboratory
@@ -105,8 +105,16 @@ class Plane(Case):
         with self.assertRaisesRegex(grainlaw.Error, "0.toml: cannot be read"), \
                 contextlib.chdir(tempfile.gettempdir()):
             MultiScale2D(domain, ng=4)
+        prob = MultiScale2D(domain, ng=4, material=self.discs)
         with self.assertRaisesRegex(ValueError, "initialize"):
-            MultiScale2D(domain, ng=4, material=self.discs).solve()
+            prob.solve()
+        with self.assertRaisesRegex(ValueError, "f has entries that are no numbers"):
+            prob.initialize(b=[0.0, -1e4], f=[float("nan"), 0.0])
+        mask, values, sides = biaxial(domain, STRAIN)
+        prob.initialize(f=sides, specified_u_mask=mask, specified_u_val=values)
+        with self.assertRaisesRegex(ValueError, "iter_max 0: expected"):
+            prob.solve(iter_max=0)
+        self.assertRaisesRegex(ValueError, "rtol 0", MultiScale2D, domain, ng=4, rtol=0, material=self.discs)
 
     def test_points_have_files_of_their_own_and_only_one_process_of_a_pool_goes_on(self):
         with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
@@ -185,6 +193,34 @@ class Water(Case):
             dry.initialize(f=sides, specified_u_mask=mask, specified_u_val=values)
             dry.solve()
         np.testing.assert_allclose(rows(prob.getCurrentStress()), rows(dry.getCurrentStress()), rtol=1e-4, atol=20)
+
+    def test_a_column_consolidates_as_terzaghi_found(self):
+        bonded = grainlaw.Material(os.path.join(ROOT, "tests/data/bonded100.toml"))
+        answer = grainlaw.State(bonded).answer(grainlaw.Tangent.EXACT)
+        load, modulus, shear = 1e3, answer.A[1, 1, 1, 1], answer.P[0, 1]
+        domain = rectangle(1, 4)
+        prob = MultiScaleUP(domain, ng=16, rtol=1e-4, material=bonded, perm=1e-9, kf=2.2e15)
+        n = rows(prob.getEquivalentPorosity()).mean()
+        diffusivity = modulus * 1e-9 * n**3 / (1 - n)**2
+        x, edge = domain.getX(), FunctionOnBoundary(domain).getX()
+        pore = ReducedSolution(domain).getX()
+        held = whereZero(x[1]) * [1, 1] + (whereZero(x[0]) + whereZero(x[0] - 1)) * [1, 0]
+        forces = (whereZero(edge[1] - 1) * [shear, answer.P[1, 1] - load]
+                  + (whereZero(edge[0] - 1) - whereZero(edge[0])) * [0, shear])
+        prob.setTimeStep(1e-7 / diffusivity)
+        prob.initialize(f=forces, umsk=held)
+        prob.solve()
+        np.testing.assert_allclose(rows(prob.getCurrentPore()), load, rtol=1e-6)
+        prob.setTimeStep(0.02 / diffusivity)
+        for _ in range(10):
+            prob.initialize(f=forces, umsk=held, pmsk=whereZero(pore[1] - 1), pvalue=0 * pore[1])
+            prob.solve()
+        settled = (1 - rows(domain.getX())[:, 1].max()) * modulus / load
+        roots = np.pi * (np.arange(100) + 0.5)
+        fade = np.exp(-roots**2 * 0.2)
+        self.assertAlmostEqual(settled, 1 - np.sum(2 / roots**2 * fade), delta=0.01)
+        self.assertAlmostEqual(rows(prob.getCurrentPore()).max() / load, np.sum(2 / roots * np.sin(roots) * fade),
+                               delta=0.015)
 
     def test_the_flux_leaves_by_the_top_as_volume_is_lost(self):
         prob, _, _ = self.problem(STRAIN, steps=1, perm=1e-9, dt=10.0, drains=True)

@@ -61,7 +61,7 @@ class _MultiScale:
         if whole("ng", ng, 1, sys.maxsize) != count:
             raise ValueError(f"ng {ng}: expected {count}, the integration points of the domain")
         self._threads = 0 if useMPI else whole("np", np_, 1, 2**15)
-        self._rtol, self._verbose = number("rtol", rtol), verbose
+        self._rtol, self._verbose = _positive("rtol", rtol), verbose
         self._states = _states(material, count, random, dimension)
         self._pde = LinearPDE(domain, numEquations=dimension, numSolutions=dimension)
         self._pde.getSolverOptions().setSolverMethod(SolverOptions.DIRECT)
@@ -122,8 +122,11 @@ class _MultiScale:
     def _measured(self, what: Measure) -> Data:
         return _data(self._states.measure(what), self._space)
 
-    def _loads(self, **loads: Data) -> None:
+    def _loads(self, b: Data, **on_boundary: Data) -> None:
         """Loads of the next step; those of the first one act from its start."""
+        boundary = escript.FunctionOnBoundary(self._domain)
+        loads = {"b": _given("b", b, self._space)}
+        loads |= {name: _given(name, data, boundary) for name, data in on_boundary.items()}
         self._old = self._new or loads
         self._new = loads
 
@@ -277,13 +280,15 @@ class MultiScale2D(_MultiScale):
                    specified_u_mask: Data = escript.Data(), specified_u_val: Data = escript.Data()) -> None:
         """The next step: body forces [N/m3] and tractions on the boundary [Pa] at its end, where
         displacements are prescribed, and what they are of this step [m]."""
-        self._loads(b=b, f=f)
-        self._mask, self._values = specified_u_mask, specified_u_val
+        self._loads(b, f=f)
+        nodes = escript.ContinuousFunction(self._domain)
+        self._mask = _given("specified_u_mask", specified_u_mask, nodes)
+        self._values = _given("specified_u_val", specified_u_val, nodes)
 
     def solve(self, iter_max: int = 100) -> Data:
         """Displacements of the step, vector [m]; `iter_max` corrections of a part. Raises StepError where
         the step fails however it is cut; all is then at the last equilibrium."""
-        return self._lead(iter_max)
+        return self._lead(whole("iter_max", iter_max, 1, 10**6))
 
 
 class MultiScale3D(MultiScale2D):
@@ -322,8 +327,10 @@ class MultiScaleUP(_MultiScale):
                    pvalue: Data = escript.Data()) -> None:
         """The next step: as of MultiScale2D with umsk and uvalue; water that enters through the boundary
         [m/s], where pressures are prescribed, and what they are [Pa]."""
-        self._loads(b=b, f=f, flux=flux)
-        self._mask, self._values, self._drains, self._pressures = umsk, uvalue, pmsk, pvalue
+        self._loads(b, f=f, flux=flux)
+        nodes, corners = escript.ContinuousFunction(self._domain), escript.ReducedSolution(self._domain)
+        self._mask, self._values = _given("umsk", umsk, nodes), _given("uvalue", uvalue, nodes)
+        self._drains, self._pressures = _given("pmsk", pmsk, corners), _given("pvalue", pvalue, corners)
 
     def setTimeStep(self, dt: float = 1.0) -> None:
         """Time of the steps from now on [s]"""
@@ -481,6 +488,14 @@ def _material(material: AnyPath | Material, dimension: int) -> Material:
         raise ValueError(f"{material}: a material of dimension {found.dimension}, expected {dimension}, that of "
                          "the class")
     return found
+
+
+def _given(name: str, value: Any, space: Any) -> Data:
+    """Data as it is, or numbers as Data; escript takes either."""
+    data = value if isinstance(value, escript.Data) else escript.Data(np.asarray(value, float), space)
+    if not data.isEmpty() and (data.hasNaN() or data.hasInf()):
+        raise ValueError(f"{name} has entries that are no numbers, expected a number in each")
+    return data
 
 
 def _positive(name: str, value: float, least: float | None = None) -> float:
