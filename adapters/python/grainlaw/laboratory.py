@@ -339,7 +339,8 @@ def hollow_cylinder(start: Start, alpha: float, b: float = 0.5, strain: float = 
     [degree] from the axial axis, 0 to 90, turned as a shear above 0 turns it, and
     b = (s2 - s3) / (s1 - s3) [-], s2 along axis 2, the radial one. The mean pressure stays, undrained
     det F. The strain is the axial one up to 22.5 degrees (compression) and from 67.5 (extension), the
-    shear strain between. alpha 0 is a true triaxial test (Hight, Gens & Symes 1983)."""
+    shear strain between; F12 and F23 stay (Hight, Gens & Symes 1983). Raises ValueError for discs and
+    for numbers outside of these ranges."""
     share, angle = number("b", b), number("alpha", alpha)
     if not 0 <= share <= 1:
         raise ValueError(f"b {share!r}: expected a number from 0 to 1")
@@ -370,7 +371,7 @@ def rotation(start: Start, angle: float = 180.0, steps: int = 36, *, stop: Stop 
     """The principal stresses of the plane of axis 1 and the axial one are turned by `angle` [degree],
     all of them staying as they are, as a shear above 0 turns them; a hollow cylinder does that between
     torsion and axial load (Miura, Miura & Toki 1986). 180 degrees are a whole cycle of the stress. The
-    start has to have a deviator: a test before, on the same State."""
+    start has to have a deviator, by a test before on the same State: else it raises ValueError."""
     whole_angle, count = math.radians(2 * number("angle", angle)), _count(steps)
     if whole_angle == 0:
         raise ValueError("angle 0: expected degrees to turn the principal stresses by, as 180")
