@@ -14,13 +14,13 @@ class Condition:
     """What one component is led to, linearly from its value at the start of the step. F of the
     same component is found where a stress is prescribed."""
 
-    #: F [-]; P, sigma, mean (tr sigma / d) [Pa]; difference: of sigma from another component, less a
-    #: share of the difference of the last one from that; ratio: sigma less a share of the last one
+    #: F [-]; P, sigma, mean (tr sigma / d) [Pa]; difference: of sigma from another component;
+    #: stresses: the sum of components of sigma by their weights
     kind: str = "F"
     value: float = 0.0    #: at the end
     added: bool = True    #: value is added to the start; by default F stays as it is
     other: int = 0        #: of a difference: the component that it is from
-    share: float = 0.0    #: of a difference or a ratio [-]
+    weights: Sequence[tuple[int, float]] = ()   #: of stresses: components with what they count [-]
 
     @property
     def stress(self) -> bool:
@@ -73,12 +73,11 @@ def controlled(conditions: Sequence[Condition], F: Array, P: Array,
         elif condition.kind == "mean":
             value[k], derivative[k] = sigma[diagonal].mean(), spatial[diagonal].mean(axis=0)
         elif condition.kind == "difference":
-            other, share = condition.other, condition.share
-            value[k] = sigma[k] - sigma[other] - share * (sigma[-1] - sigma[other])
-            derivative[k] = spatial[k] - spatial[other] - share * (spatial[-1] - spatial[other])
-        elif condition.kind == "ratio":
-            value[k] = sigma[k] - condition.share * sigma[-1]
-            derivative[k] = spatial[k] - condition.share * spatial[-1]
+            value[k] = sigma[k] - sigma[condition.other]
+            derivative[k] = spatial[k] - spatial[condition.other]
+        elif condition.kind == "stresses":
+            value[k] = sum(weight * sigma[j] for j, weight in condition.weights)
+            derivative[k] = sum(weight * spatial[j] for j, weight in condition.weights)
     return value, derivative
 
 

@@ -29,7 +29,8 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -52,8 +53,8 @@ from .series import Batch, Stiffness, loops_of
 from .unusual import ask, tell_drag
 
 __all__ = ["Batch", "Ensemble", "Interrupted", "Loops", "Result", "StepFailed", "Stiffness", "Stop",
-           "constant_p", "cyclic_undrained", "drained", "isotropic", "k0", "oedometric", "path", "radial",
-           "shear_constant_stress", "shear_constant_volume", "stiffness", "torsional", "true_triaxial",
+           "constant_p", "cyclic_undrained", "drained", "hollow_cylinder", "isotropic", "k0", "oedometric",
+           "path", "radial", "rotation", "shear_constant_stress", "shear_constant_volume", "stiffness", "torsional", "true_triaxial",
            "undrained"]
 
 STEPS = 20            # where stresses lead
@@ -271,7 +272,7 @@ def true_triaxial(start: Start, b: float, strain: float = 0.1, step: float = 1e-
             raise ValueError("true_triaxial of discs: expected spheres, which have three stresses")
         conditions[0] = (Condition("mean", float(sigma.trace()) / 3, False) if held is None
                          else _stress(-held))
-        conditions[4] = Condition("difference", 0.0, False, other=0, share=share)
+        conditions[4] = _stresses({4: 1.0, 0: share - 1, 8: -share})
         return ()
 
     return _strained("true_triaxial", start, strain, step, hold, loops,
@@ -293,8 +294,8 @@ def radial(start: Start, strain: float = 0.02, step: float = 5e-4, *,
 
     def hold(F: Array, sigma: Array, conditions: list[Condition]) -> Sequence[int]:
         for i in range(len(F) - 1 if poisson is None else 0):
-            conditions[_kk(F, i)] = Condition(
-                "ratio", float(sigma[i, i] - share * sigma[-1, -1]), False, share=share)
+            conditions[_kk(F, i)] = _stresses({_kk(F, i): 1.0, F.size - 1: -share},
+                                              float(sigma[i, i] - share * sigma[-1, -1]))
         return ()
 
     def spread(F: Array, way: float, conditions: list[Condition]) -> None:
@@ -327,6 +328,74 @@ def torsional(start: Start, strain: float = 0.1, step: float = 1e-3, *, drained:
 
     return _strained("torsional", start, strain, step, hold, loops,
                      _How(stop, consolidation, tolerance, tangents, progress), shear=True)
+
+
+def hollow_cylinder(start: Start, alpha: float, b: float = 0.5, strain: float = 0.1,
+                    step: float = 1e-3, *, drained: bool = True, loops: Loops | None = None,
+                    stop: Stop | None = None, consolidation: float | None = None,
+                    tolerance: float = 1e-8, tangents: bool = False,
+                    progress: Listener = False) -> Result:
+    """Strain [-] of spheres, in steps of `step` [-], with the largest principal stress s1 at `alpha`
+    [degree] from the axial axis, 0 to 90, turned as a shear above 0 turns it, and
+    b = (s2 - s3) / (s1 - s3) [-], s2 along axis 2, the radial one. The mean pressure stays, undrained
+    det F. The strain is the axial one up to 22.5 degrees (compression) and from 67.5 (extension), the
+    shear strain between; F12 and F23 stay (Hight, Gens & Symes 1983). Raises ValueError for discs and
+    for numbers outside of these ranges."""
+    share, angle = number("b", b), number("alpha", alpha)
+    if not 0 <= share <= 1:
+        raise ValueError(f"b {share!r}: expected a number from 0 to 1")
+    if not 0 <= angle <= 90:
+        raise ValueError(f"alpha {angle!r}: expected degrees from the axial axis, from 0 to 90")
+    if number("strain", strain) <= 0:
+        raise ValueError(f"strain {strain!r}: expected a number above 0; alpha tells the direction")
+    turned, shear = math.radians(2 * angle), 22.5 < angle < 67.5
+
+    def hold(F: Array, sigma: Array, conditions: list[Condition]) -> Sequence[int]:
+        if len(F) != 3:
+            raise ValueError("hollow_cylinder of discs: expected spheres, which have three stresses")
+        if drained:
+            conditions[0] = Condition("mean", float(sigma.trace()) / 3, False)
+        cos, sin = math.cos(turned) / 2, math.sin(turned)
+        half = 2 * share - 1   # times (s1 - s3) / 2: of s2 from the mean of s1 and s3
+        conditions[4] = _stresses({4: 1.0, 0: half * cos - 0.5, 8: -half * cos - 0.5, 2: half * sin})
+        conditions[8 if shear else 2] = _stresses({0: -sin / 2, 8: sin / 2, 2: 2 * cos})
+        return () if drained else (0,)
+
+    return _strained("hollow_cylinder", start, -strain if angle >= 67.5 else strain, step, hold, loops,
+                     _How(stop, consolidation, tolerance, tangents, progress), shear=shear)
+
+
+def rotation(start: Start, angle: float = 180.0, steps: int = 36, *, stop: Stop | None = None,
+             consolidation: float | None = None, tolerance: float = 1e-8, tangents: bool = False,
+             progress: Listener = False) -> Result:
+    """The principal stresses of the plane of axis 1 and the axial one are turned by `angle` [degree],
+    all of them staying as they are, as a shear above 0 turns them; a hollow cylinder does that between
+    torsion and axial load (Miura, Miura & Toki 1986). 180 degrees are a whole cycle of the stress. The
+    start has to have a deviator, by a test before on the same State: else it raises ValueError."""
+    whole_angle, count = math.radians(2 * number("angle", angle)), _count(steps)
+    if whole_angle == 0:
+        raise ValueError("angle 0: expected degrees to turn the principal stresses by, as 180")
+
+    def plan(lead: Lead) -> Plan:
+        sigma = cauchy(lead.P, lead.F)
+        mean, half = 0.5 * (sigma[0, 0] + sigma[-1, -1]), 0.5 * (sigma[0, 0] - sigma[-1, -1])
+        size, first = math.hypot(half, sigma[0, -1]), math.atan2(sigma[0, -1], half)
+        if size < 1e-3 * abs(mean):
+            raise ValueError(f"principal stresses that differ by {2 * size / abs(mean):.1e} of their mean: "
+                             "expected at least 2e-3, by a test before on the same State")
+
+        def to(way: float) -> Segment:
+            conditions, now = keep(lead.F.size), first + way * whole_angle
+            for i in range(1, len(sigma) - 1):
+                conditions[_kk(lead.F, i)] = _stress(sigma[i, i])
+            conditions[0] = _stress(mean + size * math.cos(now))
+            conditions[-1] = _stress(mean - size * math.cos(now))
+            conditions[len(sigma) - 1] = _stress(size * math.sin(now))
+            return Segment(conditions)
+
+        return Plan(to, 1.0, 1 / count, by_share=True, shear=True)
+
+    return _run("rotation", start, plan, 0, _How(stop, consolidation, tolerance, tangents, progress))
 
 
 def path(start: Start, steps: int, *, isochoric: bool = False, mean_pressure: float | None = None,
@@ -478,6 +547,10 @@ def _kk(F: Array, i: int) -> int:
 
 def _stress(value: float) -> Condition:
     return Condition("sigma", float(value), False)
+
+
+def _stresses(weights: Mapping[int, float], value: float = 0.0) -> Condition:
+    return Condition("stresses", value, False, weights=tuple(weights.items()))
 
 
 def _count(steps: int) -> int:

@@ -1,4 +1,5 @@
 """Tests by b, along rays, in torsion, cyclic until an amplitude; stiffness against strain; batches."""
+import os
 import unittest
 
 import numpy as np
@@ -6,7 +7,7 @@ import numpy as np
 import grainlaw
 from grainlaw import laboratory
 from grainlaw.laboratory import Batch, Loops
-from support import Case
+from support import DATA, Case
 
 TEXT = """dimension = {dimension}
 {thickness}
@@ -38,6 +39,15 @@ def sand(dimension=2, seed=2, count=60):
 
 def normal(result):
     return -np.diagonal(result.sigma, axis1=1, axis2=2)
+
+
+def direction(result):
+    """Of the largest principal stress of the plane 1, 3 from axis 3 [degree], and b, past the start."""
+    compression = -result.sigma[1:]
+    half = 0.5 * (compression[:, 2, 2] - compression[:, 0, 0])
+    mean, size = 0.5 * (compression[:, 2, 2] + compression[:, 0, 0]), np.hypot(half, compression[:, 0, 2])
+    turned = 0.5 * np.degrees(np.arctan2(-compression[:, 0, 2], half))
+    return turned, (compression[:, 1, 1] - mean + size) / (2 * size)
 
 
 class Paths(Case):
@@ -74,6 +84,45 @@ class Paths(Case):
                                        atol=1e-7 * 100e3)
             self.assertAlmostEqual(undrained.shear_strain[-1], 0.002, delta=1e-5)
 
+    def test_a_hollow_cylinder_keeps_alpha_b_and_the_mean_pressure_or_the_volume(self):
+        for alpha in (0, 30, 45, 75, 90):
+            for drained in (True, False):
+                result = laboratory.hollow_cylinder(sand(3), alpha, b=0.3, strain=0.001, step=2.5e-4,
+                                                    drained=drained)
+                turned, b = direction(result)
+                np.testing.assert_allclose(np.cos(2 * np.radians(turned - alpha)), 1, atol=1e-9)
+                np.testing.assert_allclose(b, 0.3, atol=1e-5)
+                if drained:
+                    np.testing.assert_allclose(result.mean_pressure, 100e3, rtol=1e-6)
+                else:
+                    np.testing.assert_allclose(np.linalg.det(result.F), 1, rtol=1e-12)
+        self.assertGreater(result.F[-1, 2, 2], 1)   # alpha 90 is extension
+        for how in ({"alpha": 91}, {"alpha": 30, "b": -0.1}, {"alpha": 30, "strain": -0.1}):
+            self.assertRaises(ValueError, laboratory.hollow_cylinder, sand(3), **how)
+        with self.assertRaisesRegex(ValueError, "expected spheres"):
+            laboratory.hollow_cylinder(sand(), 30)
+
+    def test_principal_stresses_turn_and_stay_as_they_are(self):
+        for dimension in (2, 3):
+            state = grainlaw.State(sand(dimension))
+            laboratory.constant_p(state, 3e-4)
+            result = laboratory.rotation(state, 180, 12)
+            plane = result.sigma[:, ::dimension - 1, ::dimension - 1]
+            stresses = np.linalg.eigvalsh(plane)
+            np.testing.assert_allclose(stresses, np.broadcast_to(stresses[0], stresses.shape), rtol=1e-6)
+            np.testing.assert_allclose(plane[-1], plane[0], atol=1)
+            np.testing.assert_allclose(plane[6] + plane[0], np.eye(2) * np.trace(plane[0]), atol=1)
+            self.assertGreater(abs(result.sigma[3, 0, -1]), 1e3)
+        with self.assertRaisesRegex(ValueError, "a test before"):
+            laboratory.rotation(laboratory.path(sand(), 1, sigma11=-1e5, sigma22=-1e5, sigma12=0.0).state)
+        self.assertRaises(ValueError, laboratory.rotation, sand(), 0.0)
+
+    def test_simple_shear_with_constant_volume_ends_at_its_double_amplitude_and_keeps_the_volume(self):
+        result = laboratory.shear_constant_volume(
+            sand(), 0.05, loops=Loops(20, q=15e3), stop=laboratory.Stop(double_amplitude=1e-4))
+        self.assertIn("double amplitude", result.ended)
+        np.testing.assert_allclose(np.linalg.det(result.F), 1, rtol=1e-12)
+
     def test_cyclic_undrained_ends_at_its_double_amplitude(self):
         result = laboratory.cyclic_undrained(sand(), 0.2, cycles=5, double_amplitude=2e-4)
         self.assertIn("double amplitude", result.ended)
@@ -95,6 +144,12 @@ class Series(Case):
         loop = laboratory.shear_constant_volume(sand(), 1e-4, 2e-5, loops=Loops(2, strain=1e-4))
         self.assertEqual(loop.sigma.tobytes(), found.results[1].sigma.tobytes())
         self.assertRaises(ValueError, laboratory.stiffness, sand(), (0.0,))
+
+    def test_bonds_that_hold_have_no_damping(self):
+        bonded = grainlaw.Material(os.path.join(DATA, "bonded100.toml"))
+        found = laboratory.stiffness(bonded, (1e-6, 1e-5), 5)
+        np.testing.assert_allclose(found.damping, 0, atol=1e-5)
+        np.testing.assert_allclose(found.modulus[1], found.modulus[0], rtol=1e-2)
 
     def test_a_batch_has_a_result_for_each_packing_and_pressure(self):
         batch = Batch(laboratory.drained, {"one": sand(), "other": sand(seed=3)}, [80e3, 120e3],
