@@ -3,7 +3,8 @@
 //
 //   int sand = grainlawCreate("sand.toml", n)          n points at F = I; the number of the set
 //   grainlawCreate(materials, counts)                  counts[k] points of materials[k], one after
-//                                                      the other (string[int], int[int])
+//                                                      the other (string[int], int[int]); a rank
+//                                                      may have none
 //   grainlawConsolidate(sand, sigma, reached, "k0", overconsolidation)
 //       leads all points to Cauchy stresses [dim^2, n] and makes that F = I; also "proportional"
 //       and "isotropic"; all points or none
@@ -149,6 +150,9 @@ string* for_script(Stack stack, const std::string& text) {
 
 long create(string* const& path, const long& points) {
   return guarded("grainlawCreate", [&] {
+    if (points < 1)
+      throw std::invalid_argument("the number of points is " + std::to_string(points) +
+                                  ", expected at least 1");
     sets.emplace(last_number + 1,
                  std::make_unique<Led>(std::vector{std::string(*path)}, std::vector{points}));
     return ++last_number;

@@ -71,10 +71,9 @@ grainlaw::Points create(const std::vector<std::string>& material_paths,
                                 std::to_string(points.size()) +
                                 " numbers of points, expected as many of both");
   const long fewest = *std::min_element(points.begin(), points.end());
-  const long count = std::accumulate(points.begin(), points.end(), 0L);
-  if (fewest < 0 || count < 1)
-    throw std::invalid_argument("the number of points is " +
-                                std::to_string(std::min(fewest, count)) + ", expected at least 1");
+  if (fewest < 0)
+    throw std::invalid_argument("a number of points is " + std::to_string(fewest) +
+                                ", expected at least 0");
   std::vector<grainlaw::Material> materials;
   for (const std::string& path : material_paths)
     materials.push_back(grainlaw::Material::load(path));
@@ -187,6 +186,7 @@ void PointSet::load(const std::string& path) {
 }
 
 void PointSet::measure(const std::string& name, const Array& values) const {
+  if (points_.size() == 0) return;
   const std::vector<double> found = points_.measure(measure_named(name));
   expect("the array of values", values, found.size() / points_.size(), points_.size());
   std::copy(found.begin(), found.end(), values.data);
