@@ -8,6 +8,7 @@
 #include <grainlaw/calculix.h>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <map>
 #include <mutex>
@@ -20,8 +21,7 @@ namespace grainlaw::adapters {
 namespace {
 
 constexpr std::array<std::size_t, 6> order{0, 4, 8, 1, 2, 5};  // 11 22 33 12 13 23
-constexpr double default_cut = 0.25;  // CalculiX's own, when an increment diverges
-constexpr double soft = 1;            // Pa; keeps the host's matrix regular without a material
+constexpr double soft = 1;  // Pa; keeps the host's matrix regular without a material
 
 // The last answer of a point: CalculiX asks again for what it has just got.
 struct LastAnswer {
@@ -163,8 +163,8 @@ void grainlaw_calculix_evaluate(grainlaw_calculix_material* material, int elemen
              stress_only != 0, stress, stiffness, pnewdt);
   } catch (const std::exception& error) {
     if (found == nullptr) give_soft(stress, stiffness);
-    cut(pnewdt, default_cut);
-    if (points == nullptr) return;  // no memory for anything
+    cut(pnewdt, grainlaw_march_cut(NAN));  // no ratio was suggested
+    if (points == nullptr) return;         // no memory for anything
     try {
       std::string text = error.what();
       if (found != nullptr) {

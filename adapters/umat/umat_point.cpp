@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -26,7 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::size_t, 6> order{0, 4, 8, 1, 2, 5};  // 11 22 33 12 13 23
-constexpr double default_cut = 0.25;                           // where no smaller step may help
 
 // The working directory of the job.
 const fs::path job_folder = [] {
@@ -189,7 +189,7 @@ void grainlaw_umat_point(const char* material, int element, int point, const dou
     }
     write(response, shears, stress, ddsdde);
   } catch (const std::exception& error) {
-    cut(default_cut);
+    cut(grainlaw_march_cut(NAN));  // no ratio was suggested
     try {
       job().errors.tell(material, "element " + std::to_string(element) + ", point " +
                                       std::to_string(point) + ": " + error.what());

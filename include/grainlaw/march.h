@@ -90,7 +90,8 @@ GRAINLAW_API grainlaw_status grainlaw_march_begin(grainlaw_march*, double from, 
 
 /* What the host does now; part may be NULL. The next call means that it is done. The first SOLVE of an
  * attempt begins at the committed unknowns. After an ACCEPT, the next attempt may be for the same
- * load: of a state beyond a jump, committed out of balance. GIVE_UP also for a null or dead handle, a
+ * load: of a state beyond a jump, committed out of balance. Where that fails, the state is left so: the
+ * BACK counts in part.loose, and the next part or DONE follows. GIVE_UP also for a null or dead handle, a
  * part of unknown size, and before any load step. */
 GRAINLAW_API grainlaw_action grainlaw_march_next(grainlaw_march*, grainlaw_part* part);
 
@@ -111,8 +112,8 @@ GRAINLAW_API grainlaw_status grainlaw_march_tell(grainlaw_march*, grainlaw_statu
                                                  const grainlaw_summary* summary, double residual,
                                                  double scale, double unforeseen);
 
-/* The factor by which a march shortens a part that failed with this step ratio, 0.1 to 0.5: for hosts
- * that cut by themselves. */
+/* The factor by which a march shortens a part that failed with this step ratio, 0.1 to 0.5; NaN: none was
+ * suggested. For hosts that cut by themselves. */
 GRAINLAW_API double grainlaw_march_cut(double step_ratio);
 
 #ifdef __cplusplus

@@ -57,8 +57,8 @@ void March::begin(double from, double to) {
 
 grainlaw_action March::next() {
   if (returned_) part_.keep = 0;
-  if (returned_ && action_ == GRAINLAW_ACCEPT) after_accept();
-  if (returned_ && action_ == GRAINLAW_BACK) begin_attempt();
+  if (returned_ && (action_ == GRAINLAW_ACCEPT || action_ == GRAINLAW_BACK))
+    ends_part_ ? end_part() : begin_attempt();
   returned_ = true;
   return action_;
 }
@@ -72,7 +72,7 @@ double March::bound(double largest_change) const {
 void March::apply(double share) {
   whole_ = share == 1;
   part_.keep = 0;
-  if (share == 0) cut(stepping::largest_cut, "the stiffness is singular");
+  if (share == 0) fail(stepping::largest_cut, "the stiffness is singular");
 }
 
 void March::tell(const Told& told) {
@@ -97,16 +97,12 @@ void March::begin_attempt() {
   best_ = std::numeric_limits<double>::infinity();
   farthest_ = -1;
   whole_ = true;
-  loaded_ = false;
+  loaded_ = crossings_ > 0;  // all of it was applied before
   decide(GRAINLAW_SOLVE);
 }
 
-// The load stays where a state beyond a jump was committed; else the next part is longer.
-void March::after_accept() {
-  if (beyond_) {
-    beyond_ = false;
-    return begin_attempt();
-  }
+// The next part is longer.
+void March::end_part() {
   if (part_.load == to_) return decide(GRAINLAW_DONE);
   length_ = stepping::growth * (part_.load - done_);
   done_ = part_.load;
@@ -116,11 +112,11 @@ void March::after_accept() {
 
 void March::judge(const Told& told) {
   ++part_.solves;
-  if (!told.found) return cut(told.step_ratio, told.reason);
+  if (!told.found) return fail(told.step_ratio, told.reason);
   if (!std::isfinite(told.residual))
-    return cut(stepping::largest_cut, "the residual is not finite");
+    return fail(stepping::largest_cut, "the residual is not finite");
   loaded_ = loaded_ || whole_;
-  if (loaded_ && told.residual <= options_.tolerance) return decide(GRAINLAW_ACCEPT);
+  if (loaded_ && told.residual <= options_.tolerance) return accept(true);
   whole_ = true;
   if (loaded_ && told.unforeseen > farthest_) {
     farthest_ = told.unforeseen;
@@ -136,35 +132,52 @@ void March::judge(const Told& told) {
   decide(GRAINLAW_SOLVE);
 }
 
-// In small parts, points whose P jumps are why.
+// In small parts, points whose P jumps are why. Shorter parts have the same rounding.
 void March::end_without_convergence(double residual) {
+  grainlaw_part text;
+  const double best = std::min(best_, residual);
+  if (loaded_ && options_.tolerance < stepping::noise && best <= stepping::noise) {
+    write(text, "the tolerance is below rounding: residual %.1e, expected %.1e [-]", best,
+          options_.tolerance);
+    return give_up(text.message);
+  }
   const bool small = along(part_.load - done_) <= options_.crossing_part * whole();
   if (small && farthest_ >= 0 && options_.max_crossings > 0) return decide(GRAINLAW_CROSS);
-  grainlaw_part text;
-  write(text, "Newton did not converge: best relative residual %.1e, expected %.1e [-]",
-        std::min(best_, residual), options_.tolerance);
-  cut(stepping::largest_cut, text.message);
+  write(text, "Newton did not converge: best relative residual %.1e, expected %.1e [-]", best,
+        options_.tolerance);
+  fail(stepping::largest_cut, text.message);
 }
 
 void March::judge_crossing(const Told& told) {
-  if (!told.found) return cut(stepping::largest_cut, told.reason);
-  beyond_ = crossings_ < options_.max_crossings;
-  if (beyond_) {
+  if (!told.found) return fail(stepping::largest_cut, told.reason);
+  const bool beyond = crossings_ < options_.max_crossings;
+  if (beyond) {
     ++crossings_;
     ++part_.crossed;
     part_.complete = 0;  // yet
   } else {
     ++part_.loose;
   }
+  accept(!beyond);
+}
+
+void March::accept(bool ends_part) {
+  ends_part_ = ends_part;
   decide(GRAINLAW_ACCEPT);
 }
 
-void March::cut(double ratio, const char* reason) {
+// Cuts the part. Not that of a state beyond a jump, which would go back: that state stays as it is.
+void March::fail(double ratio, const char* reason) {
+  ends_part_ = crossings_ > 0;
+  if (ends_part_) {
+    ++part_.loose;
+    write(part_, "%s", reason);
+    return decide(GRAINLAW_BACK);
+  }
   const double length = (part_.load - done_) * cut_ratio(ratio);
   if (from_ == to_ || along(length) < std::ldexp(whole(), -options_.max_cuts))
     return give_up(reason);
   ++part_.cuts;
-  crossings_ = 0;
   length_ = length;
   write(part_, "%s", reason);
   decide(GRAINLAW_BACK);
@@ -175,7 +188,7 @@ void March::give_up(const char* reason) {
     write(part_, "%s", reason);
   } else {
     const double along_it = 100 * (done_ - from_) / (to_ - from_);
-    write(part_, "%.3g %% along, in parts of %.1e of it too: %.180s", along_it, part_.time, reason);
+    write(part_, "%.3g %% along, in parts of %.1e of it too: %.200s", along_it, part_.time, reason);
   }
   decide(GRAINLAW_GIVE_UP);
 }

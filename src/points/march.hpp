@@ -13,6 +13,7 @@ inline constexpr double smallest_cut = 0.1, largest_cut = 0.5;
 inline constexpr double growth = 2;       // of parts that succeed after a cut [-]
 inline constexpr double rounding = 1e-9;  // rest of a load step that is rounding, over the step [-]
 inline constexpr double progress = 0.5;   // reduction of the residual that counts as progress [-]
+inline constexpr double noise = 1e-12;    // relative residual that may be rounding alone [-]
 }  // namespace stepping
 
 // The default options. Newton alternates across a jump of P, which a smaller step usually avoids, but
@@ -58,11 +59,12 @@ class March {
 
  private:
   void begin_attempt();
-  void after_accept();
+  void end_part();
   void judge(const Told& told);
   void end_without_convergence(double residual);
   void judge_crossing(const Told& told);
-  void cut(double ratio, const char* reason);
+  void fail(double ratio, const char* reason);
+  void accept(bool ends_part);
   void give_up(const char* reason);
   void decide(grainlaw_action action);
   // A length along the step; steps may go down.
@@ -74,13 +76,13 @@ class March {
   double done_ = 0;    // committed in balance
   double length_ = 0;  // of the next part, signed
   grainlaw_action action_ = GRAINLAW_GIVE_UP;
-  bool returned_ = false;  // by next()
-  bool beyond_ = false;    // what is accepted lies beyond a jump, out of balance
-  int crossings_ = 0;      // of this part
-  int iteration_ = 0;      // solves told in this attempt
-  bool whole_ = true;      // the correction told next is applied whole
-  bool loaded_ = false;    // one of this attempt was
-  double best_ = 0;        // residual of the last progress
+  bool returned_ = false;   // by next()
+  bool ends_part_ = false;  // the action: the next part follows
+  int crossings_ = 0;       // of this part; the last is committed
+  int iteration_ = 0;       // solves told in this attempt
+  bool whole_ = true;       // the correction told next is applied whole
+  bool loaded_ = false;     // one of this attempt was
+  double best_ = 0;         // residual of the last progress
   int best_iteration_ = 0;
   double farthest_ = -1;  // distance of the iterate that is kept; negative: none
   grainlaw_part part_{};

@@ -194,7 +194,12 @@ void StressPath<D>::march(const Directions<D>& directions, const Goal& goal, dou
   Tensor<D> farthest{};
   int crossed = 0;
   for (;;) {
-    switch (march.next()) {
+    const grainlaw_action now = march.next();
+    if (march.part().loose > 0) {
+      state_.revert();
+      throw Error(GRAINLAW_NOT_CONVERGED, "the packing flows");
+    }
+    switch (now) {
       case GRAINLAW_SOLVE:
         if (march.begins_attempt()) {
           attempt = {};
@@ -209,10 +214,6 @@ void StressPath<D>::march(const Directions<D>& directions, const Goal& goal, dou
         break;
       }
       case GRAINLAW_ACCEPT:
-        if (march.part().loose > 0) {
-          state_.revert();
-          throw Error(GRAINLAW_NOT_CONVERGED, "the packing flows");
-        }
         state_.commit();
         at_ = attempt.end;
         if (march.part().crossed == crossed) carried_ = at_.sigma;

@@ -209,6 +209,75 @@ TEST(march, what_is_refused_beyond_a_jump_is_cut) {
   EXPECT_EQ(host.part().load, 1.0 / 32);
 }
 
+// Leads beyond the jump of a part of a sixteenth of the step.
+void cross_in_a_sixteenth(Scripted& host) {
+  cut_to_a_sixteenth(host);
+  host.stalls();
+  host.expect(GRAINLAW_CROSS);
+  host.march().tell(GRAINLAW_OK, 1);
+  host.expect(GRAINLAW_ACCEPT);
+}
+
+// The load is there: no correction has to be whole.
+TEST(march, beyond_a_jump_bounded_iterates_are_kept_too) {
+  Scripted host;
+  cross_in_a_sixteenth(host);
+  host.expect(GRAINLAW_SOLVE);
+  EXPECT_EQ(host.march().share(0.4), 0.25);
+  host.tells(GRAINLAW_OK, 1, 5);
+  host.expect(GRAINLAW_SOLVE);
+  EXPECT_EQ(host.part().keep, 1);
+}
+
+// Shorter parts would go back from there.
+TEST(march, what_fails_beyond_a_jump_is_left_there_and_the_step_goes_on) {
+  Scripted host;
+  cross_in_a_sixteenth(host);
+  host.is_refused(0.5);
+  host.expect(GRAINLAW_BACK);
+  EXPECT_STREQ(host.part().message, "point 7: the stretch");
+  EXPECT_EQ(host.part().loose, 1);
+  EXPECT_EQ(host.part().cuts, 4);
+  host.is_refused(0.5);
+  EXPECT_EQ(host.part().load, 3.0 / 16);
+  EXPECT_EQ(host.part().time, 2.0 / 16);
+  host.expect(GRAINLAW_BACK);
+  host.converges();
+  EXPECT_EQ(host.part().load, 2.0 / 16);
+}
+
+TEST(march, a_step_may_end_beyond_a_jump_out_of_balance) {
+  auto options = grainlaw_march_options_default();
+  options.crossing_part = 1;
+  Scripted host(options);
+  host.begin(0, 1);
+  host.stalls();
+  host.expect(GRAINLAW_CROSS);
+  host.march().tell(GRAINLAW_OK, 1);
+  host.expect(GRAINLAW_ACCEPT);
+  host.is_refused(0.5);
+  host.expect(GRAINLAW_BACK);
+  host.expect(GRAINLAW_DONE);
+  EXPECT_EQ(host.part().loose, 1);
+}
+
+// No part is cut for it, no jump is sought: rounding is the same in all.
+TEST(march, a_tolerance_below_rounding_is_told_at_once) {
+  auto options = grainlaw_march_options_default();
+  options.tolerance = 1e-14;
+  options.crossing_part = 1;
+  Scripted host(options);
+  host.begin(0, 1);
+  for (const double residual : {1e-2, 1e-7, 3e-14, 5e-14, 4e-14, 5e-14, 6e-14})
+    host.tells(GRAINLAW_OK, residual, 1);
+  host.expect(GRAINLAW_GIVE_UP);
+  EXPECT_STREQ(
+      host.part().message,
+      "0 % along, in parts of 1.0e+00 of it too: the tolerance is below rounding: residual "
+      "3.0e-14, expected 1.0e-14 [-]");
+  EXPECT_EQ(host.part().solves, 7);
+}
+
 TEST(march, jumps_that_are_unknown_or_not_wanted_are_not_crossed) {
   auto options = grainlaw_march_options_default();
   options.max_crossings = 0;

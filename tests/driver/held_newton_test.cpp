@@ -59,7 +59,7 @@ TEST(line_search, never_increases_the_residual) {
 
 TEST(line_search, of_bounded_corrections_applies_the_whole_displacement) {
   NewtonOptions options{
-      .max_iterations = 100, .max_cuts = 0, .loose_tolerance = 1, .patience = 100};
+      .max_iterations = 100, .max_cuts = 0, .patience = 100, .loose_tolerance = 1};
   options.largest_correction = 8e-3;
   options.line_search = 4;
   const std::vector<LoadStep> steps = compress(options, 0.03, thirty_discs(2, 0));

@@ -1,30 +1,24 @@
-// Step control: a step is divided into parts until each converges.
+// Load steps in parts, as the library's march leads them.
 #pragma once
 
 #include "app/library.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace verification {
 
-// Result of an attempt at a part of a step.
-struct Attempt {
-  bool converged = false;
-  bool loose = false;                    // converged beyond the tolerance
-  bool stalled = false;                  // all evaluations succeeded, without convergence
-  double ratio = 0.5;                    // suggested factor on the part
-  std::string reason = {};               // reason of the failure
-  grainlaw_status status = GRAINLAW_OK;  // of a failed evaluation
+// What ended an attempt at a part of a step.
+struct Refusal {
+  std::string reason;
+  double ratio = std::numeric_limits<double>::quiet_NaN();  // suggested for the part; NaN: none is
+  grainlaw_status status = GRAINLAW_OK;  // of a failed evaluation; OK: all succeeded
 };
-
-// Largest change of F per Newton correction (Frobenius norm); longer ones are made in parts [-]. A
-// point takes a stretch of 30 %, and a smaller load step does not shorten what an unstable body asks.
-inline constexpr double largest_correction = 0.1;
 
 // A step that failed at its smallest part. `status` is that of the failed evaluation, OK when all
 // succeeded.
@@ -40,59 +34,75 @@ inline std::string describe_cut(int step, double part, const std::string& reason
   return fmt::format("step {} in parts of {:.1e} of it: {}", step, part, reason);
 }
 
-// Largest part over its step at which a failure counts as a jump of P(F). The packing is unstable
-// there and rearranges. The jump is crossed: the state beyond is committed out of balance, then
-// balanced.
-inline constexpr double crossing_part = 1.0 / 16;
-inline constexpr int most_crossings = 8;  // per part; then it is accepted as loose
+inline constexpr int most_cuts = 30;  // that a scene may ask for; smaller parts are below rounding
 
-inline constexpr int most_cuts = 30;  // smaller parts are below rounding
+// A step from one load to another.
+struct Step {
+  double from = 0;
+  double to = 1;
+  std::string name;  // in messages
+  grainlaw_march_options options = grainlaw_march_options_default();
+  // Tolerance of the rest of the step, tried once where its smallest part failed; 0: it is not [-].
+  double loose_tolerance = 0;
+  CutObserver observe_cut = {};
+};
 
+// What a maker tells the march.
+class Telling {
+ public:
+  explicit Telling(grainlaw::March& march) : march_(march) {}
+
+  // Share of a correction to apply; 0 for a change that is not finite, which ends the attempt.
+  double share(double largest_change) { return march_.share(largest_change); }
+  // Tells a relative residual, and the change of forces that the committed stiffness does not explain.
+  void found(double residual, double unforeseen = -1) {
+    march_.tell(GRAINLAW_OK, residual, 1, unforeseen);
+  }
+  void refused(const Refusal& refusal);
+
+  // Status of a refusal since the last call.
+  grainlaw_status take_status() { return std::exchange(status_, GRAINLAW_OK); }
+
+ private:
+  grainlaw::March& march_;
+  grainlaw_status status_ = GRAINLAW_OK;
+};
+
+// Makes a step as the march asks; see grainlaw/march.h.
+class StepMaker {
+ public:
+  StepMaker() = default;
+  virtual ~StepMaker() = default;
+  StepMaker(const StepMaker&) = delete;
+  StepMaker& operator=(const StepMaker&) = delete;
+
+  // Begins an attempt at a load; `length` is its way from the last load in balance.
+  virtual void begin(double load, double length) = 0;
+  // Solves once and tells.
+  virtual void solve(Telling& tell) = 0;
+  // Keeps the iterate, and returns to the one that was kept last and tells.
+  virtual void keep() = 0;
+  virtual void cross(Telling& tell) = 0;
+  // Commits; `beyond`: what lies beyond a jump, to be balanced from there.
+  virtual void accept(bool beyond) = 0;
+  // Returns to what is committed; `left`: beyond a jump, and left out of balance.
+  virtual void back(bool left) = 0;
+};
+
+// Counts of a step.
 struct Parts {
+  int solves = 0;
   int cuts = 0;
+  int crossed = 0;  // jumps
   int loose = 0;
 };
 
-// Advances from one time to another. attempt(next, loose) goes from the last success to `next`,
-// completely or not at all. A failure multiplies the part by the suggested ratio, between 0.1 and
-// 0.5; a success doubles it. When 2^-max_cuts of the step fails, the rest is tried once as a loose
-// part, if allowed. Throws StepError with the name of the step.
-template <class Function>
-Parts solve_in_parts(double from, double to, const std::string& name, int max_cuts,
-                     bool loose_allowed, Function&& attempt, const CutObserver& observe_cut = {}) {
-  const double smallest = std::ldexp(to - from, -max_cuts);
-  double done = from;
-  double part = to - from;
-  bool loose = false;
-  Parts parts;
-  for (;;) {
-    const double next = done + part > to - 1e-9 * (to - from) ? to : done + part;
-    const Attempt result = attempt(next, loose);
-    if (result.converged) {
-      part = std::min(to - next, 2 * (next - done));
-      done = next;
-      loose = false;
-      parts.loose += result.loose ? 1 : 0;
-      if (done < to) continue;
-      return parts;
-    }
-    ++parts.cuts;
-    part = (next - done) * std::clamp(result.ratio, 0.1, 0.5);
-    if (part >= smallest && to > from) {
-      if (observe_cut) observe_cut(part / (to - from), result.reason);
-      continue;
-    }
-    if (loose || !loose_allowed) {
-      const std::string where =
-          to > from ? fmt::format(" {:.3g} % along, in parts of {:.1e} of it too",
-                                  100 * (done - from) / (to - from), (next - done) / (to - from))
-                    : "";
-      throw StepError(result.status, fmt::format("{} failed{}: {}", name, where, result.reason));
-    }
-    loose = true;
-    ++parts.loose;
-    part = to - done;
-  }
-}
+// Makes a step. Throws StepError with its name.
+Parts make_step(const Step& step, StepMaker& maker);
+
+// Makes a step whose maker iterates by itself: attempt(load, length) goes from the last success to the
+// load and commits, or changes nothing and tells why.
+using PartAttempt = std::function<std::optional<Refusal>(double load, double length)>;
+Parts make_step(const Step& step, const PartAttempt& attempt);
 
 }  // namespace verification

@@ -41,7 +41,7 @@ struct SpecimenScene {
   // Initial Cauchy stress, reached in ten increments [Pa]; F is found for every given component.
   std::array<std::optional<double>, 4> start;
   std::vector<SpecimenSegment> segments;
-  int max_cuts = 10;             // halvings of one step
+  int max_cuts = grainlaw_march_options_default().max_cuts;
   bool may_end = false;          // an early end is a result, not a failure
   std::vector<double> pictures;  // axial strains since the start, increasing [-]
   double picture_force = 0;      // force of a bar one mean radius wide [N]; 0: see draw_snapshots

@@ -154,23 +154,29 @@ Specimen::Goal Specimen::goal_at(const SpecimenSegment& segment, const Tensor& d
 
 void Specimen::step(const SpecimenSegment& segment, const Tensor& deformation, const Tensor& stress,
                     double from, double to, int number, const CutObserver& observe_cut) {
-  const auto attempt = [&](double next, bool) {
-    const Goal goal = goal_at(segment, deformation, stress, next);
+  const auto attempt = [&](double load, double) -> std::optional<Refusal> {
+    const Goal goal = goal_at(segment, deformation, stress, load);
     prescribe(goal.stress);
     const Evaluation evaluation = evaluate(*state_, goal.deformation, 0);
     record_.effort.add(evaluation.report);
     if (evaluation.status != GRAINLAW_OK) {
       ++record_.effort.cuts;
-      return Attempt{.ratio = evaluation.report.step_ratio,
-                     .reason = grainlaw_status_text(evaluation.status),
+      return Refusal{.reason = grainlaw_status_text(evaluation.status),
+                     .ratio = evaluation.report.step_ratio,
                      .status = evaluation.status};
     }
     record_.effort.history_advanced += evaluation.report.history_advanced;
     accept(evaluation);
-    return Attempt{.converged = true};
+    return {};
   };
-  solve_in_parts(from, to, fmt::format("step {} (from F22 = {:.6f})", number, deformation_(1, 1)),
-                 scene_.max_cuts, false, attempt, observe_cut);
+  grainlaw_march_options march = grainlaw_march_options_default();
+  march.max_cuts = scene_.max_cuts;
+  make_step({.from = from,
+             .to = to,
+             .name = fmt::format("step {} (from F22 = {:.6f})", number, deformation_(1, 1)),
+             .options = march,
+             .observe_cut = observe_cut},
+            attempt);
 }
 
 void Specimen::accept(const Evaluation& evaluation) {

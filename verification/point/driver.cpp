@@ -7,20 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <functional>
 #include <optional>
 #include <utility>
 
 namespace verification {
-namespace {
-
-// Iterations in a row without halving the residual that end an attempt. After the peak P(F) jumps
-// where contacts collapse, and Newton alternates between its two sides. A smaller step usually
-// avoids the jump.
-constexpr int patience = 4;
-
-}  // namespace
-
 // Goal of one (part of a) step.
 template <int D>
 struct PointDriverOf<D>::Goal {
@@ -43,15 +34,6 @@ struct PointDriverOf<D>::Goal {
     for (int i = 0; i < D; ++i)
       if (follows[static_cast<std::size_t>(i)]) residual((D + 1) * i) = 0;
   }
-};
-
-template <int D>
-struct PointDriverOf<D>::Iterate : Attempt {
-  TensorOf<D> deformation = TensorOf<D>::Identity();
-  EvaluationOf<D> evaluation;
-  // Iterate with the largest stress error of the last step's tangent, and that error [Pa].
-  TensorOf<D> farthest_deformation = TensorOf<D>::Identity();
-  double far = -1;
 };
 
 template <int D>
@@ -94,75 +76,108 @@ typename PointDriverOf<D>::Goal PointDriverOf<D>::goal_at(const Segment& segment
 // prescribed increment with the tangent of the last step. An exact tangent is renewed at every
 // iterate; any other starts Broyden updates, for which a rough matrix suffices.
 template <int D>
-typename PointDriverOf<D>::Iterate PointDriverOf<D>::iterate(const Goal& goal, double tolerance) {
-  Iterate result;
-  const unsigned want = goal.mixed ? options_.tangent : 0;
-  const Controlled<D> before = controlled<D>(goal.condition, deformation_, evaluation_);
-  TangentOf<D> matrix = before.derivative;  // rows of prescribed F are rows of I
-  ComponentsOf<D> residual = goal.value - before.value;
-  goal.steer(matrix, residual, deformation_);
-  ComponentsOf<D> correction = matrix.fullPivLu().solve(residual);
-  ComponentsOf<D> value = before.value;
-  ComponentsOf<D> deformation = components_of<D>(deformation_);
-  double best = std::numeric_limits<double>::infinity();
-  int best_iteration = 0;
-  bool first = true;
-  for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
-    deformation += correction;
-    result.deformation = tensor_of<D>(deformation);
-    if (goal.follow()) {
-      result.deformation = with_volume<D>(result.deformation, goal.follows, goal.volume);
-      deformation = components_of<D>(result.deformation);
+class PointDriverOf<D>::Maker final : public StepMaker {
+ public:
+  // The goal at a share of the step.
+  using GoalAt = std::function<Goal(double load)>;
+
+  Maker(PointDriverOf& driver, GoalAt goal_at) : driver_(driver), goal_at_(std::move(goal_at)) {}
+
+  // F that was committed before the last part.
+  [[nodiscard]] const TensorOf<D>& committed() const { return committed_; }
+  // Whether the end of the step is to be committed.
+  [[nodiscard]] bool has_trial() const { return has_trial_; }
+
+  void begin(double load, double length) override {
+    check(grainlaw_state_set_time_step(driver_.state_.get(), length), "telling the time step");
+    if (!beyond_ || load != load_) goal_ = goal_at_(load);  // with the scale of the part's start
+    load_ = load;
+    start_ = value_ = controlled<D>(goal_.condition, driver_.deformation_, driver_.evaluation_);
+    matrix_ = start_.derivative;  // rows of prescribed F are rows of I
+    deformation_ = driver_.deformation_;
+    asked_ = components_of<D>(deformation_);
+    first_ = true;
+  }
+
+  void solve(Telling& tell) override {
+    ComponentsOf<D> residual = goal_.value - value_.value;
+    goal_.steer(matrix_, residual, deformation_);
+    const ComponentsOf<D> correction = matrix_.fullPivLu().solve(residual);
+    asked_ += correction;
+    if (goal_.follow())
+      asked_ = components_of<D>(with_volume<D>(tensor_of<D>(asked_), goal_.follows, goal_.volume));
+    if (goal_.mixed) ++driver_.effort_.iterations;
+    const ComponentsOf<D> before = value_.value;
+    if (!evaluate(tensor_of<D>(asked_), goal_.mixed ? driver_.options_.tangent : 0, tell)) return;
+    if (std::exchange(first_, false) || evaluation_.report.tangent_exact != 0) {
+      matrix_ = value_.derivative;
+    } else {
+      const ComponentsOf<D> mismatch = value_.value - before - matrix_ * correction;
+      matrix_ += mismatch * correction.transpose() / correction.squaredNorm();
     }
-    result.evaluation = evaluate_of<D>(state_, result.deformation, want);
-    effort_.add(result.evaluation.report);
-    if (goal.mixed) ++effort_.iterations;
-    if (result.evaluation.status != GRAINLAW_OK) {
-      result.status = result.evaluation.status;
-      result.ratio = result.evaluation.report.step_ratio;
-      const std::string text = grainlaw_status_text(result.evaluation.status);
-      const std::string message = result.evaluation.report.message;
-      result.reason = message.empty() || message == text ? text : text + ": " + message;
-      return result;
+  }
+
+  void keep() override { farthest_ = deformation_; }
+  void cross(Telling& tell) override { evaluate(farthest_, driver_.options_.tangent, tell); }
+
+  void accept(bool beyond) override {
+    committed_ = driver_.deformation_;
+    driver_.accept(deformation_, evaluation_, goal_.mixed);
+    if (beyond)
+      ++driver_.effort_.crossed;
+    else
+      driver_.effort_.history_advanced += evaluation_.report.history_advanced;
+    beyond_ = beyond;
+    has_trial_ = !beyond && load_ == 1;  // the end is shown to observers before
+    if (!has_trial_) driver_.state_.commit();
+  }
+
+  void back(bool left) override {
+    if (!left) ++driver_.effort_.cuts;
+    driver_.state_.revert();
+  }
+
+ private:
+  // Evaluates and tells; false: the point refuses.
+  bool evaluate(const TensorOf<D>& deformation, unsigned want, Telling& tell) {
+    evaluation_ = evaluate_of<D>(driver_.state_, deformation, want);
+    const grainlaw_report& report = evaluation_.report;
+    driver_.effort_.add(report);
+    if (evaluation_.status != GRAINLAW_OK) {
+      const std::string text = grainlaw_status_text(evaluation_.status), message = report.message;
+      tell.refused({.reason = message.empty() || message == text ? text : text + ": " + message,
+                    .ratio = report.step_ratio,
+                    .status = evaluation_.status});
+      return false;
     }
-    result.deformation = deformation_gradient<D>(state_.get());
-    const Controlled<D> now = controlled<D>(goal.condition, result.deformation, result.evaluation);
-    residual = goal.value - now.value;
-    const ComponentsOf<D> unforeseen =
-        now.value - before.value -
-        before.derivative * (components_of<D>(result.deformation) - components_of<D>(deformation_));
+    deformation_ = deformation_gradient<D>(driver_.state_.get());
+    value_ = controlled<D>(goal_.condition, deformation_, evaluation_);
     double error = 0;
     for (int k = 0; k < D * D; ++k)
-      if (goal.stress(k)) error = std::max(error, std::abs(residual(k)) / goal.scale);
-    if (unforeseen.norm() > result.far) {
-      result.far = unforeseen.norm();
-      result.farthest_deformation = result.deformation;
-    }
-    if (error <= tolerance) {
-      result.converged = true;
-      return result;
-    }
-    if (error < 0.5 * best) {
-      best = error;
-      best_iteration = iteration;
-    }
-    result.stalled = std::isfinite(error) && iteration >= best_iteration + patience;
-    if (result.stalled || !std::isfinite(error)) break;
-    if (result.evaluation.report.tangent_exact != 0 || first) {
-      matrix = now.derivative;
-    } else {
-      const ComponentsOf<D> mismatch = now.value - value - matrix * correction;
-      matrix += mismatch * correction.transpose() / correction.squaredNorm();
-    }
-    value = now.value;
-    goal.steer(matrix, residual, result.deformation);
-    correction = matrix.fullPivLu().solve(residual);
-    first = false;
+      if (goal_.stress(k))
+        error = std::max(error, std::abs(goal_.value(k) - value_.value(k)) / goal_.scale);
+    const ComponentsOf<D> change =
+        components_of<D>(deformation_) - components_of<D>(driver_.deformation_);
+    tell.found(error, (value_.value - start_.value - start_.derivative * change).norm());
+    return true;
   }
-  result.reason =
-      fmt::format("the stress control did not converge (best residual {:.1e} [-])", best);
-  return result;
-}
+
+  PointDriverOf& driver_;
+  GoalAt goal_at_;
+  double load_ = 0;
+  Goal goal_;
+  Controlled<D> start_;  // of the committed state
+  TangentOf<D> matrix_;
+  ComponentsOf<D> asked_;  // F of the iterate, before components that its boundary finds
+  bool first_ = true;
+  TensorOf<D> deformation_;  // of the iterate, with its evaluation and what is prescribed of it
+  EvaluationOf<D> evaluation_;
+  Controlled<D> value_;
+  TensorOf<D> farthest_ = TensorOf<D>::Identity();
+  TensorOf<D> committed_ = TensorOf<D>::Identity();
+  bool beyond_ = false;
+  bool has_trial_ = false;
+};
 
 // Computes the tangent for stress control, which a last step of pure strain control lacks.
 template <int D>
@@ -178,31 +193,13 @@ void PointDriverOf<D>::renew_tangent() {
 }
 
 template <int D>
-void PointDriverOf<D>::accept(const Iterate& iterate, bool has_tangent) {
-  const TensorOf<D> change = iterate.deformation - deformation_;
-  work_ +=
-      0.5 * volume_ * (evaluation_.stress + iterate.evaluation.stress).cwiseProduct(change).sum();
-  deformation_ = iterate.deformation;
-  evaluation_ = iterate.evaluation;
+void PointDriverOf<D>::accept(const TensorOf<D>& deformation, const EvaluationOf<D>& evaluation,
+                              bool has_tangent) {
+  const TensorOf<D> change = deformation - deformation_;
+  work_ += 0.5 * volume_ * (evaluation_.stress + evaluation.stress).cwiseProduct(change).sum();
+  deformation_ = deformation;
+  evaluation_ = evaluation;
   has_tangent_ = has_tangent;
-}
-
-// Crosses jumps from a stalled attempt and its iterate furthest beyond.
-template <int D>
-typename PointDriverOf<D>::Iterate PointDriverOf<D>::cross_jumps(const Goal& goal, Iterate last) {
-  for (int crossing = 0; crossing < most_crossings && last.stalled; ++crossing) {
-    Iterate beyond = last;
-    beyond.deformation = last.farthest_deformation;
-    beyond.evaluation = evaluate_of<D>(state_, beyond.deformation, options_.tangent);
-    effort_.add(beyond.evaluation.report);
-    if (beyond.evaluation.status != GRAINLAW_OK) return last;
-    accept(beyond, true);
-    state_.commit();
-    ++effort_.crossed;
-    last = iterate(goal, options_.tolerance);
-  }
-  if (last.stalled) last.converged = last.loose = true;  // the next part continues from here
-  return last;
 }
 
 template <int D>
@@ -225,33 +222,20 @@ bool PointDriverOf<D>::run_steps(const Segment& segment, const PointObserver& ob
     const int number = record_.step + 1;
     std::optional<PointDriverOf> before;
     if (may_stay) before.emplace(*this);
-    double done = 0;
-    double fraction = 0;
-    TensorOf<D> committed;
-    const auto attempt = [&](double next, bool loose) {
-      fraction = (step - 1 + next) / segment.steps;
-      const Goal goal = goal_at(segment, start, volume, fraction);
-      check(grainlaw_state_set_time_step(state_.get(), next - done), "telling the time step");
-      Iterate last = iterate(goal, loose ? options_.loose_tolerance : options_.tolerance);
-      if (last.stalled && options_.loose_tolerance == 0 && next - done <= crossing_part) {
-        last = cross_jumps(goal, last);
-      }
-      if (last.converged) {
-        done = next;
-        committed = deformation_;
-        accept(last, goal.mixed);
-        effort_.history_advanced += last.evaluation.report.history_advanced;
-        if (next < 1) state_.commit();
-      } else {
-        ++effort_.cuts;
-        state_.revert();
-      }
-      return Attempt(last);
-    };
-    const std::string name = fmt::format("step {} (from F{}{} = {:.6f}, F12 = {:.6f})", number, D,
-                                         D, deformation_(D - 1, D - 1), deformation_(0, 1));
-    const Parts parts = solve_in_parts(0, 1, name, options_.max_cuts, options_.loose_tolerance > 0,
-                                       attempt, observe_cut);
+    const auto fraction = [&](double load) { return (step - 1 + load) / segment.steps; };
+    Maker maker(*this,
+                [&](double load) { return goal_at(segment, start, volume, fraction(load)); });
+    grainlaw_march_options march = grainlaw_march_options_default();
+    march.tolerance = options_.tolerance;
+    march.max_iterations = options_.max_iterations;
+    march.max_cuts = options_.max_cuts;
+    const Parts parts =
+        make_step({.name = fmt::format("step {} (from F{}{} = {:.6f}, F12 = {:.6f})", number, D, D,
+                                       deformation_(D - 1, D - 1), deformation_(0, 1)),
+                   .options = march,
+                   .loose_tolerance = options_.loose_tolerance,
+                   .observe_cut = observe_cut},
+                  maker);
     effort_.loose += parts.loose;
     record_ = make_record<D>(state_.get(), deformation_, evaluation_.stress, evaluation_.report);
     record_.step = number;
@@ -262,8 +246,8 @@ bool PointDriverOf<D>::run_steps(const Segment& segment, const PointObserver& ob
       return false;
     }
     record_.effort = std::exchange(effort_, {});
-    if (observe) observe({state_, committed, evaluation_, record_, fraction});
-    state_.commit();
+    if (observe) observe({state_, maker.committed(), evaluation_, record_, fraction(1)});
+    if (maker.has_trial()) state_.commit();
   }
   return true;
 }

@@ -12,9 +12,10 @@ namespace verification {
 
 struct PointOptions {
   unsigned tangent = GRAINLAW_WANT_TANGENT_EXACT;  // matrix of the stress control
-  double tolerance = 1e-8;  // largest stress residual / |sigma| at the start of the step [-]
-  int max_iterations = 20;  // per attempt; then the step is cut
-  int max_cuts = 12;        // halvings of a step before the run ends
+  // Those of the march; residuals are the largest of a stress / |sigma| at the start of the step.
+  double tolerance = grainlaw_march_options_default().tolerance;
+  int max_iterations = grainlaw_march_options_default().max_iterations;
+  int max_cuts = 12;  // more than a mesh makes: a part costs one point
   // Residual accepted at the smallest part of a step, counted as a loose step [-]. Where P(F) jumps
   // across the target no smaller step helps. 0: the jump is crossed: the state beyond is committed
   // out of balance, then balanced.
@@ -66,12 +67,10 @@ class PointDriverOf {
 
  private:
   struct Goal;
-  struct Iterate;
+  class Maker;
   Goal goal_at(const Segment& segment, const ComponentsOf<D>& start, double volume,
                double fraction) const;
-  Iterate iterate(const Goal& goal, double tolerance);
-  Iterate cross_jumps(const Goal& goal, Iterate last);
-  void accept(const Iterate& iterate, bool has_tangent);
+  void accept(const TensorOf<D>& deformation, const EvaluationOf<D>& evaluation, bool has_tangent);
   void renew_tangent();
 
   PointOptions options_;

@@ -12,7 +12,7 @@ from .abi import StepError, status_text
 from .arrays import Array
 from .control import Condition, Segment, cauchy, controlled, follow_volume, solve, with_volume
 from .interrupt import Interrupts
-from .march import March
+from .march import March, default_options
 from .names import Action, Measure, Status, Tangent
 from .points import Evaluation, State
 
@@ -21,8 +21,9 @@ from .points import Evaluation, State
 class Options:
     """Of the stress control."""
 
-    tolerance: float = 1e-8      # largest error / norm of sigma at the start of the step [-]
-    max_iterations: int = 20     # of one attempt
+    # Largest error / norm of sigma at the start of the step [-], and iterations of one attempt.
+    tolerance: float = default_options().tolerance
+    max_iterations: int = default_options().max_iterations
     max_cuts: int = 12           # the smallest part of a step is 2^-max_cuts of it
     tangents: bool = False       # wanted of steps too that a strain alone leads
 

@@ -52,7 +52,7 @@ class March:
     message: str      #: why an attempt failed, or ""
 
     def __init__(self, points: States | None = None, **options: float) -> None:
-        chosen = _defaults()
+        chosen = default_options()
         for name, value in options.items():
             if name == "size" or not hasattr(chosen, name):
                 known = ", ".join(field for field, _ in MarchOptions._fields_[1:])
@@ -151,7 +151,7 @@ def load_steps(loads: int | Iterable[float]) -> list[float]:
     return goals
 
 
-def _defaults() -> MarchOptions:
+def default_options() -> MarchOptions:
     default = library.grainlaw_march_options_default()
     options = MarchOptions()
     ctypes.memmove(ctypes.byref(options), ctypes.byref(default), ctypes.sizeof(options))

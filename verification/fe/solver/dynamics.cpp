@@ -12,8 +12,6 @@
 namespace verification {
 namespace {
 
-constexpr int most_halvings = 10;  // per time step
-
 // State on which the next time step depends, besides the committed points.
 struct Motion {
   double time = 0;                 // [s]
@@ -78,19 +76,21 @@ class DynamicsSolver final : public Solver {
       const double parts = std::max(1.0, std::ceil(left / limit * (1 - 1e-12)));
       double length = left / parts;
       const bool last = parts == 1;
-      int halvings = 0;
+      const double shortest = std::ldexp(length, -grainlaw_march_options_default().max_cuts);
+      bool whole = true;
       // The tangents at the end give the next estimate of the time step.
-      while (!attempt(length, last && halvings == 0 ? to : motion_.time + length,
-                      last ? tangent() : 0)) {
+      while (!attempt(length, last && whole ? to : motion_.time + length, last ? tangent() : 0)) {
         points_.revert();
-        if (++halvings > most_halvings)
+        ++cuts;
+        whole = false;
+        const double shorter = length * grainlaw_march_cut(points_.step_ratio());
+        if (shorter < shortest)
           throw ComputationError(
               fmt::format("step {} failed at time {:.6g} s with a time step of "
                           "{:.2e} s: {}",
                           number, motion_.time, length, points_.message()));
-        length *= 0.5;
+        length = shorter;
       }
-      cuts += halvings;
       ++time_steps;
     }
     if (tangent() != 0 && time_steps > 0) {

@@ -16,7 +16,7 @@ struct DynamicsOptions {
 };
 
 // Starts at rest at F = I. Every time step is one increment of the points, evaluated from the state
-// of the last one. A time step that a point refuses is halved. Throws InputError for contradictory
+// of the last one. A time step that a point refuses is cut. Throws InputError for contradictory
 // conditions, ComputationError when F = I cannot be evaluated. advance() throws ComputationError
 // for an unstable time step.
 std::unique_ptr<Solver> make_dynamics_solver(const Model& model, const Material& material,

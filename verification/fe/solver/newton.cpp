@@ -11,14 +11,24 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace verification {
 namespace {
 
-constexpr int jump_patience = 2;    // like NewtonOptions::patience, within jump_tolerance
-constexpr double slow_ratio = 0.5;  // a correction that leaves more is slow
+// An attempt at a load.
+struct Iterate {
+  double load;
+  Eigen::VectorXd displacement;
+  System system;
+  Eigen::VectorXd driven;  // change of what is prescribed, and what of it corrections left
+  Eigen::VectorXd prescribed;
+  Eigen::VectorXd again;  // the last displacement once more, as the first guess; or empty
+  ElasticShare elastic;
+};
 
-class NewtonSolver final : public Solver {
+class NewtonSolver final : public Solver, private StepMaker {
  public:
   NewtonSolver(const Model& model, const Material& material, const NewtonOptions& options,
                int threads)
@@ -38,42 +48,23 @@ class NewtonSolver final : public Solver {
   }
 
   LoadStep advance(double to, int number) override {
-    LoadStep step;
-    const double from = time_;
-    int iterations = 0;
-    int crossed = 0;
-    const auto attempt = [&](double next, bool loose) {
-      const auto first = step.residuals.size();
-      step.attempts.push_back(first);
-      const double tolerance = loose ? options_.loose_tolerance : options_.tolerance;
-      const bool small = next - time_ <= crossing_part * (to - from);
-      points_.set_time_step(passed_time(next - time_));
-      Attempt result = equilibrate(next, tolerance, step.residuals);
-      if (result.stalled && small && crosses_jumps()) {
-        result = cross_jumps(next, result, step.residuals, crossed);
-      }
-      iterations += static_cast<int>(step.residuals.size() - first) - 1;
-      if (result.converged) {
-        points_.commit();
-        const double left = dofs_.reduce(system_.residual).norm() / system_.scale;
-        step.balance = std::max(step.balance, left);
-      } else {
-        points_.revert();
-      }
-      return result;
-    };
-    const Parts parts =
-        solve_in_parts(from, to, fmt::format("load step {}", number), options_.max_cuts,
-                       options_.loose_tolerance > 0, attempt, observe_cut_);
-    step.time = to;
-    step.record = points_.record();
-    step.record.step = number;
-    step.record.effort.iterations = iterations;
-    step.record.effort.cuts = parts.cuts;
-    step.record.effort.loose = parts.loose;
-    step.record.effort.crossed = crossed;
-    report_supports(model_, to, displacement_, system_.residual, step);
-    return step;
+    step_ = {};
+    const Parts parts = make_step({.from = time_,
+                                   .to = to,
+                                   .name = fmt::format("load step {}", number),
+                                   .options = march_options(),
+                                   .loose_tolerance = options_.loose_tolerance,
+                                   .observe_cut = observe_cut_},
+                                  *this);
+    step_.time = to;
+    step_.record = points_.record();
+    step_.record.step = number;
+    step_.record.effort.iterations = parts.solves;
+    step_.record.effort.cuts = parts.cuts;
+    step_.record.effort.loose = parts.loose;
+    step_.record.effort.crossed = parts.crossed;
+    report_supports(model_, to, displacement_, system_.residual, step_);
+    return step_;
   }
 
   void save(CheckpointWriter& out) const override {
@@ -95,142 +86,136 @@ class NewtonSolver final : public Solver {
   [[nodiscard]] const Eigen::VectorXd& displacement() const override { return displacement_; }
 
  private:
-  // Finds the equilibrium at a time. Without a last displacement, prescribed increments enter the
-  // right-hand side of the first solve. It extrapolates the committed equilibrium, so that boundary
-  // values never jump alone. The part that a bounded correction leaves comes in the next.
-  Attempt equilibrate(double time, double tolerance, std::vector<double>& residuals) {
-    Eigen::VectorXd displacement = displacement_;
-    System system = system_;
-    far_ = -1;
-    const Eigen::VectorXd target = dofs_.prescribed_at(time);
-    Eigen::VectorXd prescribed = target - dofs_.prescribed_at(time_);
-    add_load_increment(system, time);
-    residuals.push_back(error(system, prescribed));
-    const Eigen::VectorXd again = options_.last_displacement_first
-                                      ? last_displacement_.once_more(prescribed)
-                                      : Eigen::VectorXd();
-    double best = std::numeric_limits<double>::infinity();
-    int best_iteration = 0;
-    bool stalled = false;
-    ElasticShare elastic(options_.elastic_share);
-    for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
-      const bool follows = iteration == 0 && again.size() > 0;
-      Eigen::VectorXd correction;
-      {
-        const auto measure = points_.cost().measure(Stage::linear_solve);
-        correction = follows ? again
-                     : elastic.value() == 0
-                         ? solve(system.stiffness, system.residual, dofs_, prescribed)
-                         : solve(system.stiffness + elastic.value() * elastic_, system.residual,
-                                 dofs_, prescribed);
-      }
-      if (!correction.allFinite()) return {.reason = "the stiffness is singular"};
-      double share = follows ? 1 : bound(correction);
-      const int halvings = iteration == 0 ? 0 : options_.line_search;
-      const Attempt step =
-          correct(displacement, system, correction, share, time, residuals.back(), halvings);
-      prescribed *= 1 - share;
-      if (!step.converged) {
-        residuals.push_back(std::numeric_limits<double>::quiet_NaN());
-        return step;
-      }
-      const double before = residuals.back();
-      const double residual = error(system, prescribed);
-      residuals.push_back(residual);
-      if (iteration > 0 && options_.elastic_share > 0) elastic.update(before, residual);
-      if (residual < 0.5 * best) {
-        best = residual;
-        best_iteration = iteration;
-      }
-      const int made = iteration + 1;
-      const bool loaded = prescribed.isZero(0);
-      if (loaded) keep_farthest(displacement, system);
-      const bool near = loaded && residual <= options_.jump_tolerance;
-      const bool slow = options_.jump_iterations > 0 && made >= options_.jump_iterations &&
-                        residual > slow_ratio * before;
-      stalled = iteration >= best_iteration + (near ? jump_patience : options_.patience) &&
-                options_.tangent == GRAINLAW_WANT_TANGENT_EXACT;
-      const bool converged = loaded && residual <= tolerance;
-      if (converged || (near && (slow || stalled || made == options_.max_iterations))) {
-        last_displacement_.keep(displacement - displacement_, target - dofs_.prescribed_at(time_));
-        displacement_ = displacement;
-        system_ = system;
-        time_ = time;
-        return {.converged = true, .loose = !converged};
-      }
-      if (stalled) break;
-    }
-    return {
-        .stalled = far_ >= 0,
-        .reason = fmt::format("Newton did not converge: best relative residual {:.1e}, expected "
-                              "{:.1e} [-]",
-                              best, tolerance)};
+  [[nodiscard]] grainlaw_march_options march_options() const {
+    grainlaw_march_options march = grainlaw_march_options_default();
+    march.tolerance = options_.tolerance;
+    march.max_iterations = options_.max_iterations;
+    march.max_cuts = options_.max_cuts;
+    const bool exact = options_.tangent == GRAINLAW_WANT_TANGENT_EXACT;
+    march.patience = exact ? options_.patience : options_.max_iterations;
+    march.largest_correction = options_.largest_correction;
+    return march;
   }
 
-  [[nodiscard]] bool crosses_jumps() const {
-    return options_.loose_tolerance == 0 && options_.jump_tolerance == 0;
+  // Extrapolates the committed equilibrium, so that boundary values never jump alone: without a last
+  // displacement, prescribed increments enter the right-hand side of the first solve. The part that
+  // a bounded correction leaves comes in the next.
+  void begin(double load, double length) override {
+    step_.attempts.push_back(step_.residuals.size());
+    points_.set_time_step(passed_time(length));
+    const Eigen::VectorXd driven = dofs_.prescribed_at(load) - dofs_.prescribed_at(time_);
+    iterate_.emplace(Iterate{
+        load, displacement_, system_, driven, driven, {}, ElasticShare(options_.elastic_share)});
+    if (options_.last_displacement_first) iterate_->again = last_displacement_.once_more(driven);
+    add_load_increment(iterate_->system, load);
+    step_.residuals.push_back(error());
   }
 
-  // Keeps the iterate whose forces differ most from those of the committed stiffness.
-  void keep_farthest(const Eigen::VectorXd& displacement, const System& system) {
-    const double distance =
-        (system.residual - system_.residual + system_.stiffness * (displacement - displacement_))
-            .norm();
-    if (distance <= far_) return;
-    far_ = distance;
-    farthest_displacement_ = displacement;
+  void solve(Telling& tell) override {
+    Iterate& now = *iterate_;
+    const bool first = step_.residuals.size() == step_.attempts.back() + 1;
+    const bool follows = first && now.again.size() > 0;
+    const Eigen::VectorXd correction = follows ? now.again : linear_solve();
+    double share = 1;
+    if (!correction.allFinite())
+      share = tell.share(std::numeric_limits<double>::quiet_NaN());
+    else if (!follows)
+      share = tell.share(points_.largest_change(correction));
+    if (share == 0) return;
+    const double before = step_.residuals.back();
+    if (!correct(correction, share, before, first ? 0 : options_.line_search, tell)) {
+      step_.residuals.push_back(std::numeric_limits<double>::quiet_NaN());
+      return;
+    }
+    now.prescribed *= 1 - share;
+    const double residual = error();
+    step_.residuals.push_back(residual);
+    if (!first && options_.elastic_share > 0) now.elastic.update(before, residual);
+    // Halvings, of which the march does not know, leave a rest: not to be accepted.
+    if (now.prescribed.isZero(0))
+      tell.found(residual, unforeseen());
+    else
+      tell.found(std::max(residual, 2 * std::max(options_.tolerance, options_.loose_tolerance)));
   }
 
-  // Crosses jumps from a stalled attempt and its iterate furthest beyond.
-  Attempt cross_jumps(double time, Attempt last, std::vector<double>& residuals, int& crossed) {
-    for (int crossing = 0; crossing < most_crossings && last.stalled; ++crossing) {
-      const Eigen::VectorXd beyond = farthest_displacement_;
-      if (points_.evaluate(beyond, options_.tangent, threads_) != GRAINLAW_OK) return last;
-      points_.commit();
-      ++crossed;
-      displacement_ = beyond;
-      system_ = assemble(model_, points_, displacement_, time);
-      time_ = time;
-      last = equilibrate(time, options_.tolerance, residuals);
+  void keep() override { farthest_ = iterate_->displacement; }
+
+  void cross(Telling& tell) override {
+    if (const grainlaw_status status = evaluate(farthest_); status != GRAINLAW_OK)
+      return tell.refused(refusal(status));
+    tell.found(error());
+  }
+
+  void accept(bool beyond) override {
+    points_.commit();
+    if (!beyond) {
+      step_.balance = std::max(step_.balance, error());
+      last_displacement_.keep(iterate_->displacement - displacement_, iterate_->driven);
     }
-    if (last.stalled &&
-        points_.evaluate(farthest_displacement_, options_.tangent, threads_) == GRAINLAW_OK) {
-      displacement_ = farthest_displacement_;
-      system_ = assemble(model_, points_, displacement_, time);
-      last.converged = last.loose = true;
-    }
-    return last;
+    displacement_ = std::move(iterate_->displacement);
+    system_ = std::move(iterate_->system);
+    time_ = iterate_->load;
+  }
+
+  void back(bool left) override {
+    points_.revert();
+    if (left)
+      step_.balance =
+          std::max(step_.balance, dofs_.reduce(system_.residual).norm() / system_.scale);
+  }
+
+  [[nodiscard]] Eigen::VectorXd linear_solve() const {
+    const auto measure = points_.cost().measure(Stage::linear_solve);
+    const Iterate& now = *iterate_;
+    const double elastic = now.elastic.value();
+    if (elastic == 0)
+      return verification::solve(now.system.stiffness, now.system.residual, dofs_, now.prescribed);
+    return verification::solve(now.system.stiffness + elastic * elastic_, now.system.residual,
+                               dofs_, now.prescribed);
+  }
+
+  // Moves the iterate there where no point refuses.
+  grainlaw_status evaluate(const Eigen::VectorXd& displacement) {
+    const grainlaw_status status = points_.evaluate(displacement, options_.tangent, threads_);
+    if (status != GRAINLAW_OK) return status;
+    iterate_->displacement = displacement;
+    iterate_->system = assemble(model_, points_, displacement, iterate_->load);
+    return status;
+  }
+
+  [[nodiscard]] Refusal refusal(grainlaw_status status) const {
+    return {.reason = points_.message(), .ratio = points_.step_ratio(), .status = status};
   }
 
   // Applies a share of a correction. It is halved while a point refuses or the residual exceeds
-  // `before`, if there are halvings; with none at the start it is applied whole.
-  Attempt correct(Eigen::VectorXd& displacement, System& system, const Eigen::VectorXd& correction,
-                  double& share, double time, double before, int halvings) {
+  // `before`, if there are halvings; with none at the start it is applied whole. False: it was told.
+  bool correct(const Eigen::VectorXd& correction, double& share, double before, int halvings,
+               Telling& tell) {
+    const Eigen::VectorXd from = iterate_->displacement;
     for (int halving = 0;; ++halving, share *= 0.5) {
-      const Eigen::VectorXd tried = displacement + share * correction;
-      const grainlaw_status status = points_.evaluate(tried, options_.tangent, threads_);
+      const grainlaw_status status = evaluate(from + share * correction);
       const bool reached = status == GRAINLAW_OK;
       if (reached) {
-        System found = assemble(model_, points_, tried, time);
-        const double residual = dofs_.reduce(found.residual).norm() / found.scale;
-        if (halvings == 0 || residual <= before) {
-          displacement = tried;
-          system = std::move(found);
-          return {.converged = true};
-        }
+        const System& found = iterate_->system;
+        if (halvings == 0 || dofs_.reduce(found.residual).norm() / found.scale <= before)
+          return true;
       }
       if (halving < halvings) continue;
       if (!reached)
-        return {.ratio = points_.step_ratio(), .reason = points_.message(), .status = status};
-      return {.reason =
-                  fmt::format("{} halvings of a correction did not lower the residual", halvings)};
+        tell.refused(refusal(status));
+      else
+        tell.refused({.reason = fmt::format(
+                          "{} halvings of a correction did not lower the residual", halvings)});
+      return false;
     }
   }
 
-  // Largest allowed share of a correction, at most 1.
-  [[nodiscard]] double bound(const Eigen::VectorXd& correction) const {
-    if (options_.largest_correction == 0) return 1;
-    return std::min(1.0, options_.largest_correction / points_.largest_change(correction));
+  // Change of the nodal forces that the committed stiffness does not explain [N/m].
+  [[nodiscard]] double unforeseen() const {
+    const Iterate& now = *iterate_;
+    return (now.system.residual - system_.residual +
+            system_.stiffness * (now.displacement - displacement_))
+        .norm();
   }
 
   // Adds the load increment: the committed system has the load of its own time.
@@ -246,8 +231,11 @@ class NewtonSolver final : public Solver {
     system.stiffness += change;
   }
 
-  [[nodiscard]] double error(const System& system, const Eigen::VectorXd& prescribed) const {
-    return dofs_.reduce(system.residual - system.stiffness * prescribed).norm() / system.scale;
+  // Relative residual with what is left to prescribe.
+  [[nodiscard]] double error() const {
+    const System& system = iterate_->system;
+    return dofs_.reduce(system.residual - system.stiffness * iterate_->prescribed).norm() /
+           system.scale;
   }
 
   const Model& model_;
@@ -260,8 +248,9 @@ class NewtonSolver final : public Solver {
   System system_;                        // at the committed displacement and load
   double time_ = 0;                      // committed
   LastDisplacement last_displacement_;
-  Eigen::VectorXd farthest_displacement_;  // iterate of the last attempt furthest from equilibrium
-  double far_ = -1;                        // its distance [N/m]; -1: none
+  LoadStep step_;                   // in progress
+  std::optional<Iterate> iterate_;  // of its last attempt
+  Eigen::VectorXd farthest_;        // displacement of the iterate that was kept [m]
 };
 
 }  // namespace

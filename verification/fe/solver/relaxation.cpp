@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace verification {
 namespace {
@@ -44,18 +45,24 @@ class RelaxationSolver final : public Solver {
   LoadStep advance(double to, int number) override {
     LoadStep step;
     int iterations = 0;
-    const auto attempt = [&](double next, bool) {
+    const auto attempt = [&](double load, double length) {
       step.attempts.push_back(step.residuals.size());
-      points_.set_time_step(passed_time(next - rest_.time));
-      const Attempt result = relax(next, step.residuals, iterations);
-      if (result.converged)
-        step.balance = std::max(step.balance, step.residuals.back());
-      else
+      points_.set_time_step(passed_time(length));
+      auto refusal = relax(load, step.residuals, iterations);
+      if (refusal)
         points_.revert();
-      return result;
+      else
+        step.balance = std::max(step.balance, step.residuals.back());
+      return refusal;
     };
-    const Parts parts = solve_in_parts(rest_.time, to, fmt::format("load step {}", number),
-                                       options_.max_cuts, false, attempt, observe_cut_);
+    grainlaw_march_options march = grainlaw_march_options_default();
+    march.max_cuts = options_.max_cuts;
+    const Parts parts = make_step({.from = rest_.time,
+                                   .to = to,
+                                   .name = fmt::format("load step {}", number),
+                                   .options = march,
+                                   .observe_cut = observe_cut_},
+                                  attempt);
     step.time = to;
     step.record = points_.record();
     step.record.step = number;
@@ -105,7 +112,7 @@ class RelaxationSolver final : public Solver {
     return dofs_.prescribed_at(time) - dofs_.prescribed_at(rest_.time);
   }
 
-  Attempt relax(double time, std::vector<double>& residuals, int& iterations) {
+  std::optional<Refusal> relax(double time, std::vector<double>& residuals, int& iterations) {
     // Extrapolates the committed equilibrium at the velocity of the last part.
     const Eigen::VectorXd origin =
         rest_.displacement + told(time) + (time - rest_.time) * rest_.rate;
@@ -119,20 +126,20 @@ class RelaxationSolver final : public Solver {
       const bool first = iteration == 0;
       const unsigned want = first ? unsigned{GRAINLAW_WANT_TANGENT_ELASTIC} : 0U;
       if (const auto status = points_.evaluate(displacement, want, threads_); status != GRAINLAW_OK)
-        return {.ratio = points_.step_ratio(), .reason = points_.message(), .status = status};
+        return Refusal{points_.message(), points_.step_ratio(), status};
       now = balance(displacement, time);
       residuals.push_back(now.residual);
       if (now.residual <= options_.tolerance) break;
       if (first) {
         first_internal = now.internal;
         highest = highest_frequency(points_, dofs_, mass_);
-        if (highest == 0) return {.reason = "the packings have no stiffness"};
+        if (highest == 0) return Refusal{.reason = "the packings have no stiffness"};
       }
       if (!std::isfinite(now.residual) || iteration == options_.max_iterations)
-        return {.reason =
-                    fmt::format("dynamic relaxation did not converge in {} iterations (relative "
-                                "residual {:.1e} [-])",
-                                iteration, now.residual)};
+        return Refusal{
+            .reason = fmt::format("dynamic relaxation did not converge in {} iterations (relative "
+                                  "residual {:.1e} [-])",
+                                  iteration, now.residual)};
       // Rayleigh quotient (eq. 26) of the displacement since the start, without the supports'.
       const Eigen::VectorXd moved = displacement - origin;
       const double inertia = moved.dot(mass_.cwiseProduct(moved));
@@ -153,7 +160,7 @@ class RelaxationSolver final : public Solver {
     rest_.displacement = displacement;
     rest_.imbalance = now.imbalance;
     rest_.time = time;
-    return {.converged = true};
+    return {};
   }
 
   const Model& model_;

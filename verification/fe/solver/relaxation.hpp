@@ -9,9 +9,9 @@ namespace verification {
 struct RelaxationOptions {
   double tolerance = 1e-6;    // |force on the unknowns| / |nodal forces of the stresses| [-]
   int max_iterations = 5000;  // per attempt; then the step is cut
-  int max_cuts = 10;          // halvings of one step
-  double damping_ratio = 1;   // xi of eq. 25 [-]
-  double safety = 0.8;        // factor on the critical time step, 2 / highest frequency [-]
+  int max_cuts = grainlaw_march_options_default().max_cuts;
+  double damping_ratio = 1;  // xi of eq. 25 [-]
+  double safety = 0.8;       // factor on the critical time step, 2 / highest frequency [-]
 };
 
 // All evaluations of a load step start from the state committed at its start. The answer is

@@ -14,8 +14,6 @@ NewtonOptions read_newton(SceneTable table, const MaterialSource& material) {
   options.tolerance = read_tolerance(table, material, options.tolerance);
   options.max_cuts = table.integer_or("max_cuts", options.max_cuts, 0, most_cuts);
   options.loose_tolerance = table.number_or("loose_tolerance", 0, not_negative);
-  options.jump_tolerance = table.number_or("jump_tolerance", 0, not_negative);
-  options.jump_iterations = table.integer_or("jump_iterations", 0, 0);
   options.patience = table.integer_or("patience", options.patience, 1);
   options.largest_correction =
       table.number_or("largest_correction", options.largest_correction, not_negative);
