@@ -97,8 +97,9 @@ void run(const char* material, const std::string& prefix, int steps) {
       options);
 
   const bool tells = Utilities::MPI::this_mpi_process(comm) == 0;
-  Table force(prefix + "_force.csv", "step[-],fraction[-],top_y_displacement[m],top_y_force[N/m]");
-  Table iterations(prefix + "_newton.csv", "step[-],iteration[-],relative_residual[-]");
+  CsvTable force(prefix + "_force.csv",
+                 "step[-],fraction[-],top_y_displacement[m],top_y_force[N/m]");
+  CsvTable iterations(prefix + "_newton.csv", "step[-],iteration[-],relative_residual[-]");
   for (int step = 0; step <= steps; ++step) {
     newton.to(static_cast<double>(step) / steps, [&](double load, const auto& residuals) {
       const Forces& internal = newton.internal_forces();

@@ -8,9 +8,9 @@
 #include "../point/whole_file.hpp"
 
 // Written whole after every load step: on a full disk the steps before it stay.
-class Table {
+class CsvTable {
  public:
-  Table(const std::string& path, const std::string& head) : path_(path), text_(head + "\n") {}
+  CsvTable(const std::string& path, const std::string& head) : path_(path), text_(head + "\n") {}
   void add(const std::vector<double>& row) {
     for (std::size_t k = 0; k < row.size(); ++k)
       text_ += (k == 0 ? "" : ",") + grainlaw::adapters::shown(row[k], 17);

@@ -99,8 +99,8 @@ void run(const char* material, const std::string& prefix, int steps, double shor
       options);
 
   const bool tells = Utilities::MPI::this_mpi_process(comm) == 0;
-  Table force(prefix + "_force.csv", "step[-],fraction[-],top_z_displacement[m],top_z_force[N]");
-  Table iterations(prefix + "_newton.csv", "step[-],iteration[-],relative_residual[-]");
+  CsvTable force(prefix + "_force.csv", "step[-],fraction[-],top_z_displacement[m],top_z_force[N]");
+  CsvTable iterations(prefix + "_newton.csv", "step[-],iteration[-],relative_residual[-]");
   for (int step = 0; step <= steps; ++step) {
     newton.to(static_cast<double>(step) / steps, [&](double load, const auto& residuals) {
       const Forces& internal = newton.internal_forces();

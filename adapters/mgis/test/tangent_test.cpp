@@ -138,7 +138,7 @@ class mgis_tangent : public testing::TestWithParam<Case> {
   }
 };
 
-// Of discs alone.
+// Nothing but discs, in both hypotheses.
 class mgis_out_of_plane : public mgis_tangent {};
 
 TEST_P(mgis_tangent, stresses_are_one_stress_in_three_measures) {
