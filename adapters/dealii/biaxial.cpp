@@ -21,8 +21,7 @@
 #include <grainlaw/dealii.hpp>
 #include <map>
 
-#include "../point/number_text.hpp"
-#include "../point/whole_file.hpp"
+#include "table.hpp"
 #include "triangles.hpp"
 
 using namespace dealii;
@@ -43,25 +42,6 @@ double side_force(const Point<2>& X) {
   const bool corner = X[1] < 1e-9 || X[1] > height - 1e-9;
   return (left ? 1 : -1) * side_pressure * height / rows * (corner ? 0.5 : 1);
 }
-
-// Written whole after every load step: on a full disk the steps before it stay.
-class Table {
- public:
-  Table(const std::string& path, const std::string& head) : path_(path), text_(head + "\n") {}
-  void add(const std::vector<double>& row) {
-    for (std::size_t k = 0; k < row.size(); ++k)
-      text_ += (k == 0 ? "" : ",") + grainlaw::adapters::shown(row[k], 17);
-    text_ += "\n";
-  }
-  void save() const {
-    grainlaw::adapters::WholeFile file(path_);
-    file.write(text_.data(), text_.size());
-    file.keep();
-  }
-
- private:
-  std::string path_, text_;
-};
 
 void run(const char* material, const std::string& prefix, int steps) {
   if (steps < 1) throw std::runtime_error("expected a number of load steps >= 1");
@@ -117,8 +97,9 @@ void run(const char* material, const std::string& prefix, int steps) {
       options);
 
   const bool tells = Utilities::MPI::this_mpi_process(comm) == 0;
-  Table force(prefix + "_force.csv", "step[-],fraction[-],top_y_displacement[m],top_y_force[N/m]");
-  Table iterations(prefix + "_newton.csv", "step[-],iteration[-],relative_residual[-]");
+  CsvTable force(prefix + "_force.csv",
+                 "step[-],fraction[-],top_y_displacement[m],top_y_force[N/m]");
+  CsvTable iterations(prefix + "_newton.csv", "step[-],iteration[-],relative_residual[-]");
   for (int step = 0; step <= steps; ++step) {
     newton.to(static_cast<double>(step) / steps, [&](double load, const auto& residuals) {
       const Forces& internal = newton.internal_forces();

@@ -47,17 +47,21 @@ def _guarded(answer_on_failure):
 
 
 class _Run:
-    def __init__(self, material, loads, history, **options):
+    def __init__(self, material, loads, history, dimension, **options):
         self.material = grainlaw.Material(material)
         self.dimension = self.material.dimension
+        if dimension not in (None, self.dimension):
+            raise ValueError(f"the problem has SpaceDimension = {dimension}, expected {self.dimension}, as of "
+                             f"the material {material}")
         self.goals = load_steps(loads)
         self.number = self.cuts = 0
         self.march = grainlaw.March(**options)
         self.march.begin(self.goals[0])
         self.march.next()
         self.history = os.path.abspath(history) if history else None
-        self.lines = {"_force.csv": ["step[-],fraction[-],top_y_displacement[m],"
-                                     "top_x_force[N/m],top_y_force[N/m]"],
+        axes, unit = ("xy", "N/m") if self.dimension == 2 else ("xyz", "N")
+        forces = ",".join(f"top_{axis}_force[{unit}]" for axis in axes)
+        self.lines = {"_force.csv": [f"step[-],fraction[-],top_{axes[-1]}_displacement[m],{forces}"],
                       "_newton.csv": ["step[-],iteration[-],relative_residual[-]"]}
         self.threads = int(os.environ.get("GRAINLAW_THREADS", len(os.sched_getaffinity(0))))
         self.rows = {}        # (element, point) -> number of the point
@@ -91,13 +95,14 @@ def _current():
 
 
 @_guarded(FAILED)
-def start(material, loads, tolerance, history=None, **options):
-    """Read the material; loads as for load_steps; tolerance of |force on the unknowns| relative to
-    |nodal forces of the stresses|; options of grainlaw.March; history: prefix of HISTORY_force.csv and HISTORY_newton.csv,
-    which are written anew after every step, so that they always are whole."""
+def start(material, loads, tolerance, history=None, dimension=None, **options):
+    """Read the material, which has to be of the dimension where that is given; loads as for load_steps;
+    tolerance of |force on the unknowns| relative to |nodal forces of the stresses|; options of
+    grainlaw.March; history: prefix of HISTORY_force.csv and HISTORY_newton.csv, which are written anew
+    after every step, so that they always are whole."""
     global _run, failures
     _run, failures = None, 0
-    run = _Run(material, loads, history, tolerance=tolerance, **options)
+    run = _Run(material, loads, history, dimension, tolerance=tolerance, **options)
     for ending in run.lines:
         _record(run, ending, [])
     _run = run
@@ -122,6 +127,9 @@ def collect(arguments):
         row = run.rows.setdefault(key, len(run.rows))
     elif (row := run.rows.get(key)) is None:
         raise LookupError(f"element {key[0]}, point {key[1]} was not there in the first pass")
+    if row in run.gradients:
+        raise ValueError(f"element {key[0]}, point {key[1]} was handed over twice in one pass: the regions "
+                         "of Body share an element")
     run.gradients[row] = [gradient[:d] for gradient in gradients]
     return [0.0]
 
@@ -133,7 +141,9 @@ def evaluate():
     collected, run.gradients = run.gradients, {}
     if failures:
         return FAILED
-    if not collected or len(collected) != len(run.rows):
+    if not collected:
+        raise RuntimeError("no point was collected: the mesh has no elements in the regions of Body")
+    if len(collected) != len(run.rows):
         raise RuntimeError(f"{len(collected)} of {len(run.rows)} points were collected")
     F = np.eye(run.dimension) + np.array([collected[row] for row in range(len(collected))])
     if run.states is None:
@@ -222,11 +232,11 @@ def finish(arguments):
     """After an attempt: its outcome, and of a converged one displacement and force of the platen.
     GO_ON while there is load left, CONVERGED at the end."""
     run = _current()
-    outcome, displacement, force_x, force_y = arguments
+    outcome, displacement, *forces = arguments
     run.residuals = []
     if int(outcome) == CONVERGED:
-        _record(run, "_force.csv", [f"{run.number},{run.march.load:.17g},"
-                                    f"{displacement:.17g},{force_x:.17g},{force_y:.17g}"])
+        row = [run.march.load, displacement, *forces[:run.dimension]]
+        _record(run, "_force.csv", [",".join([str(run.number), *(f"{number:.17g}" for number in row)])])
         _next_part(run)
     if failures:
         return FAILED

@@ -6,9 +6,11 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_q1.h>
 #include <deal.II/grid/grid_generator.h>
+#include <deal.II/hp/fe_collection.h>
 #include <deal.II/lac/petsc_solver.h>
 #include <deal.II/lac/petsc_sparse_matrix.h>
 #include <deal.II/lac/petsc_vector.h>
@@ -180,6 +182,22 @@ void refuse(const grainlaw::Material& material, const std::string& path, const c
     refused(problem, GRAINLAW_BAD_BYTES, words, loads(problem, damaged));
   }
   if (rank == 0) std::remove(damaged.c_str());
+  // A square beside a triangle, each of its own element.
+  Triangulation<2> mixed_mesh;
+  std::vector<CellData<2>> kinds{CellData<2>(4), CellData<2>(3)};
+  kinds[0].vertices = {0, 1, 2, 3};
+  kinds[1].vertices = {1, 4, 3};
+  mixed_mesh.create_triangulation(
+      {Point<2>(0, 0), Point<2>(1, 0), Point<2>(0, 1), Point<2>(1, 1), Point<2>(2, 0)}, kinds,
+      SubCellData());
+  const hp::FECollection<2> elements(FESystem<2>(FE_Q<2>(1), 2), FESystem<2>(FE_SimplexP<2>(1), 2));
+  DoFHandler<2> mixed_dofs(mixed_mesh);
+  for (const auto& cell : mixed_dofs.active_cell_iterators())
+    cell->set_active_fe_index(cell->reference_cell().is_simplex() ? 1 : 0);
+  mixed_dofs.distribute_dofs(elements);
+  refused(problem, GRAINLAW_BAD_ARGUMENT, "a mesh of several kinds of cells", [&] {
+    const grainlaw::dealii::Points<2> mixed(problem.mapping, mixed_dofs, QGauss<2>(2), material);
+  });
   refused(problem, GRAINLAW_WRONG_MATERIAL, "rank " + std::to_string(last) + ": the material", [&] {
     const grainlaw::dealii::Points<2> mixed(problem.mapping, problem.dofs, QGauss<2>(2),
                                             rank == last ? other : material);

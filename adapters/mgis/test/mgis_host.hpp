@@ -101,6 +101,10 @@ class Manager {
     gradient[3] = F[1];
     gradient[4] = F[2];
   }
+  // Row by row; in plane strain what is out of the plane is left out.
+  void set_F_in_space(std::size_t point, const std::array<double, 9>& F) {
+    for (std::size_t k = 0; k < tensor; ++k) s1.gradients[point * tensor + k] = F[tensor_order[k]];
+  }
 
   // One point; what the behaviour returns. message and rdt are set as by MGIS.
   int integrate(std::size_t point, double request = consistent) {

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 int main(int count, char** arguments) {
@@ -17,29 +18,34 @@ int main(int count, char** arguments) {
   try {
     const BehaviourLibrary library(arguments[1]);
     Manager manager(library, arguments[2], arguments[3], 1, first_piola, dP_dF);
-    constexpr std::array<std::size_t, 4> in_plane{0, 3, 4, 1};  // 11 12 21 22 among 11 22 33 12 21
     std::ifstream path(arguments[4]);
     std::string line;
     std::getline(path, line);
-    std::printf("P11,P12,P21,P22");
-    for (int a = 0; a < 16; ++a) {
-      std::printf(",A%d%d%d%d", a / 8 + 1, a / 4 % 2 + 1, a / 2 % 2 + 1, a % 2 + 1);
-    }
-    std::printf("\n");
+    std::printf("P and A by rows\n");
     while (std::getline(path, line)) {
-      std::array<double, 4> F{};
-      if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf", &F[0], &F[1], &F[2], &F[3]) != 4) return 1;
-      manager.set_F(0, F);
+      std::replace(line.begin(), line.end(), ',', ' ');
+      std::istringstream numbers(line);
+      std::vector<double> given;
+      for (double value; numbers >> value;) given.push_back(value);
+      const std::size_t d = given.size() == 4 ? 2 : 3;
+      if (given.size() != d * d) throw std::runtime_error("expected 4 or 9 components: " + line);
+      std::array<double, 9> F{1, 0, 0, 0, 1, 0, 0, 0, 1};
+      std::vector<std::size_t> places;  // of the rows' components in the order of MGIS
+      for (std::size_t c = 0; c < d * d; ++c) {
+        const std::size_t component = c / d * 3 + c % d;
+        F[component] = given[c];
+        places.push_back(static_cast<std::size_t>(
+            std::find(tensor_order.begin(), tensor_order.end(), component) - tensor_order.begin()));
+      }
+      manager.set_F_in_space(0, F);
       if (manager.integrate(0) != 1) throw std::runtime_error(manager.message);
       const char* separator = "";
-      for (const std::size_t a : in_plane) {
+      for (const std::size_t a : places) {
         std::printf("%s%.17g", separator, manager.s1.forces[a]);
         separator = ",";
       }
-      for (const std::size_t a : in_plane) {
-        for (const std::size_t b : in_plane)
-          std::printf(",%.17g", manager.K[a * manager.tensor + b]);
-      }
+      for (const std::size_t a : places)
+        for (const std::size_t b : places) std::printf(",%.17g", manager.K[a * manager.tensor + b]);
       std::printf("\n");
       manager.update();
     }

@@ -10,11 +10,12 @@ import grainlaw
 def main(material, path):
     point = grainlaw.State(grainlaw.Material(material))
     point.set_time_step(1)
-    component = [f"{k}{L}" for k in "12" for L in "12"]
+    d = point.dimension
+    component = [f"{k}{L}" for k in "123"[:d] for L in "123"[:d]]
     print(",".join([f"P{c}" for c in component]
                    + [f"A{c}{e}" for c in component for e in component]))
     for F in np.loadtxt(path, delimiter=",", skiprows=1):
-        answer = point.evaluate(F.reshape(2, 2), grainlaw.Tangent.EXACT)
+        answer = point.evaluate(F.reshape(d, d), grainlaw.Tangent.EXACT)
         if not answer.ok:
             sys.exit(answer.message)
         point.commit()

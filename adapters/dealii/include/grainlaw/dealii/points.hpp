@@ -34,7 +34,8 @@ namespace grainlaw::dealii {
 template <int dim>
 class Points {
  public:
-  // Throws for a material of another dimension, and where ranks have different ones.
+  // Throws for a material of another dimension, a mesh of several kinds of cells, and where ranks have
+  // different materials.
   Points(const ::dealii::Mapping<dim>& mapping, const ::dealii::DoFHandler<dim>& dofs,
          const ::dealii::Quadrature<dim>& quadrature, const Material& material)
       : dofs_(dofs),
@@ -51,6 +52,9 @@ class Points {
         throw StatusError(GRAINLAW_BAD_ARGUMENT,
                           "a material of dimension " + std::to_string(material.dimension()) +
                               ", expected that of the mesh, " + std::to_string(dim));
+      if (dofs_.has_hp_capabilities() || dofs_.get_triangulation().is_mixed_mesh())
+        throw StatusError(GRAINLAW_BAD_ARGUMENT,
+                          "a mesh of several kinds of cells or elements, expected one");
       if (fingerprint_ != expected)
         throw StatusError(GRAINLAW_WRONG_MATERIAL,
                           "the material is not that of rank 0: all need one file and packing");
