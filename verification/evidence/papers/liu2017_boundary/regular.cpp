@@ -112,6 +112,22 @@ void figure_2(PaperStudy& study, const PaperUnits& units) {
   if (!figure.panels.empty()) draw(figure, study.results / "figure_02");
 }
 
+// Relaxation steps of the servo under P with its best prediction over those without.
+void steps_of_the_servo(PaperStudy& study) {
+  const CaseEnds ends(study.results / "figure_02_cases.csv");
+  const auto plain = ends.find("figure_02_P_plain");
+  if (!plain) return;
+  double least = std::nan("");
+  for (const char* share : {"quarter", "half", "three_quarters", "predicted"}) {
+    const auto k = ends.find(std::string("figure_02_P_") + share);
+    if (!k || ends.table["steps"][*k] < ends.table["steps_wanted"][*k]) continue;
+    const double steps = ends.table["relaxation_steps"][*k];
+    study.facts.add(fmt::format("figure_02.P.relaxation_steps_{}", share), steps);
+    least = std::fmin(least, steps / ends.table["relaxation_steps"][*plain]);
+  }
+  study.facts.add("figure_02.P.steps_predicted_over_plain", least);
+}
+
 void figure_4(PaperStudy& study, const PaperUnits& units) {
   Figure figure{"Fig. 4: 25 discs under D, P and T", "-F12 [-]", {}};
   Panel stress{"-σ11 R / kn [-]"};
@@ -240,6 +256,7 @@ void sample_size(PaperStudy& study, const PaperUnits& units) {
 void study_regular_packings(PaperStudy& study) {
   const PaperUnits units = read_units(study.scenes / "pack_square_25.toml");
   figure_2(study, units);
+  steps_of_the_servo(study);
   figure_4(study, units);
   figure_5(study, units);
   sample_size(study, units);
