@@ -87,7 +87,7 @@ def name_of_bound(bound):
     if "measure" in bound:
         return bound["measure"]
     what = bound["fact"].split(".", 1)
-    return f"failed tests of {what[1]}" if what[0] == "tests" else what[1].replace("_", " ").replace(".", ", ")
+    return f"failed tests of {what[1]}" if what[0] == "tests" else re.sub(r"(?<!\d)\.|\.(?!\d)", ", ", what[1].replace("_", " "))
 
 
 def cells(row, facts):
