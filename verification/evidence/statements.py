@@ -8,6 +8,7 @@ where both become a verdict.
 """
 import collections
 import csv
+import math
 import pathlib
 import re
 import subprocess
@@ -59,6 +60,18 @@ def verdict(row, facts):
     return "fitted" if "fitted" in row else "agrees"
 
 
+def missed(row, facts):
+    """Bounds that a number of ours is not within, with the number, worst first."""
+    known = [(bound, facts[bound["fact"]].value) for bound in row["bounds"] if bound.get("fact") in facts]
+    return sorted(((bound, value) for bound, value in known if not within(bound, value)), key=lambda pair: -distance(*pair))
+
+
+def distance(bound, value):
+    """How many times a number is the end of the bound that it misses, or the end the number; 1 on the bound."""
+    end = bound["to"] if value > bound.get("to", math.inf) else bound.get("from", math.nan)
+    return max(value / end, end / value) if value * end > 0 else math.inf
+
+
 def number(value):
     return f"{value:.4g}"
 
@@ -74,7 +87,7 @@ def name_of_bound(bound):
     if "measure" in bound:
         return bound["measure"]
     what = bound["fact"].split(".", 1)
-    return f"failed tests of {what[1]}" if what[0] == "tests" else what[1].replace("_", " ").replace(".", ", ")
+    return f"failed tests of {what[1]}" if what[0] == "tests" else re.sub(r"(?<!\d)\.|\.(?!\d)", ", ", what[1].replace("_", " "))
 
 
 def cells(row, facts):
@@ -104,6 +117,20 @@ def bounds_set_later(rows, facts):
     return [(key, facts[bound["fact"]].commit) for key, row in rows.items() for bound in row["bounds"]
             if bound.get("fact") in facts and facts[bound["fact"]].commit in at and
             bound not in at[facts[bound["fact"]].commit].get(key, {"bounds": []})["bounds"]]
+
+
+DIFFERENCES = ["id", "statement", "worst bound missed", "here", "how far", "why"]
+
+
+def differences(rows, facts):
+    """The table of what differs, worst first."""
+    worst = {row["id"]: missed(row, facts)[0] for row in rows if verdict(row, facts) == "differs"}
+    yield line_of(DIFFERENCES)
+    yield "|" + "---|" * len(DIFFERENCES)
+    for row in sorted((row for row in rows if row["id"] in worst), key=lambda row: -distance(*worst[row["id"]])):
+        bound, value = worst[row["id"]]
+        yield line_of([row["id"], row["says"], f"{name_of_bound(bound)}: {text_of_bound(bound)}", number(value),
+                       number(distance(bound, value)).replace("inf", "infinite"), row.get("why", "-")])
 
 
 HEAD = ["statement", "paper", "bounds", "here", "verdict", "bounds from, or what is missing"]
@@ -166,7 +193,11 @@ def page_text():
     for letter, paper in papers.items():
         counts = counts_of(of_paper(rows, letter), facts)
         lines.append(line_of([paper["name"], *map(str, [*counts, sum(counts)])]))
-    lines += ["", line_of(["commit", "machine", "facts"]), "|---|---|---|", *runs_of(facts)]
+    lines += ["", line_of(["commit", "machine", "facts"]), "|---|---|---|", *runs_of(facts), "",
+              "## What differs, worst first", "",
+              "How far: the number here over the end of the bound that it misses, or the end over the number, whichever is above 1.",
+              "So 1 is the bound itself, and 2 is twice too much or half of it. It is infinite where one of the two is zero.", "",
+              *differences(rows.values(), facts)]
     for letter, paper in papers.items():
         mine = of_paper(rows, letter)
         lines += ["", f"## {paper['name']}", ""]
@@ -195,6 +226,12 @@ def machine_of(output):
     return told["revision"], told["processor"]
 
 
+def pattern_of(fact):
+    """The tests of a suite, those with parameters too: driver.patch.x, driver.elements/patch.x/t3."""
+    kind, suite = fact.removeprefix("tests.").split(".")
+    return f"^{kind}[.]([^.]*/)?{suite}[.]"
+
+
 def run_tests(build, output, *names):
     """All that statements name, or these; written after each, beside what the same commit left."""
     path, told_of = output / "tests_facts.csv", machine_of(output)
@@ -204,7 +241,7 @@ def run_tests(build, output, *names):
             failures = {row["fact"]: int(row["value"]) for row in csv.DictReader(file) if (row["commit"], row["machine"]) == told_of}
     for name in names or tests_named():
         what = name.removeprefix("tests.")
-        done = subprocess.run(["ctest", "--test-dir", build, "-R", f"^{re.escape(what)}[.]"], stdout=subprocess.PIPE, text=True)
+        done = subprocess.run(["ctest", "--test-dir", build, "-R", pattern_of(name)], stdout=subprocess.PIPE, text=True)
         told = re.search(r"(\d+) tests failed out of (\d+)", done.stdout)
         if not told or told[2] == "0":
             print(f"{what}: left out, {build} has no such test", flush=True)
@@ -214,15 +251,25 @@ def run_tests(build, output, *names):
         write_facts(path, failures, *told_of)
 
 
-def collect(output):
-    """Nothing of a tree with changes: nobody could make it again."""
-    (HERE / "facts").mkdir(exist_ok=True)
+def rows_of(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        return {row["fact"]: row for row in csv.DictReader(file)}
+
+
+def collect(output, kept=HERE / "facts"):
+    """Nothing of a tree with changes: nobody could make it again. What a run of some scenes did not measure stays as it was."""
+    kept.mkdir(exist_ok=True)
     for path in sorted(output.glob("*_facts.csv")):
-        with open(path, newline="", encoding="utf-8") as file:
-            commits = {row["commit"] for row in csv.DictReader(file)}
+        found = rows_of(path)
+        commits = {row["commit"] for row in found.values()}
         if any(commit == "unknown" or commit.endswith("-dirty") for commit in commits):
             raise SystemExit(f"{path}: of {', '.join(commits)}, expected a commit without changes")
-        (HERE / "facts" / path.name.replace("_facts", "")).write_bytes(path.read_bytes())
+        into = kept / path.name.replace("_facts", "")
+        found = (rows_of(into) if into.exists() else {}) | found
+        with open(into, "w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, ["fact", "value", "commit", "machine"], lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(found.values())
         print("kept", path.name)
 
 

@@ -100,6 +100,27 @@ void facts_of_228(PaperStudy& study, const PaperUnits& units) {
                   ordered(at(*t, rotation), at(*p, rotation), at(*d, rotation)));
 }
 
+// The stress norm in steps a quarter as long, apart before and after its largest value, over that.
+void step_size(PaperStudy& study, const PaperUnits& units) {
+  double before = std::nan(""), after = std::nan("");
+  for (const char* name : {"D", "P", "T"}) {
+    const auto coarse = study.run(std::string("figure_08_") + name),
+               fine = study.run(fmt::format("figure_08_{}_fine", name));
+    if (!coarse || !fine) continue;
+    const std::vector<double> norm = stress_norm(*coarse, units), other = stress_norm(*fine, units);
+    const auto top = std::max_element(norm.begin(), norm.end());
+    const std::vector<double>&x = coarse->history["F12"], &finer = fine->history["F12"];
+    for (std::size_t k = 0; k < norm.size() && x[k] <= finer.back() + 1e-9; ++k) {
+      const double apart =
+          std::abs(interpolate(finer, other, std::min(x[k], finer.back())) - norm[k]);
+      double& largest = norm.begin() + static_cast<std::ptrdiff_t>(k) <= top ? before : after;
+      largest = std::fmax(largest, apart / *top);
+    }
+  }
+  study.facts.add("figure_08.fine.apart_before_peak", before);
+  study.facts.add("figure_08.fine.apart_after_peak", after);
+}
+
 // The file with the paths of this machine has the whole text.
 std::string how(const CaseEnds& ends, std::size_t k) {
   if (ends.table["steps"][k] == 0) return "no equilibrium at F = I";
@@ -183,6 +204,7 @@ void study_irregular_packings(PaperStudy& study) {
   figure_7(study, units);
   figure_9(study);
   facts_of_228(study, units);
+  step_size(study, units);
   figure_10(study, units, ends);
   reach_of_t(study, ends);
 }

@@ -228,7 +228,11 @@ void study_layer(PaperStudy& study) {
   tabulate(study, "layer_strength", "Layer: bond strength",
            {"frictional", "x1", "x2", "x5", "x10", "x20", "x50"});
   tabulate(study, "layer_rows", "Layer: top and bottom rows",
-           {"discs", "rigid", "discs_low", "rigid_low"});
+           {"discs", "rigid", "discs_low", "rigid_low", "rigid_fixed"});
+  const auto free = study.run("layer_rows_rigid"), fixed = study.run("layer_rows_rigid_fixed");
+  if (free && fixed)
+    study.facts.add("layer_rows.peak_free_over_fixed",
+                    strength(*free).peak / strength(*fixed).peak);
   locked_rotation(study);
 }
 

@@ -37,23 +37,29 @@ double largest_difference(const PaperRun& a, const PaperRun& b, double from, dou
   return difference / size;
 }
 
-// Where -sigma11 lies farthest below an earlier value, in 0.05 <= -F12 <= 0.2, and by how much of its
-// largest value.
-struct Drop {
-  double at = std::nan(""), size = 0;
+// The deepest minimum of -sigma11 in 0.05 < -F12 < 0.2: where, and how far it lies below what comes
+// before and after it in there, over the largest value of the run. A steady fall has none.
+struct Minimum {
+  double at = std::nan(""), depth = 0;
 };
 
-Drop largest_drop(const PaperRun& run) {
-  Drop drop;
-  double before = 0, largest = 0;
+Minimum deepest_minimum(const PaperRun& run) {
+  std::vector<double> at, stress;
+  double largest = 0;
   for (std::size_t k = 0; k < run.steps(); ++k) {
-    const double at = -run.history["F12"][k], stress = -run.history["sigma11"][k];
-    largest = std::max(largest, stress);
-    if (at > 0.05 && at < 0.2 && before - stress > drop.size) drop = {at, before - stress};
-    before = std::max(before, stress);
+    const double x = -run.history["F12"][k], s = -run.history["sigma11"][k];
+    largest = std::max(largest, s);
+    if (x > 0.05 && x < 0.2) at.push_back(x), stress.push_back(s);
   }
-  drop.size /= largest;
-  return drop;
+  Minimum minimum;
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const auto here = stress.begin() + static_cast<std::ptrdiff_t>(k);
+    const double before = *std::max_element(stress.begin(), here + 1);
+    const double after = *std::max_element(here, stress.end());
+    const double depth = (std::min(before, after) - stress[k]) / largest;
+    if (depth > minimum.depth) minimum = {at[k], depth};
+  }
+  return minimum;
 }
 
 void figure_2(PaperStudy& study, const PaperUnits& units) {
@@ -88,11 +94,11 @@ void figure_2(PaperStudy& study, const PaperUnits& units) {
     const auto add = [&](const char* name, double value) {
       study.facts.add(fmt::format(fmt::runtime(name), condition), value);
     };
-    const Drop drop = largest_drop(*predicted);
+    const Minimum minimum = deepest_minimum(*predicted);
     add("figure_02.{}.steps", predicted->history["step"].back());
-    add("figure_02.{}.predicted_minimum_at", drop.at);
-    add("figure_02.{}.predicted_drop", drop.size);
-    add("figure_02.{}.plain_drop", largest_drop(*plain).size);
+    add("figure_02.{}.predicted_minimum_at", minimum.at);
+    add("figure_02.{}.predicted_minimum", minimum.depth);
+    add("figure_02.{}.plain_minimum", deepest_minimum(*plain).depth);
     add("figure_02.{}.apart_early", largest_difference(*predicted, *plain, 0.0, 0.05));
     middle.push_back(largest_difference(*predicted, *plain, 0.05, 0.2));
     add("figure_02.{}.apart_middle", middle.back());
@@ -104,6 +110,22 @@ void figure_2(PaperStudy& study, const PaperUnits& units) {
   if (middle.size() == 2)
     study.facts.add("figure_02.T.apart_middle_over_P", middle.back() / middle.front());
   if (!figure.panels.empty()) draw(figure, study.results / "figure_02");
+}
+
+// Relaxation steps of the servo under P with its best prediction over those without.
+void steps_of_the_servo(PaperStudy& study) {
+  const CaseEnds ends(study.results / "figure_02_cases.csv");
+  const auto plain = ends.find("figure_02_P_plain");
+  if (!plain) return;
+  double least = std::nan("");
+  for (const char* share : {"quarter", "half", "three_quarters", "predicted"}) {
+    const auto k = ends.find(std::string("figure_02_P_") + share);
+    if (!k || ends.table["steps"][*k] < ends.table["steps_wanted"][*k]) continue;
+    const double steps = ends.table["relaxation_steps"][*k];
+    study.facts.add(fmt::format("figure_02.P.relaxation_steps_{}", share), steps);
+    least = std::fmin(least, steps / ends.table["relaxation_steps"][*plain]);
+  }
+  study.facts.add("figure_02.P.steps_predicted_over_plain", least);
 }
 
 void figure_4(PaperStudy& study, const PaperUnits& units) {
@@ -234,6 +256,7 @@ void sample_size(PaperStudy& study, const PaperUnits& units) {
 void study_regular_packings(PaperStudy& study) {
   const PaperUnits units = read_units(study.scenes / "pack_square_25.toml");
   figure_2(study, units);
+  steps_of_the_servo(study);
   figure_4(study, units);
   figure_5(study, units);
   sample_size(study, units);

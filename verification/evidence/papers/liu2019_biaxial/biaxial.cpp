@@ -221,6 +221,7 @@ void study_biaxial(PaperStudy& study) {
   compare_meshes(study);
   compare_parameters(study);
   study_initial_anisotropy(study);
+  count_made_packings(study);
   compare_with_direct(study);
   compare_sizes(study);
   tabulate_costs(study);

@@ -35,6 +35,7 @@ void compare_with_direct(PaperStudy& study);  // also every packing of dns_packi
 void compare_sizes(PaperStudy& study);        // specimens A, B, C of each packing with its mesh
 void draw_points(PaperStudy& study);          // figure 6
 void study_initial_anisotropy(PaperStudy& study);  // figures 12 to 14
+void count_made_packings(PaperStudy& study);       // table 3, figure 12
 
 void add_liu2019_biaxial_study(CLI::App& app, const std::shared_ptr<StudyOptions>& options);
 
