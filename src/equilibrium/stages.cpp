@@ -85,6 +85,17 @@ void start_iteration(const Request<D>& request, double share, Increment<D>& incr
   }
 }
 
+// Largest mean force at the end of a relaxation with advancing history, over the given one [-].
+constexpr double largest_gain = 10;
+
+// True if forces grew far beyond those of the affine guess and at F = I, `given` [N]. Relaxation
+// loses energy, so particles were pushed through one another on the way.
+template <int D>
+bool gained_energy(const Increment<D>& increment, double given) {
+  return !increment.problem().space->finds_deformation &&
+         increment.scale().mean_force() > largest_gain * given;
+}
+
 template <int D>
 bool has_drag(const Request<D>& request) {
   return request.options->viscosity.number > 0;
@@ -247,13 +258,16 @@ bool solve_advancing(const Request<D>& request, Method method, Workspace<D>& w, 
                              w.reference);
     }
     increment.refresh_masses();
+    const double given = std::max(increment.scale().mean_force(), unloaded_force(*request.problem));
     double loosest = reachable(request, increment);
     if (request.options->method == Method::direct) {
       loosest = std::max(loosest, request.loose_tolerance);
     }
     const double most_steps = (may_be_free(request) ? 2 : 1) * tuned::advancing_steps;
-    return relax(increment, loosest, relaxation_limit(most_steps, increment.problem().nodes()),
-                 History::advancing, w.relaxation, zero_force_share(request, increment));
+    const bool relaxed =
+        relax(increment, loosest, relaxation_limit(most_steps, increment.problem().nodes()),
+              History::advancing, w.relaxation, zero_force_share(request, increment));
+    return relaxed && !gained_energy(increment, given);
   };
   const auto settled = [&] { return equilibrium() || is_free(request, increment); };
   const auto nothing = [] {};
