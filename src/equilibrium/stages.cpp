@@ -2,6 +2,7 @@
 
 #include "base/constants.hpp"
 #include "equilibrium/drag_start.hpp"
+#include "equilibrium/effort.hpp"
 #include "equilibrium/tiny_increment.hpp"
 #include "increment/contact_state.hpp"
 #include "reference/servo.hpp"
@@ -12,46 +13,6 @@
 namespace grainlaw::core {
 
 namespace {
-
-constexpr Effort full_effort{.rounds = tuned::rounds,
-                             .first_factorisations = tuned::first_factorisations,
-                             .most_factorisations = tuned::most_factorisations,
-                             .relaxation_steps = tuned::relaxation_steps,
-                             .finest = tuned::finest_refinement};
-// Effort with a loose tolerance.
-constexpr Effort bounded_effort{.rounds = tuned::bounded_rounds,
-                                .first_factorisations = tuned::bounded_first_factorisations,
-                                .most_factorisations = tuned::bounded_factorisations,
-                                .relaxation_steps = tuned::bounded_relaxation_steps,
-                                .finest = 1};
-
-// Fewer rounds: an increment that fluttered before in this step rarely converges now.
-constexpr Effort repeated(Effort effort) {
-  effort.rounds = tuned::repeated_rounds;
-  return effort;
-}
-constexpr Effort repeated_effort = repeated(bounded_effort);
-
-double size_factor(std::size_t nodes) {
-  return std::sqrt(std::max(1.0, static_cast<double>(nodes) / tuned::usual_nodes));
-}
-
-long relaxation_limit(double steps, std::size_t nodes) {
-  return static_cast<long>(steps * size_factor(nodes));
-}
-
-// Count for large packings, at least `least`. Sub-increments are cheaper there: all rounds cost
-// fifty increments in a packing of 6400 discs that did not converge.
-int limit_of(int count, int least, std::size_t nodes) {
-  const long fewer = std::lround(count / size_factor(nodes));
-  return std::min(count, std::max(least, static_cast<int>(fewer)));
-}
-
-template <int D>
-double hand_over_of(std::size_t nodes) {
-  const double share = tuned::usual_nodes / static_cast<double>(nodes);
-  return tuned::hand_over<D> * std::pow(std::min(1.0, share), tuned::hand_over_power);
-}
 
 // Mean force below which the packing counts as free of stress [N]. Bonds need no force and exclude
 // that: 0.

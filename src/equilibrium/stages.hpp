@@ -2,6 +2,7 @@
 // restarts the increment and leaves it in workspace.increment, converged or not.
 #pragma once
 
+#include "equilibrium/effort.hpp"
 #include "equilibrium/request.hpp"
 
 #include <array>
@@ -44,14 +45,7 @@ double unloaded_force(const Problem<D>& problem) {
 template <int D>
 bool may_fade(const Request<D>& request, const Increment<D>& increment);
 
-// Effort for one sub-increment of up to tuned::usual_nodes before other stages.
-struct Effort {
-  int rounds;                // of relaxation and Newton
-  int first_factorisations;  // of the first round
-  int most_factorisations;
-  double relaxation_steps;
-  int finest;  // largest refinement of the number of sub-increments
-};
+// Effort for one sub-increment of this request.
 template <int D>
 const Effort& effort_of(const Request<D>& request);
 

@@ -19,7 +19,7 @@ struct grainlaw_table {
 extern "C" {
 
 const char* grainlaw_status_text(grainlaw_status) { return ""; }
-double grainlaw_march_cut(double step_ratio) { return step_ratio; }
+double grainlaw_march_cut(double step_ratio) { return step_ratio > 0 ? step_ratio : 0.5; }
 grainlaw_report grainlaw_report_default() {
   grainlaw_report report{};
   report.size = sizeof report;
