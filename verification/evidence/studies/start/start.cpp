@@ -48,7 +48,7 @@ struct Tally {
 
   void add(const Run& run, int steps) {
     planned += steps;  // a path that ends early has not converged in the rest
-    for (const Step& step : run.steps) {
+    for (const start::Step& step : run.steps) {
       evaluations += step.evaluations;
       cpu += step.cpu;
       if (!step.converged) continue;
@@ -102,9 +102,9 @@ void tabulate(const std::vector<Run>& runs, const Arguments& arguments,
        "best_residual[-]", "gap_width[-]", "gap_jump[-]", "parts[-]", "loose[-]",
        "evaluations[-]"});
   for (const Run& run : runs)
-    for (const Step& step : run.steps) {
+    for (const start::Step& step : run.steps) {
       if (step.converged) continue;
-      const Step::Gap gap = step.gap(newton.axial / newton.steps);
+      const start::Step::Gap gap = step.gap(newton.axial / newton.steps);
       rest.row({run.start, run.packing, static_cast<double>(step.step), step.strain, step.reason,
                 static_cast<double>(step.iterations), static_cast<double>(step.not_direct),
                 step.best_residual(), gap.width, gap.jump, static_cast<double>(step.parts),
@@ -138,7 +138,7 @@ void run_study(const StudyOptions& options, Arguments arguments) {
       MaterialSource source = material_source(options, arguments, seed);
       change(source, "solver", "start", std::string(kind));
       Run run{kind, seed == 0 ? "yade400" : fmt::format("pack400_seed{}", seed), {}, ""};
-      lead(run, make_material(source), arguments.newton, [&](const Step& step) {
+      lead(run, make_material(source), arguments.newton, [&](const start::Step& step) {
         not_converged += step.converged ? 0 : 1;
         progress.update(++done / planned,
                         fmt::format("{} of {:.0f} steps not converged, {} {} at {:.1f} %",
