@@ -46,11 +46,17 @@ void start_iteration(const Request<D>& request, double share, Increment<D>& incr
   }
 }
 
-// Largest mean force at the end of a relaxation with advancing history, over the given one [-].
+// Largest mean force at equilibrium, over the given one [-].
 constexpr double largest_gain = 10;
 
-// True if forces grew far beyond those of the affine guess and at F = I, `given` [N]. Relaxation
-// loses energy, so particles were pushed through one another on the way.
+// Mean force of the guess, at least that at F = I [N].
+template <int D>
+double given_force(const Increment<D>& increment) {
+  return std::max(increment.scale().mean_force(), unloaded_force(increment.problem()));
+}
+
+// True if forces grew far beyond the given one [N]. The way to equilibrium loses energy, so
+// particles were pushed through one another on it.
 template <int D>
 bool gained_energy(const Increment<D>& increment, double given) {
   return !increment.problem().space->finds_deformation &&
@@ -68,10 +74,10 @@ double reachable(const Request<D>& request, const Increment<D>& increment) {
   return std::max(request.tolerance, least_tolerance(increment));
 }
 
-// Solves one sub-increment in rounds of relaxation and Newton. Later rounds go on from the last
-// iterate and relax longer and tighter, at last down to the target.
+// Relaxes and solves by Newton in rounds from the guess. Later rounds go on from the last iterate
+// and relax longer and tighter, at last down to the target.
 template <int D>
-bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
+bool find_equilibrium(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
   const bool whole = outcome.subincrements == 1;
   auto& increment = w.increment;
   const Effort& effort = effort_of(request);
@@ -83,7 +89,6 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
   const int enough = limit_to(tuned::enough_rounds, tuned::least_rounds);
   const int most_factorisations =
       limit_to(effort.most_factorisations, tuned::unsettled_factorisations);
-  increment.refresh_masses();
   if (request.trying == Trying::whole && increment.scale().below_rounding())
     return is_free(request, increment);
   double target = reachable(request, increment);
@@ -118,6 +123,14 @@ bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
     target = reachable(request, increment);
   }
   return is_free(request, increment);
+}
+
+// Solves one sub-increment.
+template <int D>
+bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
+  w.increment.refresh_masses();
+  const double given = given_force(w.increment);
+  return find_equilibrium(request, w, outcome) && !gained_energy(w.increment, given);
 }
 
 // Breaks the overloaded bonds at an equilibrium and solves again at the same F, until no bond is
@@ -219,7 +232,7 @@ bool solve_advancing(const Request<D>& request, Method method, Workspace<D>& w, 
                              w.reference);
     }
     increment.refresh_masses();
-    const double given = std::max(increment.scale().mean_force(), unloaded_force(*request.problem));
+    const double given = given_force(increment);
     double loosest = reachable(request, increment);
     if (request.options->method == Method::direct) {
       loosest = std::max(loosest, request.loose_tolerance);
