@@ -4,8 +4,30 @@
 #include "increment/records.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace grainlaw::core {
+
+namespace {
+
+// Factor of the least masses [-]. Contacts of Hertz stiffen as the root of the overlap: one that closes
+// between two updates grows as stiff as the mean contact is by then, which the sums at the particle do
+// not show. Masses too small make relaxation unstable, and particles pass through one another.
+template <int D>
+double stiffening(const Problem<D>& problem, const ContactTotals& totals) {
+  if (!problem.law->hertzian() || totals.touching == 0 || problem.initial_force == 0) return 1;
+  const double rise = totals.force / totals.touching / problem.initial_force;
+  return std::max(1.0, std::cbrt(rise) - tuned::stiffening_left_out);
+}
+
+inline LeastMass<2> times(double factor, LeastMass<2> least) {
+  return {factor * least.x, factor * least.y, factor * least.roll, least.inverse_radius};
+}
+inline LeastMass<3> times(double factor, LeastMass<3> least) {
+  return {factor * least.x, factor * least.spin, least.inverse_radius};
+}
+
+}  // namespace
 
 template <int D>
 void Masses<D>::begin(const Problem<D>& problem, const Motion<D>& motion) {
@@ -26,8 +48,9 @@ template <int D>
 ContactTotals Masses<D>::sum(const Problem<D>& problem, const Motion<D>& motion,
                              ContactList<D>& contacts) {
   const auto totals = sum_stiffnesses<D>(motion.records(), *problem.law, contacts, stiffness_);
+  const double factor = stiffening(problem, totals);
   for (std::size_t q = 0; q < problem.nodes(); ++q) {
-    records_[q] = mass_of(stiffness_[q], least_[q], tuned::mass_factor);
+    records_[q] = mass_of(stiffness_[q], times(factor, least_[q]), tuned::mass_factor);
   }
   if (motion.drag().acts()) motion.drag().add_to(std::span(records_), tuned::mass_factor);
   if (problem.space->identity) return totals;
