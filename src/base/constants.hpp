@@ -45,9 +45,6 @@ GRAINLAW_TUNED(double, more_than_chance, 10);
 // Ratio of pseudo-mass to the sum of contact stiffnesses [-]. The unit step is stable below 1;
 // sweep.
 GRAINLAW_TUNED(double, mass_factor, 0.8);
-// What least masses of Hertz contacts leave out of their stiffening, as a multiple of the stiffness at
-// F = I [-]; chosen.
-GRAINLAW_TUNED(double, stiffening_left_out, 1);
 // Ratio of pseudo-mass to stiffness for components of F that are found [-]; method.
 GRAINLAW_TUNED(double, deformation_mass_factor, 0.8);
 // Steps between updates of the masses [steps]. Older masses exceed the stability limit because

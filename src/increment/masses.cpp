@@ -10,20 +10,25 @@ namespace grainlaw::core {
 
 namespace {
 
-// Factor of the least masses [-]. Contacts of Hertz stiffen as the root of the overlap: one that closes
-// between two updates grows as stiff as the mean contact is by then, which the sums at the particle do
-// not show. Masses too small make relaxation unstable, and particles pass through one another.
+// Stiffness of a Hertz contact that the strain of the increment closes, over that at F = I; at least 1
+// [-]. Contacts that close between two updates of the masses become as stiff. With smaller masses
+// relaxation is unstable, and particles pass through one another.
 template <int D>
-double stiffening(const Problem<D>& problem, const ContactTotals& totals) {
-  if (!problem.law->hertzian() || totals.touching == 0 || problem.initial_force == 0) return 1;
-  const double rise = totals.force / totals.touching / problem.initial_force;
-  return std::max(1.0, std::cbrt(rise) - tuned::stiffening_left_out);
+double stiffening(const Problem<D>& problem, const Motion<D>& motion) {
+  if (problem.hertz_overlap == 0) return 1;
+  double squares = 0;
+  for (std::size_t k = 0; k < squared<D>; ++k) {
+    const double change = motion.deformation()[k] - motion.start_deformation()[k];
+    squares += change * change;
+  }
+  const double overlap = 2 * std::sqrt(squares);  // of two particles of a radius of 1
+  return std::max(1.0, std::sqrt(overlap / problem.hertz_overlap));
 }
 
-inline LeastMass<2> times(double factor, LeastMass<2> least) {
+inline LeastMass<2> times(double factor, const LeastMass<2>& least) {
   return {factor * least.x, factor * least.y, factor * least.roll, least.inverse_radius};
 }
-inline LeastMass<3> times(double factor, LeastMass<3> least) {
+inline LeastMass<3> times(double factor, const LeastMass<3>& least) {
   return {factor * least.x, factor * least.spin, least.inverse_radius};
 }
 
@@ -48,7 +53,7 @@ template <int D>
 ContactTotals Masses<D>::sum(const Problem<D>& problem, const Motion<D>& motion,
                              ContactList<D>& contacts) {
   const auto totals = sum_stiffnesses<D>(motion.records(), *problem.law, contacts, stiffness_);
-  const double factor = stiffening(problem, totals);
+  const double factor = stiffening(problem, motion);
   for (std::size_t q = 0; q < problem.nodes(); ++q) {
     records_[q] = mass_of(stiffness_[q], times(factor, least_[q]), tuned::mass_factor);
   }

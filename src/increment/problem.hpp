@@ -20,7 +20,7 @@ struct Problem {
   const BoundarySpace<D>* space = nullptr;
   double force_floor = 0;    // lower bound of the force scale, else the mean normal force [N]
   double tolerance = 0;      // of equilibria; weaker contacts are not load bearing [-]
-  double initial_force = 0;  // mean normal force at F = I, or its substitute; 0: not known yet [N]
+  double hertz_overlap = 0;  // mean at F = I over the radius; 0: another law, or not known yet [-]
 
   [[nodiscard]] std::size_t particles() const { return packing->size(); }
   [[nodiscard]] std::size_t nodes() const { return space->nodes; }

@@ -29,7 +29,8 @@ struct Material {
   [[nodiscard]] Problem<D> problem() const {
     const double floor =
         solver.force_floor > 0 ? solver.force_floor : relative_floor * initial_mean_force;
-    return {&packing, &law, &space, floor, solver.tolerance, initial_mean_force};
+    const double overlap = law.hertzian() ? law.typical_overlap : 0;
+    return {&packing, &law, &space, floor, solver.tolerance, overlap};
   }
 };
 
