@@ -287,6 +287,11 @@ GRAINLAW_TUNED(int, most_subincrements, 64);
 GRAINLAW_TUNED(int, finest_refinement, 8);
 // Upper bound of the rounding error that raises the tolerance [-]; method.
 GRAINLAW_TUNED(double, largest_rounding, 1e-3);
+// Largest mean force at equilibrium over that of the guess [-], and farthest move of a particle from its
+// affine image in an increment [mean branches]. Beyond them particles were pushed through one another;
+// chosen.
+GRAINLAW_TUNED(double, largest_gain, 10);
+GRAINLAW_TUNED(double, farthest_move, 1);
 // Mean forces at which a packing that may lose its contacts is free of stress, and may become so
 // [mean force at F = I]; reach.
 GRAINLAW_TUNED(double, faded, 1e-6);

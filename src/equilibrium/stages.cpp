@@ -46,21 +46,26 @@ void start_iteration(const Request<D>& request, double share, Increment<D>& incr
   }
 }
 
-// Largest mean force at equilibrium, over the given one [-].
-constexpr double largest_gain = 10;
-
 // Mean force of the guess, at least that at F = I [N].
 template <int D>
 double given_force(const Increment<D>& increment) {
   return std::max(increment.scale().mean_force(), unloaded_force(increment.problem()));
 }
 
-// True if forces grew far beyond the given one [N]. The way to equilibrium loses energy, so
-// particles were pushed through one another on it.
+// True if a particle is far from where a step to equilibrium may take it.
 template <int D>
-bool gained_energy(const Increment<D>& increment, double given) {
-  return !increment.problem().space->finds_deformation &&
-         increment.scale().mean_force() > largest_gain * given;
+bool flew_away(const Request<D>& request, Increment<D>& increment) {
+  auto& motion = increment.motion();
+  return motion.largest_fluctuation(*request.from) > tuned::farthest_move * motion.mean_branch();
+}
+
+// True if a particle flew away, or forces grew far beyond the given one [N]. The way to equilibrium
+// loses energy, so particles were pushed through one another on it.
+template <int D>
+bool exploded(const Request<D>& request, double given, Increment<D>& increment) {
+  if (increment.problem().space->finds_deformation) return false;
+  return increment.scale().mean_force() > tuned::largest_gain * given ||
+         flew_away(request, increment);
 }
 
 template <int D>
@@ -130,7 +135,7 @@ template <int D>
 bool solve_part(const Request<D>& request, Workspace<D>& w, Outcome& outcome) {
   w.increment.refresh_masses();
   const double given = given_force(w.increment);
-  return find_equilibrium(request, w, outcome) && !gained_energy(w.increment, given);
+  return find_equilibrium(request, w, outcome) && !exploded(request, given, w.increment);
 }
 
 // Breaks the overloaded bonds at an equilibrium and solves again at the same F, until no bond is
@@ -241,9 +246,12 @@ bool solve_advancing(const Request<D>& request, Method method, Workspace<D>& w, 
     const bool relaxed =
         relax(increment, loosest, relaxation_limit(most_steps, increment.problem().nodes()),
               History::advancing, w.relaxation, zero_force_share(request, increment));
-    return relaxed && !gained_energy(increment, given);
+    return relaxed && !exploded(request, given, increment);
   };
-  const auto settled = [&] { return equilibrium() || is_free(request, increment); };
+  const auto settled = [&] {
+    if (equilibrium()) return true;
+    return is_free(request, increment) && !flew_away(request, increment);
+  };
   const auto nothing = [] {};
   const bool done = settled() && settle_bonds(increment, nothing, settled);
   // An F at which the contacts were lost on this path counts as loose too.

@@ -191,11 +191,11 @@ template <int D>
 void Motion<D>::start_here(std::span<const unsigned char> supported) {
   const auto n = problem_->particles();
   const auto& node = problem_->space->node;
-  carried_start_.assign(start_.begin(), start_.begin() + static_cast<std::ptrdiff_t>(dim * n));
-  carry_affinely(start_deformation_, deformation_, carried_start_.data());
+  carried_.assign(start_.begin(), start_.begin() + static_cast<std::ptrdiff_t>(dim * n));
+  carry_affinely(start_deformation_, deformation_, carried_.data());
   start_here();
   for (std::size_t k = 0; k < dim; ++k) {
-    const double* carried = carried_start_.data() + k * n;
+    const double* carried = carried_.data() + k * n;
     const auto is_supported = [&](std::size_t p) {
       return (supported[static_cast<std::size_t>(node[p])] & fixed_bit(k)) != 0;
     };
@@ -212,6 +212,28 @@ void Motion<D>::start_here(std::span<const unsigned char> supported) {
       if (!is_supported(p)) start_[k * n + p] = carried[p] + mean;
     }
   }
+}
+
+template <int D>
+double Motion<D>::largest_fluctuation(const Configuration<D>& from) {
+  const auto n = problem_->particles();
+  carried_.assign(from.coordinates.begin(),
+                  from.coordinates.begin() + static_cast<std::ptrdiff_t>(dim * n));
+  carry_affinely(from.deformation, deformation_, carried_.data());
+  double largest = 0;
+  for (std::size_t k = 0; k < dim; ++k) {
+    double* fluctuation = carried_.data() + k * n;
+    double sum = 0;
+    for (std::size_t p = 0; p < n; ++p) {
+      fluctuation[p] = coordinates_[k * n + p] - fluctuation[p];
+      sum += fluctuation[p];
+    }
+    const double mean = sum / static_cast<double>(n);
+    for (std::size_t p = 0; p < n; ++p) {
+      largest = std::max(largest, std::abs(fluctuation[p] - mean));
+    }
+  }
+  return largest;
 }
 
 template <int D>

@@ -58,6 +58,9 @@ class Motion {
   double end_drag(std::vector<double>& velocity);
   [[nodiscard]] const Drag<D>& drag() const { return drag_; }
 
+  // Largest distance of a particle from its affine image since `from`, less the mean of all [m].
+  [[nodiscard]] double largest_fluctuation(const Configuration<D>& from);
+
   // Writes coordinates without rigid translation, with rotations since F = I.
   void export_to(const Configuration<D>& from, Configuration<D>& to) const;
 
@@ -97,7 +100,7 @@ class Motion {
   std::vector<double> start_;  // coordinates at the start of the history
   std::vector<ParticleRecord<D>> records_;
   RotationReference<D> turned_;
-  std::vector<double> carried_start_;
+  std::vector<double> carried_;
   Drag<D> drag_;
   std::vector<double> affine_, velocity_;
   std::vector<double> node_radius_;

@@ -63,5 +63,33 @@ TEST(stiff_increment, loses_no_stress_in_a_frame_with_drag) {
   EXPECT_GT(P[3], -1e8);
 }
 
+// Evaluates in halves what is refused, and commits; returns the drag's work [J].
+double work_of_drag(State& state, double from, double to, int cuts) {
+  const std::vector<double> F{1 / (1 - to), 0, 0, 1 - to};
+  std::vector<double> P(4);
+  grainlaw_report report = grainlaw_report_default();
+  if (grainlaw_evaluate(state.get(), F.data(), 0, P.data(), nullptr, &report) == GRAINLAW_OK) {
+    EXPECT_EQ(grainlaw_commit(state.get()), GRAINLAW_OK);
+    return report.viscous_work;
+  }
+  if (cuts == 0) {
+    ADD_FAILURE() << "refused at " << to;
+    return 0;
+  }
+  const double between = 0.5 * (from + to);
+  const double work = work_of_drag(state, from, between, cuts - 1);
+  return work + work_of_drag(state, between, to, cuts - 1);
+}
+
+// The stress, at most 20 MPa on the way, does 1.4 J.
+TEST(stiff_increment, throws_no_particle_out_of_a_frame) {
+  const Material material = Material::parse(stiff(217732421580726.94, "frame-p", 1e-3), ".");
+  State state(material);
+  double work = 0;
+  for (int k = 0; k < 20; ++k) work += work_of_drag(state, 1e-3 * k, 1e-3 * (k + 1), 6);
+  EXPECT_LT(work, 1.4);
+  EXPECT_GT(work, 0);
+}
+
 }  // namespace
 }  // namespace grainlaw::test
