@@ -1,5 +1,5 @@
 // States of the cells of a mesh in one file, which any number of ranks of MPI writes and reads: a record
-// for each cell, found by its number in the whole mesh. As grainlaw.checkpoint writes it in Python.
+// for each cell, found by its number in the whole mesh.
 //
 // The file, little endian: "GRAINCEL", u32 version 1, u32 points of a cell, u64 cells, u64 fingerprint
 // of the material, u64 unknowns of a cell, f64 load; for each cell u64 start and u64 length of its
