@@ -59,8 +59,7 @@ void run(const char* path) {
   none.close();
   const std::size_t count = points.set().size();
   const double evaluate = per_point(count, [&] { points.evaluate(u); });
-  const double assemble =
-      per_point(count, [&] { points.newton_system(stiffness, right, none); });
+  const double assemble = per_point(count, [&] { points.newton_system(stiffness, right, none); });
   std::printf("%zu points: the adapter adds %.2f us per point and call; assembly %.2f us\n", count,
               evaluate, assemble);
 }
