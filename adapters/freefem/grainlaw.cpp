@@ -23,6 +23,12 @@
 //   grainlawWriteVtk(sand, point, "file.vtp")
 //   grainlawPoints(sand), grainlawDimension(sand), grainlawDestroy(sand)
 //
+// Ranks own the elements rank, rank + ranks, ... of a mesh (Vh: one component, Qh: of Element_QF):
+//
+//   grainlawOwnPoints(Qh, rank, ranks, numbers)        of the rank's points in Qh (int[int])
+//   grainlawOwnRows(Vh, Qh, rank, ranks, axis, row, column, value)
+//       entries of the matrix from Vh to values there (axis 0) or derivatives
+//
 // Which part of a load step comes next, as march.h tells; names are those of its structs:
 //
 //   grainlawMarchOption(sand, "tolerance", 1e-6)       between load steps; the default of the
@@ -34,7 +40,8 @@
 //   grainlawMarchPart(sand, "load")                    where it stands
 //   grainlawMarchMessage(sand)                         why an attempt failed
 //   grainlawMarchShare(sand, dF)                       share of a correction to apply, of its
-//                                                      changes of F
+//                                                      changes of F, or of the largest norm of them
+//   grainlawLargest(sand, dF)                          that norm, for ranks to agree on
 //   grainlawMarchTell(sand, residual, scale, unforeseen)
 //   grainlawMarchFail(sand, stepRatio, message)        points found no equilibrium
 //
@@ -47,6 +54,7 @@
 //                                                       to be sent; the same error, of that rank
 #include "floating_environment.hpp"
 #include "last_words.hpp"
+#include "own_points.hpp"
 #include "point_set.hpp"
 #include "step_march.hpp"
 
@@ -61,6 +69,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace {
@@ -299,8 +308,40 @@ string* march_message(Stack stack, const long& number) {
                  [&] { return for_script(stack, find_march(number).message()); });
 }
 
+double largest(const long& number, const Vector& changes) {
+  return guarded("grainlawLargest", [&] { return find_march(number).largest(view(changes)); });
+}
+
 double march_share(const long& number, const Vector& changes) {
-  return guarded("grainlawMarchShare", [&] { return find_march(number).share(view(changes)); });
+  return guarded("grainlawMarchShare", [&] {
+    StepMarch& march = find_march(number);
+    return march.share(march.largest(view(changes)));
+  });
+}
+
+double march_share_of(const long& number, const double& largest) {
+  return guarded("grainlawMarchShare", [&] { return find_march(number).share(largest); });
+}
+
+template <class Space>
+long own_points(Space* const& Q, const long& rank, const long& ranks, const Integers& numbers) {
+  return guarded("grainlawOwnPoints", [&] {
+    const typename std::remove_pointer_t<Space>::FESpace* const of = **Q;
+    grainlaw_freefem::own_points(*of, rank, ranks, *numbers);
+    return 0L;
+  });
+}
+
+template <class Space>
+long own_rows(Space* const& V, Space* const& Q, const long& rank, const long& ranks,
+              const long& axis, const Integers& row, const Integers& column, const Vector& value) {
+  return guarded("grainlawOwnRows", [&] {
+    using Of = typename std::remove_pointer_t<Space>::FESpace;
+    const Of* const from = **V;
+    const Of* const at = **Q;
+    grainlaw_freefem::own_rows(*from, *at, rank, ranks, axis, *row, *column, *value);
+    return 0L;
+  });
 }
 
 long march_tell(const long& number, const double& residual, const double& scale,
@@ -338,6 +379,15 @@ long throw_again() {
   return 0;
 }
 
+template <class Space>
+void add_functions_of_spaces() {
+  Global.Add("grainlawOwnPoints", "(",
+             new OneOperator4_<long, Space*, long, long, Integers>(own_points<Space>));
+  Global.Add("grainlawOwnRows", "(",
+             new OneOperator8_<long, Space*, Space*, long, long, long, Integers, Integers, Vector>(
+                 own_rows<Space>));
+}
+
 template <class Field>
 void add_array_functions() {
   Global.Add("grainlawEvaluate", "(", new OneOperator3_<long, long, Field, Field>(evaluate<Field>));
@@ -367,6 +417,8 @@ void add_march_functions() {
   Global.Add("grainlawMarchPart", "(", new OneOperator2_<double, long, string*>(march_part));
   Global.Add("grainlawMarchMessage", "(", new OneOperator1s_<string*, long>(march_message));
   Global.Add("grainlawMarchShare", "(", new OneOperator2_<double, long, Vector>(march_share));
+  Global.Add("grainlawMarchShare", "(", new OneOperator2_<double, long, double>(march_share_of));
+  Global.Add("grainlawLargest", "(", new OneOperator2_<double, long, Vector>(largest));
   Global.Add("grainlawMarchTell", "(",
              new OneOperator4_<long, long, double, double, double>(march_tell));
   Global.Add("grainlawMarchFail", "(", new OneOperator3_<long, long, double, string*>(march_fail));
@@ -377,6 +429,8 @@ void add_functions() {
   add_march_functions();
   Global.Add("grainlawCreate", "(", new OneOperator2_<long, string*, long>(create));
   Global.Add("grainlawCreate", "(", new OneOperator2_<long, Strings, Integers>(create));
+  add_functions_of_spaces<pfes>();
+  add_functions_of_spaces<pfes3>();
   add_array_functions<Vector>();
   add_array_functions<Matrix>();
   Global.Add("grainlawSetTimeStep", "(", new OneOperator2_<long, long, double>(set_time_step));

@@ -97,7 +97,7 @@ double StepMarch::part(const std::string& name) const {
   return read(march_.part(), named<Part>(parts, name, "number"));
 }
 
-double StepMarch::share(const Array& changes) {
+double StepMarch::largest(const Array& changes) const {
   std::size_t n = 1;
   for (const std::size_t extent : changes.shape) n *= extent;
   const auto square = static_cast<std::size_t>(set_->dimension() * set_->dimension());
@@ -111,7 +111,7 @@ double StepMarch::share(const Array& changes) {
     if (!(sum <= largest)) largest = sum;
     if (std::isnan(largest)) break;
   }
-  return march_.share(std::sqrt(largest));
+  return std::sqrt(largest);
 }
 
 void StepMarch::check_turn(grainlaw_status status) const {

@@ -25,8 +25,10 @@ class StepMarch {
   [[nodiscard]] double part(const std::string& name) const;
   [[nodiscard]] std::string message() const { return march_.part().message; }
 
-  // Share of a correction to apply, from the changes of F that it makes, dim^2 numbers a point.
-  double share(const Array& changes);
+  // The largest norm of changes of F, dim^2 numbers a point.
+  [[nodiscard]] double largest(const Array& changes) const;
+  // Share of a correction to apply that changes F by so much.
+  double share(double largest) { return march_.share(largest); }
   void tell(double residual, double scale, double unforeseen);
   // Tells that points found no equilibrium, how much less they suggest, and why.
   void fail(double step_ratio, const std::string& reason);

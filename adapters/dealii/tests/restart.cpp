@@ -17,6 +17,9 @@
 #include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/numerics/vector_tools.h>
 
+#include <sys/resource.h>
+
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -158,6 +161,23 @@ void refused(Problem& problem, grainlaw_status status, const std::string& words,
   throw std::logic_error(words + ": not refused");
 }
 
+using Damage = void (*)(hid_t);
+
+template <class Value>
+void fill(hid_t file, const char* name, hid_t type, Value value) {
+  const hid_t set = H5Dopen2(file, name, H5P_DEFAULT), space = H5Dget_space(set);
+  const std::vector<Value> all(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)),
+                               value);
+  H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data());
+  H5Sclose(space);
+  H5Dclose(set);
+}
+
+std::string contents(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 void refuse(const grainlaw::Material& material, const std::string& path, const char* other_path) {
   Problem problem(material), coarse(material, false);
   const auto other = grainlaw::dealii::read_material(comm, other_path);
@@ -171,17 +191,35 @@ void refuse(const grainlaw::Material& material, const std::string& path, const c
   refused(coarse, GRAINLAW_BAD_ARGUMENT, "the checkpoint has 11 cells, expected 8",
           loads(coarse, path));
   refused(stiffer, GRAINLAW_WRONG_MATERIAL, "of another material", loads(stiffer, path));
-  std::ifstream file(path, std::ios::binary);
-  const std::string saved{std::istreambuf_iterator<char>(file), {}};
-  const std::string cut = saved.substr(0, saved.size() - 100), damaged = path + ".damaged";
-  for (const auto& [bytes, words] :
-       {std::pair{cut, "is cut short"}, std::pair{"x" + saved.substr(1), "a checkpoint of cells"},
-        std::pair{cut + std::string(100, '\0'), "cell "}}) {
-    if (rank == 0) std::ofstream(damaged, std::ios::binary) << bytes;
+  const std::string saved = contents(path), damaged = path + ".damaged";
+  for (const auto& [damage, words] : std::initializer_list<std::pair<Damage, const char*>>{
+           {[](hid_t file) { fill(file, "states", H5T_NATIVE_UINT8, std::uint8_t(0)); }, "cell "},
+           {[](hid_t file) { fill(file, "lengths", H5T_NATIVE_UINT64, std::uint64_t(1) << 40); },
+            "its states are cut short"},
+           {[](hid_t file) { H5Ldelete(file, "starts", H5P_DEFAULT); },
+            "the checkpoint has no starts"},
+           {[](hid_t file) { H5Adelete(file, "format"); }, "expected a checkpoint of cells"}}) {
+    if (rank == 0) {
+      std::ofstream(damaged, std::ios::binary) << saved;
+      const hid_t file = H5Fopen(damaged.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+      damage(file);
+      H5Fclose(file);
+    }
     MPI_Barrier(comm);
     refused(problem, GRAINLAW_BAD_BYTES, words, loads(problem, damaged));
   }
+  for (const auto& bytes : {saved.substr(0, saved.size() - 100), "x" + saved.substr(1)}) {
+    if (rank == 0) std::ofstream(damaged, std::ios::binary) << bytes;
+    MPI_Barrier(comm);
+    refused(problem, GRAINLAW_BAD_BYTES, "is cut short, or no HDF5 file", loads(problem, damaged));
+  }
   if (rank == 0) std::remove(damaged.c_str());
+  const rlimit half{saved.size() / 2, RLIM_INFINITY}, none{RLIM_INFINITY, RLIM_INFINITY};
+  std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &half);
+  refused(problem, GRAINLAW_FILE_ERROR, "File too large", [&] { problem.newton->save(path); });
+  setrlimit(RLIMIT_FSIZE, &none);
+  if (contents(path) != saved) throw std::logic_error("a full disk: the last checkpoint is gone");
   // A square beside a triangle, each of its own element.
   Triangulation<2> mixed_mesh;
   std::vector<CellData<2>> kinds{CellData<2>(4), CellData<2>(3)};

@@ -19,7 +19,7 @@ LAST = 1        # the rank that fails
 PLACES = {
     "read": "rank 0: .*nowhere.toml: cannot be read",
     "make": f"rank {LAST}: no memory for the points",
-    "load": f"rank {LAST}: the checkpoint could not be read",
+    "load": f"rank {LAST}: .*cell .*: the checkpoint could not be read",
     "evaluate": f"rank {LAST}: evaluate failed alone",
     "memory": "memory",
     "solve": f"rank {LAST}: solve failed alone",

@@ -6,8 +6,12 @@ Prints P, A and u of each cell half way, by the cell's number, and the force on 
 """
 import os
 import resource
+import shutil
 import sys
+from types import SimpleNamespace
+from unittest.mock import patch
 
+import h5py
 import numpy as np
 import ufl
 from dolfinx import fem, mesh
@@ -59,30 +63,65 @@ def refused(newton, path, status, words):
     assert lines(newton) == before
 
 
+def cut(path):
+    os.truncate(path, os.path.getsize(path) - 100)
+
+
+def not_hdf5(path):
+    with open(path, "r+b") as file:
+        file.write(bytes(8))
+
+
+def zeros(path):
+    with h5py.File(path, "r+") as file:
+        file["states"][...] = 0
+
+
+def too_long(path):
+    with h5py.File(path, "r+") as file:
+        file["lengths"][...] = 2**40
+
+
+def without(path):
+    with h5py.File(path, "r+") as file:
+        del file["starts"]
+
+
+def unnamed(path):
+    with h5py.File(path, "r+") as file:
+        del file.attrs["format"]
+
+
 def refuse(material, path, other):
     newton, _ = problem(material)
+    with patch.dict(sys.modules, {"h5py": None}):
+        refused(newton, path, grainlaw.Status.FILE_ERROR, "need h5py, which is not found")
+    with patch.object(h5py, "get_config", lambda: SimpleNamespace(mpi=False)):
+        refused(newton, path, grainlaw.Status.FILE_ERROR, "need an h5py with MPI")
     refused(newton, "nowhere.cells", grainlaw.Status.FILE_ERROR, "nowhere.cells")
     refused(problem(material, 2)[0], path, grainlaw.Status.BAD_ARGUMENT,
             "the checkpoint has 18 cells, expected 8")
     refused(problem(read_material(COMM, other))[0], path, grainlaw.Status.WRONG_MATERIAL, "of another material")
     with open(path, "rb") as file:
         saved = file.read()
-    damaged = f"{path}.damaged"
-    for data, words in ((saved[:-100], "is cut short"), (b"x" + saved[1:], "a checkpoint of cells"),
-                        (saved[:-100] + bytes(100), "cell ")):
+    for damage, words in ((cut, "truncated file"), (not_hdf5, "file signature not found"), (zeros, "cell "),
+                          (too_long, "the checkpoint's states are cut short"),
+                          (without, "the checkpoint has no starts"),
+                          (unnamed, "expected a checkpoint of cells")):
+        damaged = f"{path}.damaged"
         if COMM.rank == 0:
-            with open(damaged, "wb") as file:
-                file.write(data)
+            shutil.copy(path, damaged)
+            damage(damaged)
         COMM.Barrier()
         refused(newton, damaged, grainlaw.Status.BAD_BYTES, words)
         COMM.Barrier()
-    if COMM.rank == 0:
-        os.unlink(damaged)
+        if COMM.rank == 0:
+            os.unlink(damaged)
     resource.setrlimit(resource.RLIMIT_FSIZE, (len(saved) // 2, -1))
     try:
         newton.save(path)
     except grainlaw.Error as error:
-        assert error.status == grainlaw.Status.FILE_ERROR, error
+        assert error.status == grainlaw.Status.FILE_ERROR and "File too large" in str(error), error
     else:
         raise AssertionError("a full disk: not told")
     with open(path, "rb") as file:

@@ -1,17 +1,19 @@
-"""States of the cells of a mesh in one file, which any number of ranks writes and reads: a record for
-each cell, found by its number in the input mesh. Needs mpi4py.
+"""States of the cells of a mesh in one HDF5 file, which any number of ranks writes and reads, found by
+the cells' numbers in the input mesh. Needs mpi4py and h5py, on several ranks one with MPI (Debian:
+python3-h5py-mpi).
 
-The file, little endian: "GRAINCEL", u32 version 1, u32 points of a cell, u64 cells, u64 fingerprint of
-the material, u64 unknowns of a cell, f64 load; for each cell u64 start and u64 length of its record;
-records: u64 length of each point's bytes, f64 unknowns, the points' bytes.
+The file: attributes of the root "format" (a text), "version", "points" of a cell, "fingerprint" of the
+material, "load"; datasets "unknowns" (cells, k), "lengths" (cells, points), which are those of the bytes
+of each point, "starts" (cells,), where those of a cell begin in "states" (bytes,).
 """
 from __future__ import annotations
 
 import contextlib
+import itertools
 import os
-import struct
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -24,9 +26,7 @@ from .names import Status
 from .points import States
 from .ranks import together
 
-_MAGIC, _VERSION = b"GRAINCEL", 1
-_HEAD = struct.Struct("<8sIIQQQd")
-_ENTRY = np.dtype("<u8")
+_FORMAT, _VERSION = "grainlaw states of cells", 2
 
 
 @dataclass
@@ -44,20 +44,28 @@ class Cells:
         """Write the committed states of all ranks to one file, with the load that they belong to. The
         file is the old one or the whole new one; on an Error, raised on all ranks, the old one."""
         comm = self.comm
-        sizes = np.array([len(self._record(k)) for k in range(len(self.numbers))], np.int64)
-        before = comm.exscan(int(sizes.sum())) or 0
-        starts = _entry(self.total) + before + np.cumsum(sizes) - sizes
+        lengths = np.array([[len(point) for point in self._saved(k)] for k in range(len(self.numbers))],
+                           np.uint64).reshape(-1, self.points_per_cell)
+        sizes = lengths.sum(axis=1)
+        starts = (comm.exscan(int(sizes.sum())) or 0) + np.cumsum(sizes) - sizes
+        every, width = comm.allreduce(int(sizes.sum())), self.unknowns.shape[1]
         new = comm.bcast(f"{os.path.realpath(path)}.{os.getpid()}.new", root=0)
         try:
-            with _opened(comm, new, MPI.MODE_CREATE | MPI.MODE_WRONLY) as file:
+            _reserve(comm, new, every + 8 * self.total * (width + self.points_per_cell + 1) + 8192)
+            with _opened(comm, new, "w") as file:
+                self._head(file, load)
+                unknowns = file.create_dataset("unknowns", (self.total, width), "<f8")
+                table = file.create_dataset("lengths", (self.total, self.points_per_cell), "<u8")
+                begins = file.create_dataset("starts", (self.total,), "<u8")
+                states = file.create_dataset("states", (every,), "u1")
                 with together(comm):
-                    if comm.rank == 0:
-                        _write(file, 0, self._head(load))
-                    for k, (start, size) in enumerate(zip(starts.tolist(), sizes.tolist())):
-                        entry = np.array([start, size], _ENTRY).tobytes()
-                        _write(file, _entry(int(self.numbers[k])), entry)
-                        _write(file, start, self._record(k))
-                file.Sync()
+                    for k, number in enumerate(self.numbers.tolist()):
+                        start = int(starts[k])
+                        _write(begins, number, start)
+                        _write(table, number, lengths[k])
+                        _write(unknowns, number, self.unknowns[k])
+                        data = np.frombuffer(b"".join(self._saved(k)), np.uint8)
+                        _write(states, slice(start, start + data.size), data)
             with together(comm):
                 if comm.rank == 0:
                     os.replace(new, path)
@@ -72,18 +80,20 @@ class Cells:
         on none. The load that they belong to."""
         fresh = States(self.states.material, len(self.states))
         unknowns = np.empty_like(self.unknowns)
-        with _opened(self.comm, os.fspath(path), MPI.MODE_RDONLY) as file, together(self.comm):
-            size = file.Get_size()
-            load = self._check(_read(file, 0, _HEAD.size, size))
+        with _opened(self.comm, os.fspath(path), "r") as file, together(self.comm):
+            load = self._check(file)
             for k, number in enumerate(self.numbers.tolist()):
-                start, length = np.frombuffer(
-                    _read(file, _entry(number), 2 * _ENTRY.itemsize, size), _ENTRY).tolist()
                 try:
-                    saved, unknowns[k] = self._parts(_read(file, start, length, size))
+                    unknowns[k] = _read(file, "unknowns", number)
+                    ends = list(itertools.accumulate(_read(file, "lengths", number).tolist()))
+                    start = int(_read(file, "starts", number))
+                    data = _read(file, "states", slice(start, start + ends[-1])).tobytes()
+                    saved = [data[begin:end] for begin, end in zip([0, *ends], ends)]
                     fresh.load_some(self._points(k), saved)
-                except (Error, ValueError) as error:
+                except (Error, OSError, ValueError) as error:
                     status = getattr(error, "status", Status.BAD_BYTES)
-                    raise Error(status, f"{path}, cell {number}: {error}") from None
+                    text = getattr(error, "message", str(error))
+                    raise Error(status, f"{path}, cell {number}: {text}") from None
         everything = np.arange(len(fresh))
         self.states.clone_some(everything, fresh, everything)
         self.unknowns[:] = unknowns
@@ -92,68 +102,81 @@ class Cells:
     def _points(self, k: int) -> npt.NDArray[np.intp]:
         return np.arange(k * self.points_per_cell, (k + 1) * self.points_per_cell)
 
-    def _record(self, k: int) -> bytes:
-        points = self.states.save_some(self._points(k))
-        lengths = np.array([len(point) for point in points], _ENTRY)
-        return b"".join([lengths.tobytes(), self.unknowns[k].astype("<f8").tobytes(), *points])
+    def _saved(self, k: int) -> list[bytes]:
+        return self.states.save_some(self._points(k))
 
-    def _parts(self, record: bytes) -> tuple[Sequence[bytes], Array]:
-        lengths = np.frombuffer(record, _ENTRY, self.points_per_cell)
-        unknowns = np.frombuffer(record, "<f8", self.unknowns.shape[1], lengths.nbytes)
-        ends = lengths.nbytes + unknowns.nbytes + np.cumsum(lengths)
-        return [record[end - length:end] for end, length in
-                zip(ends.tolist(), lengths.tolist())], unknowns
+    def _head(self, file: Any, load: float) -> None:
+        file.attrs["format"], file.attrs["version"], file.attrs["load"] = _FORMAT, _VERSION, load
+        file.attrs["points"] = self.points_per_cell
+        file.attrs["fingerprint"] = np.uint64(self.states.material.fingerprint)
 
-    def _head(self, load: float) -> bytes:
-        return _HEAD.pack(_MAGIC, _VERSION, self.points_per_cell, self.total,
-                          self.states.material.fingerprint, self.unknowns.shape[1], load)
-
-    def _check(self, head: bytes) -> float:
-        magic, version, points, cells, fingerprint, unknowns, load = _HEAD.unpack(head)
-        if magic != _MAGIC:
-            raise Error(Status.BAD_BYTES, "expected a checkpoint of cells")
-        if version != _VERSION:
-            raise Error(Status.WRONG_VERSION, f"version {version}, expected {_VERSION}")
-        if fingerprint != self.states.material.fingerprint:
+    def _check(self, file: Any) -> float:
+        head = file.attrs
+        if head.get("format") != _FORMAT:
+            raise Error(Status.BAD_BYTES, f"{file.filename}: expected a checkpoint of cells")
+        if head["version"] != _VERSION:
+            raise Error(Status.WRONG_VERSION, f"version {head['version']}, expected {_VERSION}")
+        if head["fingerprint"] != self.states.material.fingerprint:
             raise Error(Status.WRONG_MATERIAL, "the checkpoint is of another material")
+        cells, unknowns = file["unknowns"].shape
         for what, found, expected in (("cells", cells, self.total),
-                                      ("points in a cell", points, self.points_per_cell),
+                                      ("points in a cell", head["points"], self.points_per_cell),
                                       ("unknowns at a cell", unknowns, self.unknowns.shape[1])):
             if found != expected:
                 raise bad_argument(f"the checkpoint has {found} {what}, expected {expected}")
-        return float(load)
+        return float(head["load"])
 
 
 @contextlib.contextmanager
-def _opened(comm: MPI.Intracomm, path: str, mode: int) -> Iterator[MPI.File]:
+def _opened(comm: MPI.Intracomm, path: str, mode: str) -> Iterator[Any]:
     """A file that all ranks open and close together."""
-    file = MPI.FILE_NULL
     with together(comm):
+        h5py, ways = _library(comm)
         try:
-            file = MPI.File.Open(comm, path, mode)
-        except MPI.Exception as error:
-            raise Error(Status.FILE_ERROR, f"{path}: {error}") from None
+            file = h5py.File(path, mode, **ways)
+        except OSError as error:
+            there = mode == "r" and os.path.isfile(path)
+            raise Error(Status.BAD_BYTES if there else Status.FILE_ERROR, f"{path}: {error}") from None
     try:
         yield file
     finally:
-        file.Close()
+        with together(comm):
+            file.close()
 
 
-def _entry(number: int) -> int:
-    """Where the file tells start and length of a cell's record."""
-    return _HEAD.size + 2 * _ENTRY.itemsize * number
+def _library(comm: MPI.Intracomm) -> tuple[Any, dict[str, Any]]:
+    """h5py, and how it opens a file."""
+    try:
+        import h5py
+    except ImportError:
+        raise Error(Status.FILE_ERROR, "checkpoints need h5py, which is not found (Debian: "
+                    "python3-h5py-mpi)") from None
+    if comm.size == 1:
+        return h5py, {}
+    if not h5py.get_config().mpi:
+        raise Error(Status.FILE_ERROR, "checkpoints of several ranks need an h5py with MPI (Debian: "
+                    "python3-h5py-mpi, and H5PY_ALWAYS_USE_MPI=1 where mpirun is not Open MPI's)")
+    return h5py, {"driver": "mpio", "comm": comm}
 
 
-def _write(file: MPI.File, start: int, data: bytes) -> None:
-    status = MPI.Status()
-    file.Write_at(start, data, status)
-    if status.Get_count(MPI.BYTE) != len(data):
-        raise Error(Status.FILE_ERROR, "the disk is full")
+def _reserve(comm: MPI.Intracomm, path: str, size: int) -> None:
+    """Tell a disk that is too full before HDF5 begins: it crashes as it closes what it cannot write."""
+    with together(comm):
+        if comm.rank == 0:
+            try:
+                with open(path, "wb") as file:
+                    os.posix_fallocate(file.fileno(), 0, size)
+            except OSError as error:
+                raise Error(Status.FILE_ERROR, f"{path}: {error.strerror}") from None
 
 
-def _read(file: MPI.File, start: int, length: int, size: int) -> bytearray:
-    if start + length > size:
-        raise Error(Status.BAD_BYTES, "the checkpoint is cut short")
-    data = bytearray(length)
-    file.Read_at(start, data)
-    return data
+def _write(dataset: Any, where: int | slice, data: Any) -> None:
+    dataset[where] = data
+
+
+def _read(file: Any, name: str, where: int | slice) -> Any:
+    if name not in file:
+        raise Error(Status.BAD_BYTES, f"the checkpoint has no {name}")
+    if isinstance(where, slice) and where.stop > len(file[name]):
+        raise Error(Status.BAD_BYTES, f"the checkpoint's {name} are cut short")
+    return file[name][where]

@@ -350,13 +350,22 @@ class Newton:
         _petsc.apply_lifting(right, [self._stiffness], [self.conditions], [self.u.vector], -1.0)
         _to_owners(right)
         _petsc.set_bc(right, self.conditions, self.u.vector, -1.0)
-        self._solver.solve(right, self.correction.vector)
+        try:
+            self._solver.solve(right, self.correction.vector)
+        except PETSc.Error:       # of MUMPS, where it has factors already
+            self._check_memory()
+            raise
+        if self._solver.getConvergedReason() < 0:
+            self._check_memory()
+        self.correction.x.scatter_forward()
+
+    def _check_memory(self) -> None:
+        """Raise Error where MUMPS failed for lack of it."""
         preconditioner = self._solver.getPC()
-        if self._solver.getConvergedReason() < 0 and preconditioner.getFactorSolverType() == "mumps":
+        if preconditioner.getFactorSolverType() == "mumps":
             told = preconditioner.getFactorMatrix().getMumpsInfog(1)
             if told in _MUMPS_MEMORY:
                 raise Error(Status.OUT_OF_MEMORY, f"MUMPS ran out of memory (INFOG(1) = {told})")
-        self.correction.x.scatter_forward()
 
     def norms(self) -> tuple[float, float]:
         """|force on the free unknowns| and |nodal forces of P|, of what this rank owns [N, 2D: N/m]."""

@@ -171,33 +171,4 @@ contains
     inverse = reshape([jacobian(2, 2), -jacobian(2, 1), -jacobian(1, 2), jacobian(1, 1)], [2, 2])/volume
     g = matmul(transpose(inverse), n)
   end subroutine
-
-  ! k du = right for the free components; those that are prescribed are in du.
-  subroutine solve(k, right, prescribed, du)
-    double precision, intent(in) :: k(unknowns, unknowns), right(unknowns)
-    logical, intent(in) :: prescribed(unknowns)
-    double precision, intent(inout) :: du(unknowns)
-    double precision :: m(unknowns, unknowns + 1), line(unknowns + 1)
-    integer :: i, j, pivot
-    m(:, :unknowns) = k
-    m(:, unknowns + 1) = right
-    do i = 1, unknowns
-      if (.not. prescribed(i)) cycle
-      m(i, :) = 0
-      m(i, i) = maxval(abs(k))
-      m(i, unknowns + 1) = m(i, i)*du(i)
-    end do
-    do i = 1, unknowns
-      pivot = i - 1 + maxloc(abs(m(i:, i)), 1)
-      line = m(i, :)
-      m(i, :) = m(pivot, :)
-      m(pivot, :) = line
-      do j = i + 1, unknowns
-        m(j, :) = m(j, :) - m(j, i)/m(i, i)*m(i, :)
-      end do
-    end do
-    do i = unknowns, 1, -1
-      du(i) = (m(i, unknowns + 1) - dot_product(m(i, i + 1:unknowns), du(i + 1:)))/m(i, i)
-    end do
-  end subroutine
 end program

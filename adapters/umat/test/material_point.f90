@@ -64,4 +64,34 @@ contains
     determinant = m(1, 1)*(m(2, 2)*m(3, 3) - m(2, 3)*m(3, 2)) + m(1, 2)*(m(2, 3)*m(3, 1) - &
       m(2, 1)*m(3, 3)) + m(1, 3)*(m(2, 1)*m(3, 2) - m(2, 2)*m(3, 1))
   end function
+
+  ! k du = right for the free components; those that are prescribed are in du.
+  subroutine solve(k, right, prescribed, du)
+    double precision, intent(in) :: k(:, :), right(:)
+    logical, intent(in) :: prescribed(:)
+    double precision, intent(inout) :: du(:)
+    double precision :: m(size(du), size(du) + 1), line(size(du) + 1)
+    integer :: i, j, pivot, unknowns
+    unknowns = size(du)
+    m(:, :unknowns) = k
+    m(:, unknowns + 1) = right
+    do i = 1, unknowns
+      if (.not. prescribed(i)) cycle
+      m(i, :) = 0
+      m(i, i) = maxval(abs(k))
+      m(i, unknowns + 1) = m(i, i)*du(i)
+    end do
+    do i = 1, unknowns
+      pivot = i - 1 + maxloc(abs(m(i:, i)), 1)
+      line = m(i, :)
+      m(i, :) = m(pivot, :)
+      m(pivot, :) = line
+      do j = i + 1, unknowns
+        m(j, :) = m(j, :) - m(j, i)/m(i, i)*m(i, :)
+      end do
+    end do
+    do i = unknowns, 1, -1
+      du(i) = (m(i, unknowns + 1) - dot_product(m(i, i + 1:unknowns), du(i + 1:)))/m(i, i)
+    end do
+  end subroutine
 end module

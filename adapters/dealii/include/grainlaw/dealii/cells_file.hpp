@@ -1,15 +1,21 @@
-// States of the cells of a mesh in one file, which any number of ranks of MPI writes and reads: a record
-// for each cell, found by its number in the whole mesh. As grainlaw.checkpoint writes it in Python.
+// States of the cells of a mesh in one HDF5 file, which any number of ranks of MPI writes and reads.
+// They are found by the cells' numbers in the whole mesh. The layout is that of grainlaw.checkpoint in
+// Python:
 //
-// The file, little endian: "GRAINCEL", u32 version 1, u32 points of a cell, u64 cells, u64 fingerprint
-// of the material, u64 unknowns of a cell, f64 load; for each cell u64 start and u64 length of its
-// record; records: u64 length of each point's bytes, f64 unknowns, the points' bytes.
+//   attributes  "format" (a text), "version", "points" of a cell, "fingerprint" of the material, "load"
+//   "unknowns"  (cells, k)
+//   "lengths"   (cells, points): bytes of each point
+//   "starts"    (cells): where those of a cell begin in "states"
+//   "states"    (bytes)
 #pragma once
 
+#include <deal.II/base/config.h>
+#include <fcntl.h>
 #include <mpi.h>
 #include <unistd.h>
 
-#include <bit>
+#include <array>
+#include <cerrno>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -17,6 +23,10 @@
 #include <numeric>
 #include <string>
 #include <vector>
+
+#ifdef DEAL_II_WITH_HDF5
+#include <hdf5.h>
+#endif
 
 namespace grainlaw::dealii {
 
@@ -39,59 +49,146 @@ struct Cells {
   double load(const std::string& path);
 };
 
-namespace cells_file {
+#ifndef DEAL_II_WITH_HDF5
 
-static_assert(std::endian::native == std::endian::little, "the file is of little endian machines");
-
-struct Head {
-  char magic[8] = {'G', 'R', 'A', 'I', 'N', 'C', 'E', 'L'};
-  std::uint32_t version = 1, points_per_cell = 0;
-  std::uint64_t cells = 0, fingerprint = 0, unknowns_per_cell = 0;
-  double load = 0;
-};
-static_assert(sizeof(Head) == 48);
-
-// Start and length of a cell's record.
-struct Entry {
-  std::uint64_t start = 0, length = 0;
-};
-
-inline MPI_Offset entry_of(std::uint64_t number) {
-  return static_cast<MPI_Offset>(sizeof(Head) + sizeof(Entry) * number);
+inline void Cells::save(const std::string&, double) const {
+  throw StatusError(GRAINLAW_FILE_ERROR, "checkpoints need a deal.II with HDF5");
+}
+inline double Cells::load(const std::string&) {
+  throw StatusError(GRAINLAW_FILE_ERROR, "checkpoints need a deal.II with HDF5");
 }
 
-// A file that all ranks open and close together.
+#else
+
+namespace cells_file {
+
+static_assert(sizeof(hsize_t) == sizeof(std::uint64_t));
+#ifndef H5_HAVE_PARALLEL
+#error "checkpoints of ranks need an HDF5 with MPI, as that of Debian's deal.II"
+#endif
+
+constexpr char format[] = "grainlaw states of cells";
+constexpr std::int64_t version = 2;
+using Extent = std::vector<hsize_t>;
+
+// What HDF5 gave, until it is closed.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what,
+         grainlaw_status status = GRAINLAW_BAD_BYTES)
+      : id_(id), close_(close) {
+    if (id < 0) throw StatusError(status, what);
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  ~Handle() { close_(id_); }
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+inline Handle space(const Extent& extent) {
+  return {H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose,
+          "no memory for a space of HDF5"};
+}
+
+// A file that all ranks open and close together; HDF5 itself prints no errors meanwhile.
 class File {
  public:
-  File(MPI_Comm comm, const std::string& path, int mode) {
-    together(comm, [&] {
-      if (MPI_File_open(comm, path.c_str(), mode, MPI_INFO_NULL, &file_) != MPI_SUCCESS)
-        throw StatusError(GRAINLAW_FILE_ERROR, path + ": cannot be opened");
-    });
-    if ((mode & MPI_MODE_RDONLY) != 0) MPI_File_get_size(file_, &size_);
+  File(MPI_Comm comm, const std::string& path, bool creates) {
+    H5Eget_auto2(H5E_DEFAULT, &print_, &to_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "no memory for HDF5");
+    H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL);
+    try {
+      together(comm, [&] {
+        id_ = creates ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access)
+                      : H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
+        if (id_ >= 0) return;
+        if (creates || ::access(path.c_str(), R_OK) != 0)
+          throw StatusError(GRAINLAW_FILE_ERROR, path + ": cannot be opened");
+        throw StatusError(GRAINLAW_BAD_BYTES, path + ": is cut short, or no HDF5 file");
+      });
+    } catch (...) {
+      close();
+      throw;
+    }
   }
   File(const File&) = delete;
   File& operator=(const File&) = delete;
-  ~File() { MPI_File_close(&file_); }
-
-  void write(MPI_Offset start, const void* data, std::size_t length) {
-    const int count = static_cast<int>(length);
-    MPI_Status status;
-    int written = 0;
-    if (MPI_File_write_at(file_, start, data, count, MPI_BYTE, &status) == MPI_SUCCESS)
-      MPI_Get_count(&status, MPI_BYTE, &written);
-    if (written != count) throw StatusError(GRAINLAW_FILE_ERROR, "the disk is full");
-  }
-  void read(MPI_Offset start, void* data, std::size_t length) {
-    if (start < 0 || start > size_ || length > static_cast<std::size_t>(size_ - start))
-      throw StatusError(GRAINLAW_BAD_BYTES, "the checkpoint is cut short");
-    MPI_File_read_at(file_, start, data, static_cast<int>(length), MPI_BYTE, MPI_STATUS_IGNORE);
-  }
-  void sync() { MPI_File_sync(file_); }
+  ~File() { close(); }
+  operator hid_t() const { return id_; }
 
  private:
-  MPI_File file_ = MPI_FILE_NULL;
-  MPI_Offset size_ = 0;
+  void close() {
+    if (id_ >= 0) H5Fclose(id_);
+    H5Eset_auto2(H5E_DEFAULT, print_, to_);
+  }
+  hid_t id_ = -1;
+  H5E_auto2_t print_ = nullptr;
+  void* to_ = nullptr;
+};
+
+// A dataset, which is created where its extent is given.
+class Dataset {
+ public:
+  Dataset(const File& file, const char* name, hid_t type, const Extent& extent)
+      : id_(H5Dcreate2(file, name, type, space(extent), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+            H5Dclose, std::string(name) + " cannot be written", GRAINLAW_FILE_ERROR) {}
+  Dataset(const File& file, const char* name)
+      : id_(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose,
+            "the checkpoint has no " + std::string(name)) {}
+
+  [[nodiscard]] Extent extent() const {
+    const Handle all(H5Dget_space(id_), H5Sclose, "a damaged dataset");
+    Extent extent(static_cast<std::size_t>(H5Sget_simple_extent_ndims(all)));
+    H5Sget_simple_extent_dims(all, extent.data(), nullptr);
+    return extent;
+  }
+  void write(hid_t type, const Extent& start, const Extent& count, const void* data) const {
+    const Handle all(H5Dget_space(id_), H5Sclose, "a damaged dataset");
+    H5Sselect_hyperslab(all, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+    if (H5Dwrite(id_, type, space(count), all, H5P_DEFAULT, data) < 0)
+      throw StatusError(GRAINLAW_FILE_ERROR, "the checkpoint cannot be written");
+  }
+  void read(hid_t type, const Extent& start, const Extent& count, void* data) const {
+    const Handle all(H5Dget_space(id_), H5Sclose, "a damaged dataset");
+    if (H5Sselect_hyperslab(all, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) <
+            0 ||
+        H5Dread(id_, type, space(count), all, H5P_DEFAULT, data) < 0)
+      throw StatusError(GRAINLAW_BAD_BYTES, "the checkpoint is damaged");
+  }
+
+ private:
+  Handle id_;
+};
+
+inline void put(const File& file, const char* name, hid_t type, const void* value) {
+  const Handle one(H5Screate(H5S_SCALAR), H5Sclose, "no memory for HDF5");
+  const Handle at(H5Acreate2(file, name, type, one, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                  std::string(name) + " cannot be written", GRAINLAW_FILE_ERROR);
+  if (H5Awrite(at, type, value) < 0)
+    throw StatusError(GRAINLAW_FILE_ERROR, std::string(name) + " cannot be written");
+}
+
+template <class Value>
+Value get(const File& file, const char* name, hid_t type) {
+  const Handle at(H5Aopen(file, name, H5P_DEFAULT), H5Aclose, "expected a checkpoint of cells");
+  Value value{};
+  if (H5Aread(at, type, &value) < 0)
+    throw StatusError(GRAINLAW_BAD_BYTES, "expected a checkpoint of cells");
+  return value;
+}
+
+// The type of a text, as h5py writes it.
+class TextType : public Handle {
+ public:
+  TextType() : Handle(H5Tcopy(H5T_C_S1), H5Tclose, "no memory for HDF5") {
+    H5Tset_size(*this, H5T_VARIABLE);
+    H5Tset_cset(*this, H5T_CSET_UTF8);
+  }
 };
 
 inline std::vector<std::size_t> points_of(const Cells& cells, std::size_t k) {
@@ -100,56 +197,39 @@ inline std::vector<std::size_t> points_of(const Cells& cells, std::size_t k) {
   return which;
 }
 
-inline std::vector<std::byte> record(const Cells& cells, std::size_t k) {
-  const SavedPoints saved = cells.points->save_some(points_of(cells, k));
-  std::vector<std::byte> bytes;
-  const auto put = [&](const void* data, std::size_t length) {
-    const auto* const first = static_cast<const std::byte*>(data);
-    bytes.insert(bytes.end(), first, first + length);
-  };
-  for (std::size_t q = 0; q < cells.points_per_cell; ++q) {
-    const std::uint64_t length = saved.offsets[q + 1] - saved.offsets[q];
-    put(&length, sizeof length);
-  }
-  put(cells.unknowns.data() + k * cells.unknowns_per_cell,
-      cells.unknowns_per_cell * sizeof(double));
-  put(saved.bytes.data(), saved.bytes.size());
-  return bytes;
-}
-
-inline void take(Cells& cells, std::size_t k, const std::vector<std::byte>& bytes) {
-  const std::size_t lengths = cells.points_per_cell * sizeof(std::uint64_t);
-  const std::size_t head = lengths + cells.unknowns_per_cell * sizeof(double);
-  SavedPoints saved;
-  for (std::size_t q = 0; q < cells.points_per_cell && bytes.size() >= head; ++q) {
-    std::uint64_t length = 0;
-    std::memcpy(&length, bytes.data() + q * sizeof length, sizeof length);
-    if (length > bytes.size()) break;
-    saved.offsets.push_back(saved.offsets.back() + length);
-  }
-  if (saved.offsets.size() != cells.points_per_cell + 1U ||
-      saved.offsets.back() + head != bytes.size())
-    throw StatusError(GRAINLAW_BAD_BYTES, "its record is damaged");
-  std::memcpy(cells.unknowns.data() + k * cells.unknowns_per_cell, bytes.data() + lengths,
-              head - lengths);
-  saved.bytes.assign(bytes.begin() + static_cast<std::ptrdiff_t>(head), bytes.end());
-  cells.points->load_some(points_of(cells, k), saved);
-}
-
-inline void check(const Cells& cells, const Head& head) {
+inline double check(const Cells& cells, const File& file) {
   const auto same = [](const char* what, std::uint64_t found, std::uint64_t expected) {
     if (found != expected)
       throw StatusError(GRAINLAW_BAD_ARGUMENT, "the checkpoint has " + std::to_string(found) +
                                                    what + ", expected " + std::to_string(expected));
   };
-  if (std::memcmp(head.magic, Head().magic, sizeof head.magic) != 0)
-    throw StatusError(GRAINLAW_BAD_BYTES, "expected a checkpoint of cells");
-  if (head.version != 1) throw StatusError(GRAINLAW_WRONG_VERSION, "expected version 1");
-  if (head.fingerprint != cells.fingerprint)
+  const TextType type;
+  char* const found = get<char*>(file, "format", type);
+  const bool known = found != nullptr && std::strcmp(found, format) == 0;
+  H5free_memory(found);
+  if (!known) throw StatusError(GRAINLAW_BAD_BYTES, "expected a checkpoint of cells");
+  if (get<std::int64_t>(file, "version", H5T_NATIVE_INT64) != version)
+    throw StatusError(GRAINLAW_WRONG_VERSION, "expected version " + std::to_string(version));
+  if (get<std::uint64_t>(file, "fingerprint", H5T_NATIVE_UINT64) != cells.fingerprint)
     throw StatusError(GRAINLAW_WRONG_MATERIAL, "the checkpoint is of another material");
-  same(" cells", head.cells, cells.total);
-  same(" points in a cell", head.points_per_cell, cells.points_per_cell);
-  same(" unknowns at a cell", head.unknowns_per_cell, cells.unknowns_per_cell);
+  const Extent unknowns = Dataset(file, "unknowns").extent();
+  if (unknowns.size() != 2) throw StatusError(GRAINLAW_BAD_BYTES, "the checkpoint is damaged");
+  same(" cells", unknowns[0], cells.total);
+  same(" points in a cell", get<std::uint64_t>(file, "points", H5T_NATIVE_UINT64),
+       cells.points_per_cell);
+  same(" unknowns at a cell", unknowns[1], cells.unknowns_per_cell);
+  return get<double>(file, "load", H5T_NATIVE_DOUBLE);
+}
+
+// Tell a disk that is too full before HDF5 begins: it crashes as it closes what it cannot write.
+inline void reserve(MPI_Comm comm, int rank, const std::string& path, std::uint64_t size) {
+  together(comm, [&] {
+    if (rank != 0) return;
+    const int file = ::open(path.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0666);
+    const int wrong = file < 0 ? errno : posix_fallocate(file, 0, static_cast<off_t>(size));
+    if (file >= 0) ::close(file);
+    if (wrong != 0) throw StatusError(GRAINLAW_FILE_ERROR, path + ": " + std::strerror(wrong));
+  });
 }
 
 }  // namespace cells_file
@@ -158,37 +238,50 @@ inline void Cells::save(const std::string& path, double load) const {
   using namespace cells_file;
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  std::vector<Entry> entries(numbers.size());
-  std::uint64_t bytes = 0, start = 0;
+  const hsize_t per = points_per_cell;
+  std::vector<std::uint64_t> lengths, starts;
+  std::uint64_t bytes = 0, start = 0, every = 0;
   together(comm, [&] {
-    for (std::size_t k = 0; k < entries.size(); ++k) {
-      entries[k] = {bytes, record(*this, k).size()};
-      bytes += entries[k].length;
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      const SavedPoints saved = points->save_some(points_of(*this, k));
+      starts.push_back(bytes);
+      for (std::size_t q = 0; q < per; ++q)
+        lengths.push_back(saved.offsets[q + 1] - saved.offsets[q]);
+      bytes += saved.bytes.size();
     }
   });
   MPI_Exscan(&bytes, &start, 1, MPI_UINT64_T, MPI_SUM, comm);
   if (rank == 0) start = 0;
+  MPI_Allreduce(&bytes, &every, 1, MPI_UINT64_T, MPI_SUM, comm);
   long process = getpid();
   MPI_Bcast(&process, 1, MPI_LONG, 0, comm);
   const std::string beside = path + "." + std::to_string(process) + ".new";
   try {
+    reserve(comm, rank, beside, every + 8 * total * (unknowns_per_cell + per + 1) + 8192);
     {
-      File file(comm, beside, MPI_MODE_CREATE | MPI_MODE_WRONLY);
+      const File file(comm, beside, true);
+      const char* const text = format;
+      const std::int64_t of_cell = points_per_cell;
+      put(file, "format", TextType(), &text);
+      put(file, "version", H5T_NATIVE_INT64, &version);
+      put(file, "load", H5T_NATIVE_DOUBLE, &load);
+      put(file, "points", H5T_NATIVE_INT64, &of_cell);
+      put(file, "fingerprint", H5T_NATIVE_UINT64, &fingerprint);
+      const Dataset values(file, "unknowns", H5T_IEEE_F64LE, {total, unknowns_per_cell});
+      const Dataset table(file, "lengths", H5T_STD_U64LE, {total, per});
+      const Dataset begins(file, "starts", H5T_STD_U64LE, {total});
+      const Dataset states(file, "states", H5T_STD_U8LE, {every});
       together(comm, [&] {
-        Head head;
-        head.points_per_cell = points_per_cell, head.cells = total;
-        head.fingerprint = fingerprint, head.unknowns_per_cell = unknowns_per_cell;
-        head.load = load;
-        if (rank == 0) file.write(0, &head, sizeof head);
-        for (std::size_t k = 0; k < entries.size(); ++k) {
-          Entry& entry = entries[k];
-          entry.start += start + static_cast<std::uint64_t>(entry_of(total));
-          file.write(entry_of(numbers[k]), &entry, sizeof entry);
-          const std::vector<std::byte> data = record(*this, k);
-          file.write(static_cast<MPI_Offset>(entry.start), data.data(), data.size());
+        for (std::size_t k = 0; k < numbers.size(); ++k) {
+          const std::uint64_t begin = start + starts[k];
+          const SavedPoints saved = points->save_some(points_of(*this, k));
+          begins.write(H5T_NATIVE_UINT64, {numbers[k]}, {1}, &begin);
+          table.write(H5T_NATIVE_UINT64, {numbers[k], 0}, {1, per}, &lengths[k * per]);
+          values.write(H5T_NATIVE_DOUBLE, {numbers[k], 0}, {1, unknowns_per_cell},
+                       unknowns.data() + k * unknowns_per_cell);
+          states.write(H5T_NATIVE_UINT8, {begin}, {saved.bytes.size()}, saved.bytes.data());
         }
       });
-      file.sync();
     }
     together(comm, [&] {
       if (rank == 0 && std::rename(beside.c_str(), path.c_str()) != 0)
@@ -202,27 +295,39 @@ inline void Cells::save(const std::string& path, double load) const {
 
 inline double Cells::load(const std::string& path) {
   using namespace cells_file;
-  File file(comm, path, MPI_MODE_RDONLY);
-  Head head;
+  const File file(comm, path, false);
+  double load = 0;
   together(comm, [&] {
-    file.read(0, &head, sizeof head);
-    check(*this, head);
+    load = check(*this, file);
+    const Dataset values(file, "unknowns"), table(file, "lengths"), begins(file, "starts"),
+        states(file, "states");
+    const hsize_t per = points_per_cell, every = states.extent().at(0);
     for (std::size_t k = 0; k < numbers.size(); ++k) try {
-        Entry entry;
-        file.read(entry_of(numbers[k]), &entry, sizeof entry);
-        // Read as far as the file goes: a damaged length allocates nothing.
-        std::byte last{};
-        if (entry.length > 0)
-          file.read(static_cast<MPI_Offset>(entry.start + entry.length - 1), &last, 1);
-        std::vector<std::byte> bytes(entry.length);
-        file.read(static_cast<MPI_Offset>(entry.start), bytes.data(), bytes.size());
-        take(*this, k, bytes);
+        std::uint64_t begin = 0, size = 0;
+        std::vector<std::uint64_t> lengths(per);
+        begins.read(H5T_NATIVE_UINT64, {numbers[k]}, {1}, &begin);
+        table.read(H5T_NATIVE_UINT64, {numbers[k], 0}, {1, per}, lengths.data());
+        values.read(H5T_NATIVE_DOUBLE, {numbers[k], 0}, {1, unknowns_per_cell},
+                    unknowns.data() + k * unknowns_per_cell);
+        SavedPoints saved;
+        for (const std::uint64_t length : lengths) {
+          if (length > every) throw StatusError(GRAINLAW_BAD_BYTES, "its states are cut short");
+          size += length;
+          saved.offsets.push_back(size);
+        }
+        if (begin > every || size > every - begin)
+          throw StatusError(GRAINLAW_BAD_BYTES, "its states are cut short");
+        saved.bytes.resize(size);
+        states.read(H5T_NATIVE_UINT8, {begin}, {size}, saved.bytes.data());
+        points->load_some(points_of(*this, k), saved);
       } catch (const StatusError& error) {
         throw StatusError(error.status(),
                           path + ", cell " + std::to_string(numbers[k]) + ": " + error.what());
       }
   });
-  return head.load;
+  return load;
 }
+
+#endif
 
 }  // namespace grainlaw::dealii
