@@ -137,8 +137,8 @@ void March::end_without_convergence(double residual) {
   grainlaw_part text;
   const double best = std::min(best_, residual);
   if (loaded_ && options_.tolerance < stepping::noise && best <= stepping::noise) {
-    write(text, "the tolerance is below rounding: residual %.1e, expected %.1e [-]", best,
-          options_.tolerance);
+    write(text, "the tolerance is below rounding: residual %.1e, expected %.1e [-]; ask for %.0e",
+          best, options_.tolerance, stepping::noise);
     return give_up(text.message);
   }
   const bool small = along(part_.load - done_) <= options_.crossing_part * whole();

@@ -53,6 +53,15 @@ ratio = 0.8
 friction = 0.5463
 """
 
+BETWEEN_PLATES = """
+[boundary]
+type = "mixed"
+left = {{ x = "P", y = "P" }}
+right = {{ x = "P", y = "P" }}
+bottom = {{ x = "D", y = "D", row = "rigid" }}
+top = {{ x = "D", y = "T", row = "rigid" }}
+stress = {{ P22 = {} }}
+"""
 CELL = "H00,H01,H10,H11,thickness,rho\n{0},0,0,{0},0.1,2650\n"
 APART = "id,x,y,r\n0,0.01,0.01,0.004\n1,0.03,0.03,0.004\n"
 OWN = """
@@ -138,6 +147,9 @@ CASES = {
     "discs_that_do_not_touch": (
         "pack", OWN, "the packing has no contacts at F = I; expected one that carries stress, or solver.contacts_lost",
         [("contact =", 'solver = {{ contacts_lost = "stress_free" }}\ncontact =')]),
+    "a_pull_that_no_packing_carries": (
+        "pack", RANDOM + BETWEEN_PLATES.format(1e5),
+        r"boundary.stress: no state of the packing carries P22 = 100000 Pa \(reached .* Pa\): contacts are lost", [("100000.0", "-100000.0")]),
     "a_frame_that_carries_no_uniform_stress": (
         "point", point("steps = 2\nF22 = 0.9999\n", material=RANDOM + 'boundary = { type = "frame-t" }\n'),
         "the packing carries no uniform stress at F = I", [("frame-t", "frame-p")]),
@@ -177,6 +189,10 @@ CASES = {
         + "[newton]\nmax_iterations = 1\nmax_cuts = 0\n",
         r"Newton did not converge: best relative residual .*, expected 1.0e-0\d \[-\]; .*; try more load steps",
         [("max_iterations = 1\nmax_cuts = 0\n", ""), ("steps = 1", "steps = 10")]),
+    "a_tolerance_below_rounding": (
+        "solve", solve(PRESSED + held("top", "y", -1e-3), "steps = 1\n", material=RANDOM) + "[newton]\ntolerance = 1e-16\n",
+        r"the tolerance is below rounding: residual .*, expected 1.0e-16 \[-\]; ask for (?P<least>[\d.e-]+);",
+        [("tolerance = 1e-16", "tolerance = {least}")]),
     "a_line_search_that_finds_nothing": (
         "solve", solve(PRESSED + held("top", "y", -0.03), "steps = 1\n", material=RANDOM).replace("[1, 1]", '[1, 1]\nelement = "q4"')
         + "[newton]\nline_search = 1\nmax_cuts = 0\n",
