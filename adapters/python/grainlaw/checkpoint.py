@@ -3,7 +3,7 @@ each cell, found by its number in the input mesh. Needs mpi4py.
 
 The file, little endian: "GRAINCEL", u32 version 1, u32 points of a cell, u64 cells, u64 fingerprint of
 the material, u64 unknowns of a cell, f64 load; for each cell u64 start and u64 length of its record;
-records: u64 length of each point's bytes, f64 unknowns, the points' bytes.
+records: u64 length of each point's bytes (0: it has no state), f64 unknowns, the points' bytes.
 """
 from __future__ import annotations
 
@@ -39,6 +39,7 @@ class Cells:
     total: int                       #: cells of the whole mesh
     points_per_cell: int
     unknowns: Array                  #: (n, k) values that belong to these cells, k on all ranks
+    state: npt.NDArray[np.int64]     #: (n, points_per_cell) number of each point's state; -1: it has none
 
     def save(self, path: AnyPath, load: float = 0.0) -> None:
         """Write the committed states of all ranks to one file, with the load that they belong to. The
@@ -70,7 +71,7 @@ class Cells:
     def load(self, path: AnyPath) -> float:
         """Replace the committed states and `unknowns` by those of a file, on all ranks or, on an Error,
         on none. The load that they belong to."""
-        fresh = States(self.states.material, len(self.states))
+        fresh = self.states.clone()   # of all materials
         unknowns = np.empty_like(self.unknowns)
         with _opened(self.comm, os.fspath(path), MPI.MODE_RDONLY) as file, together(self.comm):
             size = file.Get_size()
@@ -79,7 +80,7 @@ class Cells:
                 start, length = np.frombuffer(
                     _read(file, _entry(number), 2 * _ENTRY.itemsize, size), _ENTRY).tolist()
                 try:
-                    saved, unknowns[k] = self._parts(_read(file, start, length, size))
+                    saved, unknowns[k] = self._parts(k, _read(file, start, length, size))
                     fresh.load_some(self._points(k), saved)
                 except (Error, ValueError) as error:
                     status = getattr(error, "status", Status.BAD_BYTES)
@@ -89,20 +90,24 @@ class Cells:
         self.unknowns[:] = unknowns
         return load
 
-    def _points(self, k: int) -> npt.NDArray[np.intp]:
-        return np.arange(k * self.points_per_cell, (k + 1) * self.points_per_cell)
+    def _points(self, k: int) -> npt.NDArray[np.int64]:
+        here: npt.NDArray[np.int64] = self.state[k][self.state[k] >= 0]
+        return here
 
     def _record(self, k: int) -> bytes:
         points = self.states.save_some(self._points(k))
-        lengths = np.array([len(point) for point in points], _ENTRY)
+        lengths = np.zeros(self.points_per_cell, _ENTRY)
+        lengths[self.state[k] >= 0] = [len(point) for point in points]
         return b"".join([lengths.tobytes(), self.unknowns[k].astype("<f8").tobytes(), *points])
 
-    def _parts(self, record: bytes) -> tuple[Sequence[bytes], Array]:
+    def _parts(self, k: int, record: bytes) -> tuple[Sequence[bytes], Array]:
         lengths = np.frombuffer(record, _ENTRY, self.points_per_cell)
+        if not np.array_equal(lengths > 0, self.state[k] >= 0):
+            raise ValueError("its points are of other layers")
         unknowns = np.frombuffer(record, "<f8", self.unknowns.shape[1], lengths.nbytes)
         ends = lengths.nbytes + unknowns.nbytes + np.cumsum(lengths)
         return [record[end - length:end] for end, length in
-                zip(ends.tolist(), lengths.tolist())], unknowns
+                zip(ends.tolist(), lengths.tolist()) if length], unknowns
 
     def _head(self, load: float) -> bytes:
         return _HEAD.pack(_MAGIC, _VERSION, self.points_per_cell, self.total,
