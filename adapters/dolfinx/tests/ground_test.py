@@ -1,4 +1,4 @@
-"""Ground with stages on any number of ranks:  ground_test.py UPPER.toml LOWER.toml"""
+"""Ground with stages on any number of ranks:  ground_test.py UPPER.toml LOWER.toml SPHERES.toml"""
 import os
 import sys
 import unittest
@@ -12,7 +12,7 @@ from grainlaw.dolfinx import _elastic_answer
 from grainlaw.dolfinx_ground import Elastic, Ground, Layer
 
 COMM = MPI.COMM_WORLD
-UPPER, LOWER = sys.argv[1:3]
+UPPER, LOWER, SPHERES = sys.argv[1:4]
 BELOW = Layer(-4, Elastic(2e7, 0.25), 2000)
 SURFACE = 1e3   # Pa
 
@@ -145,6 +145,27 @@ class Stages(unittest.TestCase):
                 list(ground.to((step + 1) / 2))
             loaded = 2 * SURFACE * (sign > 0)
             self.assertLess(abs(ground.force(at(-4), 1) / (weight + loaded) - 1), 1e-6)
+
+    def test_solid_ground_rests_and_bears_a_load_that_goes(self):
+        box = mesh.create_box(COMM, [[0, 0, -2], [1, 1, 0]], [1, 1, 2])
+        ground = Ground(box, 0, [Layer(-1, SPHERES, 2650), Layer(-2, Elastic(1e8, 0.3), 2000)])
+        ground.hold(lambda x: np.isclose(x[2], -2), 2)
+        for axis in (0, 1):
+            ground.hold(lambda x, axis=axis: np.isclose(x[axis], 0) | np.isclose(x[axis], 1), axis)
+        surcharge = 150e3
+        ground.traction(lambda x: np.isclose(x[2], 0), 2, -surcharge)
+        ground.geostatic(surcharge)
+        list(ground.to(0))
+        self.assertLess(largest(ground.u.x.array), 1e-7)
+        base, weight = lambda x: np.isclose(x[2], -2), ground.weight()
+        self.assertLess(abs(ground.force(base, 2) / (weight + surcharge) - 1), 1e-6)
+        ground.stage()
+        with self.assertRaises(ValueError):
+            ground.excavate(lambda x: x[2] > -1)
+        ground.traction(lambda x: np.isclose(x[2], 0), 2, 0.2 * surcharge)
+        list(ground.to(1))
+        self.assertLess(abs(ground.force(base, 2) / (weight + 0.8 * surcharge) - 1), 1e-6)
+        self.assertGreater(largest(ground.u.x.array), 1e-6)
 
     @unittest.skipIf(COMM.size == 1, "on several ranks")
     def test_ranks_answer_as_one_alone(self):
