@@ -14,7 +14,7 @@ from mpi4py import MPI
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 import grainlaw  # pylint: disable=wrong-import-position
 from grainlaw.dolfinx import Points, read_material
-from grainlaw.dolfinx_water import PoreWater, WaterNewton, water_space
+from grainlaw.dolfinx_water import PoreWater, WaterNewton, check_drainage, water_space
 from water import column
 
 COMM = MPI.COMM_WORLD
@@ -150,6 +150,14 @@ class Water(unittest.TestCase):
         with self.assertRaises(grainlaw.Error) as caught:
             element(PoreWater(1e-9), side_pressure=False)
         self.assertIn("nothing determines the pore pressure", str(caught.exception))
+        w = fem.Function(water_space(square()))   # before any point is made
+        walls = [on(w.function_space.sub(0).sub(axis), lambda x, axis=axis: np.isclose(x[axis], 0) |
+                    np.isclose(x[axis], 1))[0] for axis in (0, 1)]
+        with self.assertRaises(grainlaw.Error) as caught:
+            check_drainage(w, walls, PoreWater(1e-9))
+        self.assertIn("nothing determines the pore pressure", str(caught.exception))
+        check_drainage(w, walls, PoreWater(1e-9, 1e9))
+        check_drainage(w, walls[:1], PoreWater(1e-9))
         newton = element(PoreWater(1e-9))
         newton.step_time = -1
         with self.assertRaises(grainlaw.Error) as caught:

@@ -4,7 +4,7 @@ python3-h5py-mpi).
 
 The file: attributes of the root "format" (a text), "version", "points" of a cell, "fingerprint" of the
 material, "load"; datasets "unknowns" (cells, k), "lengths" (cells, points), which are those of the bytes
-of each point, "starts" (cells,), where those of a cell begin in "states" (bytes,).
+of each point (0: it has no state), "starts" (cells,), where those of a cell begin in "states" (bytes,).
 """
 from __future__ import annotations
 
@@ -39,12 +39,13 @@ class Cells:
     total: int                       #: cells of the whole mesh
     points_per_cell: int
     unknowns: Array                  #: (n, k) values that belong to these cells, k on all ranks
+    state: npt.NDArray[np.int64]     #: (n, points_per_cell) number of each point's state; -1: it has none
 
     def save(self, path: AnyPath, load: float = 0.0) -> None:
         """Write the committed states of all ranks to one file, with the load that they belong to. The
         file is the old one or the whole new one; on an Error, raised on all ranks, the old one."""
         comm = self.comm
-        lengths = np.array([[len(point) for point in self._saved(k)] for k in range(len(self.numbers))],
+        lengths = np.array([self._lengths(k) for k in range(len(self.numbers))],
                            np.uint64).reshape(-1, self.points_per_cell)
         sizes = lengths.sum(axis=1)
         starts = (comm.exscan(int(sizes.sum())) or 0) + np.cumsum(sizes) - sizes
@@ -78,16 +79,19 @@ class Cells:
     def load(self, path: AnyPath) -> float:
         """Replace the committed states and `unknowns` by those of a file, on all ranks or, on an Error,
         on none. The load that they belong to."""
-        fresh = States(self.states.material, len(self.states))
+        fresh = self.states.clone()   # of all materials
         unknowns = np.empty_like(self.unknowns)
         with _opened(self.comm, os.fspath(path), "r") as file, together(self.comm):
             load = self._check(file)
             for k, number in enumerate(self.numbers.tolist()):
                 try:
                     unknowns[k] = _read(file, "unknowns", number)
-                    ends = list(itertools.accumulate(_read(file, "lengths", number).tolist()))
+                    lengths = _read(file, "lengths", number)
+                    if not np.array_equal(lengths > 0, self.state[k] >= 0):
+                        raise ValueError("its points are of other layers")
+                    ends = list(itertools.accumulate(lengths[lengths > 0].tolist()))
                     start = int(_read(file, "starts", number))
-                    data = _read(file, "states", slice(start, start + ends[-1])).tobytes()
+                    data = _read(file, "states", slice(start, start + sum(ends[-1:]))).tobytes()
                     saved = [data[begin:end] for begin, end in zip([0, *ends], ends)]
                     fresh.load_some(self._points(k), saved)
                 except (Error, OSError, ValueError) as error:
@@ -99,11 +103,17 @@ class Cells:
         self.unknowns[:] = unknowns
         return load
 
-    def _points(self, k: int) -> npt.NDArray[np.intp]:
-        return np.arange(k * self.points_per_cell, (k + 1) * self.points_per_cell)
+    def _points(self, k: int) -> npt.NDArray[np.int64]:
+        here: npt.NDArray[np.int64] = self.state[k][self.state[k] >= 0]
+        return here
 
     def _saved(self, k: int) -> list[bytes]:
         return self.states.save_some(self._points(k))
+
+    def _lengths(self, k: int) -> npt.NDArray[np.uint64]:
+        lengths = np.zeros(self.points_per_cell, np.uint64)
+        lengths[self.state[k] >= 0] = [len(point) for point in self._saved(k)]
+        return lengths
 
     def _head(self, file: Any, load: float) -> None:
         file.attrs["format"], file.attrs["version"], file.attrs["load"] = _FORMAT, _VERSION, load

@@ -12,7 +12,7 @@ All functions are calls of all ranks together, and raise on all of them.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import basix
 import numpy as np
@@ -27,7 +27,7 @@ from .arrays import Array
 from .checkpoint import Cells
 from .march import March
 from .material import AnyPath, Material
-from .names import Action, Status, Tangent
+from .names import Action, Measure, Status, Tangent
 from .points import Evaluation, States
 from .ranks import check_same, end_together, read_material, together
 
@@ -35,7 +35,14 @@ _MUMPS_MEMORY = (-5, -7, -9, -13, -19)   # its errors of memory that is too smal
 _basix: Any = basix       # whose types say less than they take
 _petsc: Any = fem.petsc
 
-__all__ = ["Newton", "Points", "end_together", "read_material", "together"]
+__all__ = ["Elastic", "Newton", "Points", "end_together", "read_material", "together"]
+
+
+class Elastic(NamedTuple):
+    """A material in closed form, Saint Venant and Kirchhoff's, without packings."""
+
+    young: float     #: modulus [Pa]
+    poisson: float   #: ratio [-]
 
 
 class Points:
@@ -43,28 +50,34 @@ class Points:
     are assembled over no others. d is the dimension of materials and mesh.
 
     domain    a dolfinx.mesh.Mesh
-    material  one, or several with `layer`
+    material  one, or several with `layer`, of which some may be Elastic
     degree    of the quadrature, basix' default scheme
     layer     the numbers (n,) of the materials of points at x (d, n) [m]
 
-    Raises Error for a material of another dimension than the mesh, and where ranks have different ones."""
+    Raises Error for a material of another dimension than the mesh, where ranks have different ones, and
+    where none has grains."""
 
     P: Any   #: quadrature function (d, d): first Piola-Kirchhoff stress [Pa], tension positive
     A: Any   #: quadrature function (d * d, d * d): dP_iJ/dF_kL [Pa], a row for each iJ, row-major
     dx: Any  #: measure of forms with P or A
     states: States                   #: of this rank, by cell and point; shared by the ranks
+    grains: npt.NDArray[np.int64]    #: number of the point of each state; Elastic ones have none (m,)
     cells: npt.NDArray[np.int64]     #: number in the input mesh of each cell that this rank owns
     x: Array                         #: places of the points of this rank at first (n, d) [m]
     layer: npt.NDArray[np.int64]     #: number of the material of each point (n,)
     gone: npt.NDArray[np.bool_]      #: points that have left (n,)
 
-    def __init__(self, domain: Any, material: Material | Sequence[Material], degree: int,
+    def __init__(self, domain: Any, material: Material | Sequence[Material | Elastic], degree: int,
                  layer: Callable[[Array], npt.ArrayLike] | None = None) -> None:
         self.comm, self.domain = domain.comm, domain
-        materials = [material] if isinstance(material, Material) else list(material)
-        for each in materials:
+        materials: list[Material | Elastic] = (
+            [material] if isinstance(material, Material) else list(material))
+        of_grains = [each for each in materials if isinstance(each, Material)]
+        if not of_grains:
+            raise Error(Status.BAD_ARGUMENT, "every material is elastic, expected one of grains")
+        for each in of_grains:
             check_same(self.comm, each)
-        d = self.dimension = materials[0].dimension
+        d = self.dimension = of_grains[0].dimension
         if not domain.geometry.dim == domain.topology.dim == d:
             raise Error(Status.BAD_ARGUMENT, f"a mesh of dimension {domain.topology.dim} in "
                         f"{domain.geometry.dim}D: expected {d}, as of the material")
@@ -83,8 +96,15 @@ class Points:
         with together(self.comm):
             numbers = np.zeros(count) if layer is None else layer(self.x.T)
             self.layer = np.asarray(numbers, np.int64)
-            self.states = _states(materials, self.layer)
+            _check_layers(self.layer, len(materials))
+            self._elastic = [(law, np.flatnonzero(self.layer == k))
+                             for k, law in enumerate(materials) if isinstance(law, Elastic)]
+            closed = [k for k, each in enumerate(materials) if isinstance(each, Elastic)]
+            self.grains = np.flatnonzero(~np.isin(self.layer, closed))
+            self.states = _states(of_grains[0], materials, self.layer[self.grains])
         self.gone = np.zeros(count, bool)
+        self._resting = [self._function(ufl.TensorElement(**self._element, shape=(d, d)))[0]
+                         for _ in closed[:1]]   # stress where nothing has moved [Pa]
         self._F = self._committed_F = np.tile(np.eye(d), (count, 1, 1))
         if self.comm.size > 1:
             self.states.share(self.comm.rank, self._reduce)
@@ -97,7 +117,7 @@ class Points:
         with together(self.comm):
             self._F = np.eye(self.dimension) + self._gradient(u)
             self._F[self.gone] = self._committed_F[self.gone]
-        answer = self.states.evaluate(self._F, Tangent.EXACT)
+        answer = self.states.evaluate(self._F[self.grains], Tangent.EXACT)
         if answer.ok:
             self._set(answer)
         return answer
@@ -124,8 +144,11 @@ class Points:
 
     def consolidate(self, sigma: npt.ArrayLike, **how: Any) -> None:
         """Lead the points of this rank to Cauchy stresses (n, d, d) [Pa], as States.consolidate; their
-        shapes there are F = I."""
-        self.states.consolidate(sigma, **how)
+        shapes there are F = I. Elastic ones have the stress at once."""
+        stress = np.array(sigma, float)
+        self.states.consolidate(stress[self.grains], **how)
+        for resting in self._resting:
+            resting.x.array.reshape(-1, self.dimension**2)[self._P_rows] = stress.reshape(len(stress), -1)
         self._F = self._committed_F = np.tile(np.eye(self.dimension), (len(self.gone), 1, 1))
 
     def remove(self, points: npt.NDArray[np.bool_]) -> None:
@@ -136,22 +159,29 @@ class Points:
 
     def save(self, path: AnyPath, *functions: Any, load: float = 0.0) -> None:
         """Write the committed states of all cells to one file, with the values of functions at their
-        nodes and a load. The file is the old one or the whole new one. Raises Error."""
-        self._cells(functions).save(path, load)
+        nodes, displacements first, and a load. The file is the old one or the whole new one. Raises
+        Error."""
+        self._cells((*functions, *self._resting)).save(path, load)
 
     def load(self, path: AnyPath, *functions: Any) -> float:
         """Go on from a file of save(), written by any number of ranks for this mesh, material, degree and
         these functions: states, P, A and functions have the bits that were saved. The load that was
         saved. Raises Error, and then nothing changed."""
-        saved = self._cells(functions)
+        every = (*functions, *self._resting)
+        saved = self._cells(every)
         load = saved.load(path)
         first = 0
-        for function in functions:
+        for function in every:
             nodes, block = self._nodes(function), function.function_space.dofmap.bs
             values = saved.unknowns[:, first:first + nodes.shape[1] * block]
             function.x.array.reshape(-1, block)[nodes.ravel()] = values.reshape(-1, block)
             function.x.scatter_forward()
             first += values.shape[1]
+        F = self._F.copy()
+        if self._resting:
+            F = np.eye(self.dimension) + self._gradient(functions[0])
+        F[self.grains] = self.states.measure(Measure.DEFORMATION_GRADIENT)
+        self._F = self._committed_F = F
         self._set(self.states.answer(Tangent.EXACT))
         self._keep()
         return load
@@ -185,7 +215,13 @@ class Points:
             values.append(at_nodes.reshape(owned, nodes.shape[1] * block))
         total = self.domain.topology.index_map(self.dimension).size_global
         return Cells(self.comm, self.states, self.cells, total, len(self._where),
-                     np.concatenate(values, axis=1))
+                     np.concatenate(values, axis=1), self._state_of_point())
+
+    def _state_of_point(self) -> npt.NDArray[np.int64]:
+        """(cells, points of a cell); -1: Elastic."""
+        states = np.full(len(self.layer), -1, np.int64)
+        states[self.grains] = np.arange(len(self.grains))
+        return states.reshape(len(self._owned), len(self._where))
 
     def _nodes(self, function: Any) -> npt.NDArray[np.int32]:
         """Numbers of the nodes of the own cells (n, k)."""
@@ -218,8 +254,13 @@ class Points:
     def _set(self, answer: Evaluation) -> None:
         assert answer.A is not None
         d = self.dimension
-        self.P.x.array.reshape(-1, d**2)[self._P_rows] = answer.P.reshape(-1, d**2)
-        self.A.x.array.reshape(-1, d**4)[self._A_rows] = answer.A.reshape(-1, d**4)
+        self.P.x.array.reshape(-1, d**2)[self._P_rows[self.grains]] = answer.P.reshape(-1, d**2)
+        self.A.x.array.reshape(-1, d**4)[self._A_rows[self.grains]] = answer.A.reshape(-1, d**4)
+        for law, own in self._elastic:
+            resting = self._resting[0].x.array.reshape(-1, d, d)[self._P_rows[own]]
+            P, A = _elastic_answer(law, self._F[own], resting)
+            self.P.x.array.reshape(-1, d**2)[self._P_rows[own]] = P.reshape(-1, d**2)
+            self.A.x.array.reshape(-1, d**4)[self._A_rows[own]] = A.reshape(-1, d**4)
         self._clear_gone()
 
     def _clear_gone(self) -> None:
@@ -235,19 +276,38 @@ class Points:
         return values
 
 
-def _states(materials: Sequence[Material], layer: npt.NDArray[np.int64]) -> States:
-    """States in the order of the points, of the materials that `layer` numbers."""
-    wrong = layer[(layer < 0) | (layer >= len(materials))]
+def _check_layers(layer: npt.NDArray[np.int64], count: int) -> None:
+    wrong = layer[(layer < 0) | (layer >= count)]
     if wrong.size:
-        raise Error(Status.BAD_ARGUMENT, f"layer {wrong[0]}, expected a number from 0 to "
-                    f"{len(materials) - 1}: a missing material")
+        raise Error(Status.BAD_ARGUMENT, f"layer {wrong[0]}, expected a number from 0 to {count - 1}: a "
+                    "missing material")
+
+
+def _states(first: Material, materials: Sequence[Material | Elastic],
+            layer: npt.NDArray[np.int64]) -> States:
+    """States in the order of the points, of the materials that `layer` numbers."""
     if len(materials) == 1:
-        return States(materials[0], len(layer))
-    states = States(materials[0], 0)
+        return States(first, len(layer))
+    states = States(first, 0)
     for end in range(1, len(layer) + 1):
         if end == len(layer) or layer[end] != layer[end - 1]:
-            states.resize(end, materials[layer[end - 1]])
+            material = materials[layer[end - 1]]
+            assert isinstance(material, Material)
+            states.resize(end, material)
     return states
+
+
+def _elastic_answer(law: Elastic, F: Array, resting: Array) -> tuple[Array, Array]:
+    """P = F S and its tangent, with S = S0 + lambda tr(E) I + 2 mu E and Green's strain E."""
+    mu = law.young / (2 + 2 * law.poisson)
+    bulk = 2 * mu * law.poisson / (1 - 2 * law.poisson)   # Lame's first
+    unit = np.eye(F.shape[-1])
+    E = 0.5 * (np.einsum("pki,pkj->pij", F, F) - unit)
+    S = resting + bulk * np.einsum("pkk->p", E)[:, None, None] * unit + 2 * mu * E
+    left = np.einsum("pik,pjk->pij", F, F)
+    A = (np.einsum("ik,pJL->piJkL", unit, S) + bulk * np.einsum("piJ,pkL->piJkL", F, F)
+         + mu * (np.einsum("JL,pik->piJkL", unit, left) + np.einsum("piL,pkJ->piJkL", F, F)))
+    return np.einsum("pik,pkj->pij", F, S), A
 
 
 class Newton:

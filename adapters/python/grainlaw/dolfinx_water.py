@@ -36,7 +36,7 @@ from .march import March
 from .material import AnyPath
 from .names import Measure, Status
 
-__all__ = ["PoreWater", "WaterNewton", "water_space"]
+__all__ = ["PoreWater", "WaterNewton", "check_drainage", "water_space"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -84,7 +84,7 @@ class WaterNewton(Newton):
         self._set_load, self._length = apply, 0.0
         self._time, self._scale = (fem.Constant(points.domain, 0.0) for _ in range(2))
         self._solid = points.scalars(_solid_shares(points, w))
-        _check(points, w, conditions, water)
+        check_drainage(w, conditions, water)
         super().__init__(points, w, conditions, self._apply_with_time, external=lambda test:
                          (external(ufl.split(test)[0]) if external else 0) - self._came(test),
                          internal=self._push, tell=tell, **march)
@@ -142,8 +142,9 @@ def _solid_shares(points: Points, w: Any) -> Array:
     return points.values(ufl.det(_gradient(w))) / (1 + points.states.measure(Measure.VOID_RATIO))
 
 
-def _check(points: Points, w: Any, conditions: Sequence[Any], water: PoreWater) -> None:
-    """That something determines the pressure."""
+def check_drainage(w: Any, conditions: Sequence[Any], water: PoreWater) -> None:
+    """Raises Error where nothing determines the pressure. WaterNewton calls it; a script may before it makes
+    points."""
     V = w.function_space
     own = V.dofmap.index_map.size_local * V.dofmap.index_map_bs
     fixed = np.zeros(own, bool)
@@ -153,9 +154,9 @@ def _check(points: Points, w: Any, conditions: Sequence[Any], water: PoreWater) 
     of_pressure = np.asarray(V.sub(1).collapse()[1])
     drained = fixed[of_pressure[of_pressure < own]].any()
     test = ufl.split(ufl.TestFunction(V))[0]
-    forces = np.abs(assembled(fem.form(ufl.div(test) * points.dx)))
+    forces = np.abs(assembled(fem.form(ufl.div(test) * ufl.dx)))
     free = forces[~fixed].max(initial=0)
-    drained, free, largest = (points.comm.allreduce(value, MPI.MAX)
+    drained, free, largest = (V.mesh.comm.allreduce(value, MPI.MAX)
                               for value in (bool(drained), free, forces.max(initial=0)))
     if not drained and math.isinf(water.bulk_modulus) and free <= 1e-12 * largest:
         raise Error(Status.BAD_ARGUMENT, "nothing determines the pore pressure: no side is drained, water is "

@@ -1,0 +1,441 @@
+# mypy: allow-untyped-calls
+"""Ground in DOLFINx 0.5: horizontal layers under their weight, stages, supports and cells that leave. The
+last axis goes up.
+
+    layers = [Layer(-2, "loose.toml", 2650), Layer(-6, Elastic(50e6, 0.3), 2000)]
+    ground = Ground(domain, 0, layers)
+    ground.hold(lambda x: np.isclose(x[1], -6), 1)             # the supports
+    ground.hold(lambda x: np.isclose(x[0], 0) | np.isclose(x[0], 4), 0)
+    ground.geostatic()
+    list(ground.to(0))                                         # in balance where nothing has moved
+    ground.stage()                                             # changes from here on, over one more run
+    ground.hold(lambda x: np.isclose(x[0], 2) & (x[1] > -1.01), 0)   # a smooth wall
+    ground.excavate(lambda x: (x[0] < 2) & (x[1] > -1))
+    for step in range(10):
+        for part in ground.to((step + 1) / 10): ...
+
+Points are made by geostatic(), once layers, supports and loads have been checked. With rehearse=True every
+layer is elastic: a script goes through its stages in seconds, and its mistakes are told, as ValueError.
+Places x (d, n) [m] are those at first. All functions are calls of all ranks together, and raise on all.
+"""
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+import ufl
+from dolfinx import fem, mesh
+from mpi4py import MPI
+from petsc4py import PETSc
+
+from .abi import Error
+from .arrays import Array
+from .dolfinx import Elastic, Points, assembled
+from .march import March
+from .material import AnyPath
+from .names import Action, Measure, Status
+from .ranks import read_material, together
+
+_petsc: Any = fem.petsc
+_REHEARSAL = Elastic(1e8, 0.3)
+Region = Callable[[Array], npt.NDArray[np.bool_]]
+
+__all__ = ["Elastic", "Ground", "Layer"]
+
+
+class Layer(NamedTuple):
+    bottom: float              #: height of its lower side [m]
+    material: AnyPath | Elastic   #: a file, or a closed form, whose density is that of the whole
+    solid: float               #: density of the grains [kg/m3]
+
+
+class Ground:
+    """Horizontal layers, the uppermost first.
+
+    surface   height of the ground [m]
+    order     of the displacements, 1 or 2
+    rehearse  whether all layers are elastic
+    march     options of March, as tolerance=1e-9: |force on the unknowns| / |nodal forces of P| [-]
+
+    What is wrong with layers raises ValueError, or Error for a file."""
+
+    points: Points                       #: once geostatic() or load() has made them
+    fraction: float                      #: of the run that is committed
+    unit_weights: Array                  #: of the layers, from their void ratio [N/m3]
+
+    def __init__(self, domain: Any, surface: float, layers: Sequence[Layer], gravity: float = 9.81,
+                 order: int = 1, rehearse: bool = False, **march: float) -> None:
+        _check(domain, surface, layers, gravity)
+        self.domain, self.comm, self.dimension = domain, domain.comm, domain.topology.dim
+        self.layers, self.gravity, self._options = list(layers), gravity, {"tolerance": 1e-9, **march}
+        self._tops = [surface] + [layer.bottom for layer in layers[:-1]]
+        self._order, self._up = order, self.dimension - 1
+        self._sand_on_top = not isinstance(layers[0].material, Elastic)
+        laws: list[Any] = [layer.material if isinstance(layer.material, Elastic) else
+                           read_material(self.comm, layer.material) for layer in layers]
+        grains = [law for law in laws if not isinstance(law, Elastic)]
+        if not grains:
+            raise ValueError("every layer is elastic, expected one of grains")
+        if rehearse:   # the last, of no point, is what a set of none is of
+            laws = [law if isinstance(law, Elastic) else _REHEARSAL for law in laws] + grains[:1]
+        self._laws = laws
+        self.V = fem.VectorFunctionSpace(domain, ("Lagrange", order))
+        self.owned: int = self.V.dofmap.index_map.size_local * self.dimension   #: unknowns
+        # Displacements; forces at all times, and those that come over the run; what is prescribed at its
+        # end; 1 where displacements are.
+        self.u, self._load, self._ramp, self._target, self._held = (fem.Function(self.V) for _ in range(5))
+        self._places: Array = self.V.tabulate_dof_coordinates()[:, :self.dimension]
+        self.fraction, self._made = 0.0, False
+
+    def hold(self, where: Region, component: int, value: float = 0.0) -> None:
+        """Nodes of a region are held, or moved by so much over the run [m]."""
+        dofs = self._nodes(where, "hold") * self.dimension + component
+        self._held.x.array[dofs], self._target.x.array[dofs] = 1, value
+
+    def release(self, where: Region, component: int) -> None:
+        """Of a stage: what holds the nodes of a region goes, and its force fades over the run."""
+        dofs = self._nodes(where, "release") * self.dimension + component
+        dofs = dofs[self._held.x.array[dofs] > 0]
+        if self.comm.allreduce(len(dofs)) == 0:
+            raise ValueError("release: nothing is held there")
+        self._held.x.array[dofs] = self._target.x.array[dofs] = 0
+        left = self._residual_function(self.fraction)
+        self._load.x.array[dofs] -= left.x.array[dofs]
+        self._ramp.x.array[dofs] += left.x.array[dofs]
+        self._check_held()
+
+    def traction(self, side: Region, component: int, value: float) -> None:
+        """Force per area of a side at first [Pa], which comes over the run of a stage, and before
+        geostatic() acts from the start; with minus its value it goes."""
+        facets = mesh.locate_entities_boundary(self.domain, self._up, lambda x: side(x[:self.dimension]))
+        if self.comm.allreduce(len(facets)) == 0 or value == 0:
+            raise ValueError("traction: no side lies there, or it is 0")
+        tags = mesh.meshtags(self.domain, self._up, np.sort(facets), np.ones(len(facets), np.int32))
+        ds = ufl.Measure("ds", self.domain, subdomain_data=tags)(1)
+        v, normal = ufl.TestFunction(self.V), ufl.FacetNormal(self.domain)
+        traction = fem.Constant(self.domain, float(value))
+        force = self._function(fem.form(traction * v[component] * ds))
+        if component == self._up and self._sand_on_top:
+            up = self._function(fem.form(
+                ufl.max_value(traction * normal[self._up], 0.0) * v[component] * ds)).x.array
+            later = force.x.array + self._load.x.array + self._ramp.x.array
+            largest = self.comm.allreduce(up.max(initial=0.0), MPI.MAX)
+            self._tell_pulled((up > 0) & (self._held.x.array == 0) & (later > 1e-9 * largest), later)
+        (self._ramp if self._made else self._load).x.array[:] += force.x.array
+
+    def geostatic(self, surcharge: float = 0.0, overconsolidation: float = 1.0) -> None:
+        """Lead every point to the vertical stress of the weight above it, without lateral strain, and add
+        that weight to the loads. The surcharge [Pa] is the script's to add, by traction()."""
+        if not surcharge >= 0:
+            raise ValueError(f"the surcharge is {surcharge} Pa, expected at least 0: the surface would be in "
+                             "tension")
+        if not overconsolidation >= 1:
+            raise ValueError(f"overconsolidation is {overconsolidation}, expected at least 1")
+        self._check_held()
+        self._make()
+        weights = self._weigh()
+        self._lead(weights, surcharge, 0.5)
+        self._lead(weights, surcharge, 1, route="k0", overconsolidation=overconsolidation)
+        for _ in range(10):
+            former, weights = weights, self._weigh()
+            if np.abs(weights / former - 1).max() < 1e-9:
+                break
+            self._lead(weights, surcharge, 1, route="k0")
+        self.unit_weights = weights
+        self._unit.x.array[:] = self.points.scalars(weights[self.points.layer]).x.array
+        self._load.x.array[:] += self._body(self._unit).x.array
+        self._evaluate()
+
+    def stage(self) -> None:
+        """A new run begins here: loads so far stay, and what is prescribed from now on counts from here."""
+        self._load.x.array[:] += self.fraction * self._ramp.x.array
+        self._ramp.x.array[:] = self._target.x.array[:] = 0
+        self.fraction = self.march.reached = 0.0
+
+    def excavate(self, where: Region) -> None:
+        """Of a stage: points of a region leave. Their forces and their weight fade over the run. A node that
+        none is left around is held where it is."""
+        points = self.points
+        going = where(points.x.T) & ~points.gone
+        if self.comm.allreduce(int(going.sum())) == 0:
+            raise ValueError("nothing is excavated: no point lies there that has not left before")
+        mark = points.scalars(going)
+        v = ufl.TestFunction(self.V)
+        exerted = self._function(fem.form(mark * ufl.inner(points.P, ufl.grad(v)) * points.dx)).x.array
+        body = self._body(mark * self._unit).x.array
+        alone = self._left_around(points.gone | going) == 0
+        after = self._load.x.array - body
+        largest = self.comm.allreduce(np.abs(self._load.x.array).max(initial=0), MPI.MAX)
+        loaded = np.repeat(alone, self.dimension) & (np.abs(after) > 1e-9 * max(largest, 1e-300))
+        self._tell(loaded, lambda k: f"the part that is excavated carries a load at {self._place(k)}, "
+                                     f"component {k % self.dimension}")
+        points.remove(going)
+        self._gone.x.array[:] = points.scalars(points.gone).x.array
+        self._load.x.array[:] -= exerted
+        self._ramp.x.array[:] += exerted - body
+        dofs = np.flatnonzero(np.repeat(alone, self.dimension))
+        self._held.x.array[dofs] = 1
+        for function in (self._target, self._load, self._ramp):
+            function.x.array[dofs] = 0
+        self._check_held()
+
+    def to(self, fraction: float) -> Iterator[March]:
+        """To a fraction of the run from where it stands, by Newton's method in as many parts as it takes;
+        from 0 to 0 loads come to act. Yields the march at the end of each part. Raises StepError where the
+        smallest part fails too."""
+        march, points, u = self.march, self.points, self.u.x.array
+        committed = farthest = u.copy()
+        for now in march.to(fraction):
+            if march.keep:
+                farthest = u.copy()
+            if now == Action.SOLVE:
+                wanted = committed + (march.load - self.fraction) * self._target.x.array - u
+                correction = self._solve(march.load, wanted)
+                share = march.share(points.largest_change(correction))
+                if share > 0:   # else the stiffness is singular
+                    u += share * correction.x.array
+                    march.tell(points.evaluate(self.u), *self._norms(march.load))
+            elif now == Action.CROSS:
+                u[:] = farthest
+                march.tell(points.evaluate(self.u))
+            elif now == Action.ACCEPT:
+                points.commit()
+                committed, self.fraction = u.copy(), march.load
+                yield march
+            else:
+                points.revert()
+                u[:] = committed
+
+    def save(self, path: AnyPath) -> None:
+        """Write where the run stands to one file, also in the middle of a stage, as Points.save()."""
+        self.points.save(path, *self._kept(), load=self.fraction)
+
+    def load(self, path: AnyPath) -> None:
+        """In place of geostatic() and the stages: go on from a file of save(), on any number of ranks. Mesh
+        and layers have to be those of the file."""
+        if not self._made:
+            self._make()
+        self.fraction = self.march.reached = self.points.load(path, *self._kept())
+        self.points.remove(self.points.values(self._gone) > 0.5)
+        unit, layer = self.points.values(self._unit), self.points.layer
+        self.unit_weights = np.array([unit[layer == k].max(initial=0) for k in range(len(self.layers))])
+        self.comm.Allreduce(MPI.IN_PLACE, self.unit_weights, MPI.MAX)
+
+    def pressure(self, height: Array) -> Array:
+        """Of the weight above, as of geostatic() (n,) [Pa]."""
+        return self._pressure(height, self.unit_weights)
+
+    def weight(self) -> float:
+        """Of all that has not left [N, 2D: N/m]."""
+        there = self._unit * (1 - self._gone)
+        own = self._body(there).x.array[:self.owned]
+        return float(-self.comm.allreduce(own.sum()))
+
+    def out_of_balance(self) -> float:
+        """The largest force on a free unknown [N, 2D: N/m]."""
+        left = np.abs(self._residual_function(self.fraction).x.array) * (self._held.x.array == 0)
+        return float(self.comm.allreduce(left.max(initial=0), MPI.MAX))
+
+    def force(self, where: Region, component: int) -> float:
+        """That holds the nodes of a region [N, 2D: N/m]."""
+        nodes = self._nodes(where, "force")
+        dofs = nodes[nodes < self.owned // self.dimension] * self.dimension + component
+        return float(-self.comm.allreduce(self._residual_function(self.fraction).x.array[dofs].sum()))
+
+    def _make(self) -> None:
+        """Points of the layers, and what is assembled over them."""
+        self._tell_pulled((self._load.x.array > 0) & self._of_up(), self._load.x.array)
+        bottoms = np.array([layer.bottom for layer in self.layers])
+        self.points = Points(self.domain, self._laws, 1 if self._order == 1 else 2,
+                             lambda x: np.asarray(np.sum(x[self._up] < bottoms[:-1, None], axis=0)))
+        self.march = March(self.points.states, **self._options)
+        nothing = np.zeros(len(self.points.layer))
+        self._unit, self._gone = self.points.scalars(nothing), self.points.scalars(nothing)
+        v, du = ufl.TestFunction(self.V), ufl.TrialFunction(self.V)
+        self._internal = fem.form(self.points.stress_power(v))
+        self._stiffness = fem.form(self.points.stiffness(du, v))
+        self._matrix, self._correction = _petsc.create_matrix(self._stiffness), fem.Function(self.V)
+        self._solver = PETSc.KSP().create(self.comm)
+        self._solver.setOperators(self._matrix)
+        self._solver.setType("preonly")
+        self._solver.getPC().setType("lu")
+        self._solver.getPC().setFactorSolverType("mumps")
+        self._solver.setOptionsPrefix("grainlaw_")
+        self._solver.setFromOptions()
+        self._made = True
+
+    def _kept(self) -> tuple[Any, ...]:
+        return (self.u, self._load, self._ramp, self._target, self._held, self._unit, self._gone)
+
+    def _weigh(self) -> Array:
+        """Unit weights of the layers [N/m3]."""
+        points, count = self.points, len(self.layers)
+        solid = np.ones(len(points.layer))
+        solid[points.grains] = 1 / (1 + points.states.measure(Measure.VOID_RATIO))
+        of_cell = ufl.TestFunction(fem.FunctionSpace(self.domain, ("DG", 0)))
+        cells = assembled(fem.form(of_cell * points.dx))
+        volume = np.repeat(cells, len(solid) // max(len(cells), 1))
+        sums = self.comm.allreduce(np.array([[solid[points.layer == k] @ volume[points.layer == k],
+                                              volume[points.layer == k].sum()] for k in range(count)]))
+        shares = np.divide(sums[:, 0], sums[:, 1], out=np.ones(count), where=sums[:, 1] > 0)
+        weights: Array = self.gravity * np.array([layer.solid for layer in self.layers]) * shares
+        return weights
+
+    def _pressure(self, height: Array, weights: Array) -> Array:
+        total: Array = sum((weight * np.clip(top - np.maximum(height, layer.bottom), 0, None)
+                            for weight, top, layer in zip(weights, self._tops, self.layers)),
+                           start=np.zeros(len(height)))
+        return total
+
+    def _lead(self, weights: Array, surcharge: float, share: float, **how: Any) -> None:
+        points = self.points
+        vertical = -share * (surcharge + self._pressure(points.x[:, self._up], weights))
+        lateral = np.ones(len(vertical))
+        for k, law in enumerate(self._laws):
+            if isinstance(law, Elastic):
+                lateral[points.layer == k] = law.poisson / (1 - law.poisson)
+        sigma = vertical[:, None, None] * np.eye(self.dimension)
+        for axis in range(self._up):
+            sigma[:, axis, axis] *= lateral
+        points.consolidate(sigma, **how)
+
+    def _evaluate(self) -> None:
+        answer = self.points.evaluate(self.u)
+        if not answer.ok:
+            raise Error(Status.NOT_CONVERGED, f"no state to start from: {answer.message}")
+        self.points.commit()
+
+    def _body(self, unit: Any) -> Any:
+        """Nodal forces of unit weights [N/m3]."""
+        return self._function(fem.form(-unit * ufl.TestFunction(self.V)[self._up] * self.points.dx))
+
+    def _function(self, form: Any) -> Any:
+        """The vector of a form, with ghosts."""
+        function = fem.Function(self.V)
+        function.x.array[:self.owned] = assembled(form)
+        function.x.scatter_forward()
+        return function
+
+    def _residual_function(self, fraction: float) -> Any:
+        """External minus internal forces."""
+        left = self._function(self._internal)
+        left.x.array[:] = self._load.x.array + fraction * self._ramp.x.array - left.x.array
+        return left
+
+    def _norms(self, fraction: float) -> tuple[float, float]:
+        own, internal = slice(self.owned), assembled(self._internal)
+        left = self._load.x.array[own] + fraction * self._ramp.x.array[own] - internal
+        free = self._held.x.array[own] == 0
+        return float(np.linalg.norm(left[free])), float(np.linalg.norm(internal))
+
+    def _solve(self, fraction: float, wanted: Array) -> Any:
+        """Newton's correction, of held unknowns what is wanted."""
+        self._matrix.zeroEntries()
+        _petsc.assemble_matrix(self._matrix, self._stiffness)
+        self._matrix.assemble()
+        right, correction = self._residual_function(fraction), self._correction
+        held = np.flatnonzero(self._held.x.array[:self.owned])
+        correction.x.array[:] = 0
+        correction.x.array[held] = wanted[held]
+        first = self.V.dofmap.index_map.local_range[0] * self.dimension
+        self._matrix.zeroRowsColumns((held + first).astype(PETSc.IntType), 1.0, correction.vector, right.vector)
+        self._solver.solve(right.vector, correction.vector)
+        correction.x.scatter_forward()
+        return correction
+
+    def _nodes(self, where: Region, what: str) -> npt.NDArray[np.int64]:
+        """Numbers of the nodes of this rank, ghosts too, in a region."""
+        with together(self.comm):
+            nodes = np.flatnonzero(where(self._places.T))
+        if self.comm.allreduce(len(nodes)) == 0:
+            raise ValueError(f"{what}: no node lies there")
+        return nodes
+
+    def _cells(self) -> npt.NDArray[np.int32]:
+        """Nodes of the own cells (n, k)."""
+        dofmap, owned = self.V.dofmap, self.domain.topology.index_map(self.dimension).size_local
+        nodes: npt.NDArray[np.int32] = dofmap.list.array.reshape(-1, dofmap.dof_layout.num_dofs)[:owned]
+        return nodes
+
+    def _left_around(self, gone: npt.NDArray[np.bool_]) -> Array:
+        """How many cells of all ranks are around each node of this one that have a point left (n,)."""
+        cells, counts = self._cells(), fem.Function(self.V)
+        there = ~gone.reshape(len(cells), -1).all(axis=1) if len(cells) else np.zeros(0, bool)
+        np.add.at(counts.x.array, cells[there].ravel() * self.dimension, 1)
+        counts.vector.ghostUpdate(addv=PETSc.InsertMode.ADD, mode=PETSc.ScatterMode.REVERSE)
+        counts.x.scatter_forward()
+        around: Array = counts.x.array[::self.dimension]
+        return around
+
+    def _check_held(self) -> None:
+        """That each part of the mesh that hangs together is held in every component."""
+        cells, d = self._cells(), self.dimension
+        if self._made and len(cells):
+            cells = cells[~self.points.gone.reshape(len(cells), -1).all(axis=1)]
+        index, own = self.V.dofmap.index_map, self.owned // d
+        held = self._held.x.array[:self.owned].reshape(own, d) > 0
+        everywhere = self.comm.allgather((index.local_to_global(cells.ravel()).reshape(cells.shape), held,
+                                          self._places[:own]))
+        all_cells = np.concatenate([part[0] for part in everywhere])
+        all_held, places = (np.concatenate([part[k] for part in everywhere]) for k in (1, 2))
+        part = np.arange(len(all_held))
+        while True:   # the smallest number of a node of each part
+            smallest, former = part[all_cells].min(axis=1), part.copy()
+            np.minimum.at(part, all_cells.ravel(), np.repeat(smallest, all_cells.shape[1]))
+            if np.array_equal(part, former):
+                break
+        there = np.unique(part[all_cells])
+        for component in range(d):
+            loose = np.setdiff1d(there, part[all_held[:, component]])
+            if loose.size:
+                raise ValueError(f"nothing holds component {component} of what is around "
+                                 f"{_place(places[loose[0]])}")
+
+    def _of_up(self) -> npt.NDArray[np.bool_]:
+        """Which unknowns are along the last axis, of a surface of sand."""
+        along: npt.NDArray[np.bool_] = np.arange(len(self._load.x.array)) % self.dimension == self._up
+        return along & self._sand_on_top
+
+    def _tell_pulled(self, pulled: npt.NDArray[np.bool_], force: Array) -> None:
+        self._tell(pulled, lambda k: f"the node at {self._place(k)} is pulled up by {force[k]:g} N: the surface "
+                                     "would be in tension")
+
+    def _tell(self, wrong: npt.NDArray[np.bool_], text: Callable[[int], str]) -> None:
+        """Raises ValueError on all ranks with the text of the first unknown that is wrong."""
+        own = np.flatnonzero(wrong)
+        texts = [told for told in self.comm.allgather(text(int(own[0])) if own.size else "") if told]
+        if texts:
+            raise ValueError(texts[0])
+
+    def _place(self, k: int) -> str:
+        return _place(self._places[k // self.dimension])
+
+
+def _place(x: Array) -> str:
+    return "(" + ", ".join(f"{value:g}" for value in x) + ") m"
+
+
+def _check(domain: Any, surface: float, layers: Sequence[Layer], gravity: float) -> None:
+    """What is wrong with layers."""
+    tops = [surface] + [layer.bottom for layer in layers[:-1]]
+    for number, (top, layer) in enumerate(zip(tops, layers)):
+        if not layer.bottom < top:
+            raise ValueError(f"layer {number} from {top} m down to {layer.bottom} m, expected a depth above 0")
+        if not layer.solid > 0:
+            raise ValueError(f"layer {number}: the density is {layer.solid} kg/m3, expected above 0")
+        if not layer.material:
+            raise ValueError(f"layer {number} has no material")
+        if isinstance(layer.material, Elastic) and not (
+                layer.material.young > 0 and -1 < layer.material.poisson < 0.5):
+            raise ValueError(f"layer {number} of modulus {layer.material.young} Pa and Poisson ratio "
+                             f"{layer.material.poisson}, expected above 0, and between -1 and 0.5")
+    heights = domain.geometry.x[:, domain.topology.dim - 1]
+    low, high = (domain.comm.allreduce(bound, op) for bound, op in (
+        (heights.min(initial=np.inf), MPI.MIN), (heights.max(initial=-np.inf), MPI.MAX)))
+    if low < layers[-1].bottom - 1e-9 or high > surface + 1e-9:
+        raise ValueError(f"the mesh reaches from {low} to {high} m, expected within {layers[-1].bottom} and "
+                         f"{surface} m: no material")
+    if not gravity > 0:
+        raise ValueError(f"gravity is {gravity} m/s2, expected above 0")
