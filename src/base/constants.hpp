@@ -245,9 +245,8 @@ GRAINLAW_TUNED(double, hand_over, (D == 2 ? 5e-4 : 2e-5));
 GRAINLAW_TUNED(double, hand_over_power, 1.2);
 // Ratio of tolerance to hand_over above which relaxation alone is faster [-]; reach.
 GRAINLAW_TUNED(double, worth_newton, 0.5);
-// Tiny increments: their tolerance over the relative change of a contact's force [-], and the strain
-// that counts as none, by rounding [-]. Most steps of a relaxation before Newton, of which one
-// iteration costs as many [steps]; error.
+// Tiny increments: tolerance over the relative change of a contact's force, strain that counts as none
+// [-]. Most steps of a relaxation before Newton, of which an iteration costs as many [steps]; error.
 GRAINLAW_TUNED(double, share_of_increment, 0.03);
 GRAINLAW_TUNED(double, least_strain, 1e-13);
 GRAINLAW_TUNED(long, steps_of_tiny_increment, 100);
@@ -287,9 +286,8 @@ GRAINLAW_TUNED(int, most_subincrements, 64);
 GRAINLAW_TUNED(int, finest_refinement, 8);
 // Upper bound of the rounding error that raises the tolerance [-]; method.
 GRAINLAW_TUNED(double, largest_rounding, 1e-3);
-// Largest mean force at equilibrium over that of the guess [-], and farthest move of a particle from its
-// affine image in an increment [mean branches]. Beyond them particles were pushed through one another;
-// chosen.
+// Mean force at equilibrium over that of the guess [-], and distance from affine motion [mean branches],
+// beyond which particles were pushed through one another; chosen.
 GRAINLAW_TUNED(double, largest_gain, 10);
 GRAINLAW_TUNED(double, farthest_move, 1);
 // Mean forces at which a packing that may lose its contacts is free of stress, and may become so

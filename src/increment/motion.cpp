@@ -220,17 +220,11 @@ double Motion<D>::largest_fluctuation(const Configuration<D>& from) {
   carried_.assign(from.coordinates.begin(),
                   from.coordinates.begin() + static_cast<std::ptrdiff_t>(dim * n));
   carry_affinely(from.deformation, deformation_, carried_.data());
+  const auto moved = drift();
   double largest = 0;
   for (std::size_t k = 0; k < dim; ++k) {
-    double* fluctuation = carried_.data() + k * n;
-    double sum = 0;
-    for (std::size_t p = 0; p < n; ++p) {
-      fluctuation[p] = coordinates_[k * n + p] - fluctuation[p];
-      sum += fluctuation[p];
-    }
-    const double mean = sum / static_cast<double>(n);
-    for (std::size_t p = 0; p < n; ++p) {
-      largest = std::max(largest, std::abs(fluctuation[p] - mean));
+    for (std::size_t p = k * n; p < (k + 1) * n; ++p) {
+      largest = std::max(largest, std::abs(coordinates_[p] - carried_[p] - moved[k]));
     }
   }
   return largest;

@@ -58,7 +58,7 @@ class Motion {
   double end_drag(std::vector<double>& velocity);
   [[nodiscard]] const Drag<D>& drag() const { return drag_; }
 
-  // Largest distance of a particle from its affine image since `from`, less the mean of all [m].
+  // Largest distance of a particle from its affine image since `from`, but for rigid translation [m].
   [[nodiscard]] double largest_fluctuation(const Configuration<D>& from);
 
   // Writes coordinates without rigid translation, with rotations since F = I.
