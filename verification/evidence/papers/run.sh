@@ -12,7 +12,7 @@ short_guo2014_multiscale=(biaxial_2x4 element_perturbed element_elastic element_
 # The longest first, so that no processor is left without work at the end.
 scenes_guo2014_multiscale=(cyclic_strain_15x10 cyclic_stress_15x10 biaxial_6x10_q8 biaxial_12x20 biaxial_10x15 biaxial_6x10
   biaxial_6x10_fine biaxial_6x10_full biaxial_6x10_hexagonal cyclic_strain_3x2 cyclic_stress_3x2
-  cyclic_stress_seed_{1..5} biaxial_3x5 biaxial_3x5_full "${short_guo2014_multiscale[@]}")
+  cyclic_{strain,stress}_seed_{1..9} biaxial_3x5 biaxial_3x5_full "${short_guo2014_multiscale[@]}")
 
 liu2017_boundary() {
   local scene jobs size
@@ -66,13 +66,15 @@ liu2019_biaxial() {
   ((${#failed[@]} == 0)) || echo "ended early: ${failed[*]}"
 }
 
-# `with_seed SEED`: the column under cyclic stress with another loose packing; says where its scene is.
+# `with_seed strain|stress SEED`: that column of two points with another loose packing; says where its scene is. Under strain
+# control it goes on below the vertical stress that the paper ends at.
 with_seed() {
-  local from=$scenes/guo2014_multiscale packing=loose_stress_$1
-  sed "s/^seed = .*/seed = $1/" "$from/pack_loose_stress.toml" >"$output/$packing.toml"
+  local from=$scenes/guo2014_multiscale packing=loose_$1_$2
+  sed "s/^seed = .*/seed = $2/" "$from/pack_loose_$1.toml" >"$output/$packing.toml"
   "$grainlaw" pack "$output/$packing.toml" --output "$output" >&2
-  sed "s/loose_stress_/${packing}_/" "$from/cyclic_stress_column.toml" >"$output/cyclic_stress_seed_$1.toml"
-  echo "$output/cyclic_stress_seed_$1.toml"
+  sed "s/loose_$1_/${packing}_/; /^vtk_every/d; /^packings/d; s/^end_mean_stress = .*/end_mean_stress = 2e3/
+    s/^steps = .*/steps = 2400/; s/^cycles = .*/cycles = 20/" "$from/cyclic_$1_column.toml" >"$output/cyclic_$1_seed_$2.toml"
+  echo "$output/cyclic_$1_seed_$2.toml"
 }
 
 # Single points, then meshes, one on every processor, then what is computed from them, then the page. A
@@ -81,19 +83,22 @@ guo2014_multiscale() {
   local scene file
   if [[ ${1:-} == --short ]]; then set -- "${short_guo2014_multiscale[@]}"; fi
   if (($# == 0)); then set -- "${scenes_guo2014_multiscale[@]}"; fi
-  for scene in rve rve_fine rve_hexagonal rve_hexagonal_spread; do
+  for scene in rve rve_fine rve_far rve_hexagonal rve_hexagonal_spread; do
     "$grainlaw" point "$scenes/guo2014_multiscale/$scene.toml" --output "$output" || echo "$scene ended early"
   done
   "$evidence" --scenes "$scenes" --output "$output" batch --points 16
   for scene in "$@"; do
     while (($(jobs -rp | wc -l) >= $(nproc))); do wait -n || true; done
     file=$scenes/guo2014_multiscale/$scene.toml
-    if [[ $scene == cyclic_stress_seed_* ]]; then
-      file=$(with_seed "${scene##*_}")
+    if [[ $scene == cyclic_*_seed_* ]]; then
+      file=${scene#cyclic_}
+      file=$(with_seed "${file%%_*}" "${scene##*_}")
     fi
     { "$grainlaw" solve "$file" --output "$output" --restart || echo "$scene ended early"; } &
   done
   wait
   "$evidence" --scenes "$scenes" --output "$output" guo2014_multiscale
+  with_python "$root/verification/evidence/papers/guo2014_multiscale/by_points" "$output"
+  with_python "$root/verification/evidence/papers/guo2014_multiscale/alone" "$scenes" "$output"
   "$root/verification/evidence/report/make_guo2014_multiscale_page" "$output"
 }

@@ -1,0 +1,46 @@
+"""Packings and meshes that runs left for ParaView."""
+import base64
+import pathlib
+import re
+import sys
+import xml.etree.ElementTree as tree
+
+import numpy as np
+
+sys.dont_write_bytecode = True
+
+
+def arrays(path):
+    """All arrays of a file by name; rows of several components."""
+    found = {}
+    for entry in tree.parse(path).getroot().iter("DataArray"):
+        kind = {"Float64": np.float64, "Int32": np.int32, "Int64": np.int64, "UInt8": np.uint8}[entry.get("type")]
+        if entry.get("format") == "binary":
+            values = np.frombuffer(base64.b64decode(entry.text.strip())[8:], kind)
+        else:
+            values = np.array(entry.text.split(), dtype=kind)
+        components = int(entry.get("NumberOfComponents", 1))
+        found.setdefault(entry.get("Name"), values.reshape(-1, components) if components > 1 else values)
+    return found
+
+
+class Packing:
+    """position, radius, rotation of particles; i, branch, force, tangential, moment, bonded of contacts."""
+
+    def __init__(self, path):
+        raw = arrays(path)
+        n = int(np.count_nonzero(raw["radius"]))
+        self.position, self.radius, self.rotation = raw["points"][:n, :2], raw["radius"][:n], raw["rotation"][:n]
+        # Behind the particles stand the ends of contacts; lines lead there from their first particle.
+        lines = len(raw["points"]) - n
+        self.first = np.array(tree.parse(path).getroot().find(".//Lines/DataArray[@Name='connectivity']").text.split(), int)[0::2]
+        self.branch = raw["points"][n:, :2] - self.position[self.first]
+        self.force, self.tangential, self.moment, self.bonded = (raw[name][n:n + lines] for name in (
+            "normal_force", "tangential_force", "moment", "bonded"))
+
+
+def series(results, stem, extension="vtp"):
+    """Files of a series by their step, ascending."""
+    pattern = re.compile(re.escape(stem) + r"_(\d+)[.]" + extension)
+    found = {int(match[1]): path for path in pathlib.Path(results).iterdir() if (match := pattern.fullmatch(path.name))}
+    return dict(sorted(found.items()))
