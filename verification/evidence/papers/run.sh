@@ -3,7 +3,7 @@
 # sets root, scenes, grainlaw, evidence and output. Each function takes the scenes to run, or none for all.
 
 scenes_liu2017_boundary=(figure_02 figure_05 figure_08 figure_10 sizes sizes_rough order_regular order_irregular figure_12
-  layer_strength layer_rows locked_rotation servo_regular servo_irregular servo_layer)
+  layer_strength layer_rows locked_rotation servo_regular servo_irregular servo_layer published)
 scenes_liu2018_waves=(figure_4_4 figure_4_5 figure_4_6 figure_4_7 figure_4_8 figure_4_10 why)
 scenes_liu2019_biaxial=(biaxial_1x1 biaxial_1x2 biaxial_2x4 biaxial_4x8 biaxial_4x8_membrane friction_02 friction_06 locked
   anisotropy dns_a dns_b dns_packings)
@@ -23,9 +23,14 @@ liu2017_boundary() {
   done
   for scene in "$@"; do
     echo "== $scene"
+    if [[ $scene == published ]]; then  # the algorithms of the paper, which are no scene
+      "$evidence" --scenes "$scenes" --output "$output" liu2017_published
+      continue
+    fi
     "$grainlaw" point "$scenes/liu2017_boundary/$scene.toml" --output "$output" --jobs "$jobs"
   done
   "$evidence" --scenes "$scenes" --output "$output" liu2017_boundary
+  with_python "$root/verification/evidence/papers/liu2017_boundary/by_particles" "$output"
   "$root/verification/evidence/report/make_liu2017_boundary_page" "$output"
 }
 
