@@ -33,7 +33,8 @@ void draw_steps(const PaperStudy& study, const CaseEnds& steps) {
         frame{"unbalanced on the frame / mean force [-]", {}, 1, true},
         apart{"|mean F - F| [-]", {}, 1, true};
     for (std::size_t s = 0; s < sizes.size(); ++s) {
-      Columns rows = rows_of(steps.table, steps, fmt::format("T_{}_{}kPa", sizes[s], pressure));
+      Columns rows =
+          rows_of(steps.table, steps, fmt::format("T_fast_{}_{}kPa", sizes[s], pressure));
       if (rows["F12"].empty()) continue;
       const std::string title = fmt::format("{} discs", sizes[s]);
       norm.curves.push_back({title, rows["F12"], rows["stress_norm"], colours[s], Stroke::solid});
@@ -80,10 +81,8 @@ void study_published(PaperStudy& study) {
     study.facts.add(fmt::format("published.{}.reached", name), cases.table["F12_reached"][k]);
     study.facts.add(fmt::format("published.{}.corrections", name),
                     cases.table["corrections_mean"][k]);
-    if (!name.starts_with("T_") || name == "T_regular") {
-      ended = std::min(ended, share);
-      continue;
-    }
+    if (!name.starts_with("T_") || name == "T_regular") ended = std::min(ended, share);
+    if (!name.starts_with("T_fast")) continue;
     ++irregular;
     reached = std::min(reached, cases.table["F12_reached"][k]);
     found += cases.table["direct_found"][k], tried += cases.table["direct_tried"][k];
