@@ -2,6 +2,7 @@
 import base64
 import pathlib
 import re
+import subprocess
 import sys
 import xml.etree.ElementTree as tree
 
@@ -37,6 +38,13 @@ class Packing:
         self.branch = raw["points"][n:, :2] - self.position[self.first]
         self.force, self.tangential, self.moment, self.bonded = (raw[name][n:n + lines] for name in (
             "normal_force", "tangential_force", "moment", "bonded"))
+
+
+def draw(picture, panels, *options):
+    """Packings side by side, by report/draw_packings; nothing where one is missing. panels: pairs of title and file."""
+    if all(path and pathlib.Path(path).exists() for _, path in panels):
+        drawer = pathlib.Path(__file__).resolve().parent / "report/draw_packings"
+        subprocess.run([sys.executable, drawer, picture, *options, *(f"{title}={path}" for title, path in panels)], check=True)
 
 
 def series(results, stem, extension="vtp"):

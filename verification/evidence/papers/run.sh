@@ -19,7 +19,7 @@ liu2017_boundary() {
   if (($# == 0)); then set -- "${scenes_liu2017_boundary[@]}"; fi
   jobs=$(nproc)
   for size in 37 120 228 444 650; do
-    "$grainlaw" pack "$scenes/liu2017_boundary/pack_$size.toml" --output "$output"
+    "$grainlaw" pack "$scenes/liu2017_boundary/pack_$size.toml" --output "$output" --vtk
   done
   for scene in "$@"; do
     echo "== $scene"
