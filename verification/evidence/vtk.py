@@ -26,7 +26,8 @@ def arrays(path):
 
 
 class Packing:
-    """position, radius, rotation of particles; i, branch, force, tangential, moment, bonded of contacts."""
+    """position, radius, rotation of particles; first, second, branch, force, tangential, moment, bonded of contacts. Those of a
+    frame, without images: the second is the particle at the end of the branch."""
 
     def __init__(self, path):
         raw = arrays(path)
@@ -36,6 +37,9 @@ class Packing:
         lines = len(raw["points"]) - n
         self.first = np.array(tree.parse(path).getroot().find(".//Lines/DataArray[@Name='connectivity']").text.split(), int)[0::2]
         self.branch = raw["points"][n:, :2] - self.position[self.first]
+        ends = raw["points"][n:, :2]
+        nearest = ((ends[:, None, :] - self.position[None]) ** 2).sum(axis=2).argmin(axis=1) if lines * n < 2e6 else None
+        self.second = nearest
         self.force, self.tangential, self.moment, self.bonded = (raw[name][n:n + lines] for name in (
             "normal_force", "tangential_force", "moment", "bonded"))
 
