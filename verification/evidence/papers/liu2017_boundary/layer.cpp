@@ -168,9 +168,10 @@ void compare_layers(PaperStudy& study) {
       note("layer.{}.volume_at_peak_mean", s.volume_at_peak);
       note("layer.{}.ratio_change_mean", late_change(*run, ratio(*run)) / s.peak);
       note("layer.{}.volume_change_mean", late_change(*run, volume(*run)) / std::abs(s.volume - 1));
-      note("layer.{}.rotation_growth",
-           rotation_at(*run, 0.2) /
-               rotation_at(*run, law == std::string("frictional") ? 0.07 : 0.12));
+      if (run->particles)
+        note("layer.{}.rotation_growth",
+             rotation_at(*run, 0.2) /
+                 rotation_at(*run, law == std::string("frictional") ? 0.07 : 0.12));
       // Bonds of the same packing, of which none breaks when they are 20 times as strong.
       if (strong) {
         note("layer.{}.broken_at_start_mean", s.broken_start / strength(*strong).contacts);
@@ -186,8 +187,9 @@ void compare_layers(PaperStudy& study) {
       return interpolate(run.history["F12"], ratio(run), 0.02);
     };
     found["layer.cohesive_over_frictional_0.02"].push_back(early(*cohesive) / early(*frictional));
-    found["layer.start_rotation_frictional_over_cohesive"].push_back(rotation_at(*frictional, 0) /
-                                                                     rotation_at(*cohesive, 0));
+    if (frictional->particles && cohesive->particles)
+      found["layer.start_rotation_frictional_over_cohesive"].push_back(rotation_at(*frictional, 0) /
+                                                                       rotation_at(*cohesive, 0));
   }
   if (found.empty()) return;
   table.print();
