@@ -35,7 +35,7 @@ TEST(guo2014_multiscale, every_scene_reads) {
     }
   }
   EXPECT_GE(meshes, 20);
-  EXPECT_EQ(points, 4);
+  EXPECT_EQ(points, 5);
 }
 
 TEST(guo2014_multiscale, meshes_of_one_test_are_loaded_alike) {

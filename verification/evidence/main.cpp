@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
   add_batch_study(app, options);
   add_stability_study(app, options);
   add_liu2017_boundary_study(app, options);
+  add_liu2017_published_study(app, options);
   add_liu2018_waves_study(app, options);
   add_liu2019_biaxial_study(app, options);
   add_guo2014_multiscale_study(app, options);

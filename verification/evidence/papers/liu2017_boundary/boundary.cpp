@@ -17,6 +17,7 @@ void add_liu2017_boundary_study(CLI::App& app, const std::shared_ptr<StudyOption
     study_order(papers);
     study_layer(papers);
     study_servo_cost(papers);
+    study_published(papers);
     papers.facts.write(papers.results);
   });
 }

@@ -16,6 +16,10 @@ void study_order(PaperStudy& study);               // D >= P >= T in stress and 
 void study_layer(PaperStudy& study);               // figure 11
 void study_servo_cost(PaperStudy& study);          // servo against direct, all figures
 
+// T as published: what grainlaw_evidence liu2017_published left.
+void study_published(PaperStudy& study);
+
+void add_liu2017_published_study(CLI::App& app, const std::shared_ptr<StudyOptions>& options);
 void add_liu2017_boundary_study(CLI::App& app, const std::shared_ptr<StudyOptions>& options);
 
 }  // namespace verification

@@ -12,8 +12,12 @@
 namespace verification {
 namespace {
 
-constexpr int packings = 5;
-constexpr double residual_from = 0.15;  // F12 from which on the ratio counts as residual
+constexpr int drawn = 5, packings = 16;  // of figure_12.toml; with those of figure_12_more.toml
+constexpr double residual_from = 0.15;   // F12 from which on the ratio counts as residual
+
+std::string layer(const char* law, int packing) {
+  return fmt::format("figure_12_{}{}_{}", packing > drawn ? "more_" : "", law, packing);
+}
 
 // -sigma12 / sigma22 at every step: both shear stresses, which differ by the moments of D sides.
 std::vector<double> ratio(const PaperRun& run, const char* shear = "sigma12") {
@@ -99,8 +103,8 @@ void figure_11(const PaperStudy& study) {
   Panel rotation{"mean |rotation| [rad]"};
   for (const Kind kind : {Kind{"frictional", colour::blue}, Kind{"cohesive", colour::orange},
                           Kind{"strong", colour::green}})
-    for (int k = 1; k <= packings; ++k) {
-      const auto run = study.run(fmt::format("figure_12_{}_{}", kind.name, k));
+    for (int k = 1; k <= drawn; ++k) {
+      const auto run = study.run(layer(kind.name, k));
       if (!run) continue;
       const Stroke stroke = k == 1 ? Stroke::solid : Stroke::thin;
       const std::string title = k == 1 ? kind.name : "";
@@ -124,6 +128,17 @@ double mean(const std::vector<double>& values) {
                               static_cast<double>(values.size());
 }
 
+// Standard error of a mean over the packings.
+void spread(PaperStudy& study, std::map<std::string, std::vector<double>>& found, const char* fact,
+            const char* law) {
+  const std::string name = fmt::format(fmt::runtime(fact), law);
+  const std::vector<double>& values = found[name + "_mean"];
+  double squares = 0;
+  for (const double value : values) squares += std::pow(value - mean(values), 2);
+  const auto count = static_cast<double>(values.size());
+  study.facts.add(name + "_error", std::sqrt(squares / (count - 1) / count));
+}
+
 void compare_layers(PaperStudy& study) {
   Table table(
       "Layer: cohesive and frictional",
@@ -133,12 +148,12 @@ void compare_layers(PaperStudy& study) {
   const CaseEnds ends(study.results / "figure_12_cases.csv");
   std::map<std::string, std::vector<double>> found;  // by fact, a number per packing
   for (int k = 1; k <= packings; ++k) {
-    const auto frictional = study.run(fmt::format("figure_12_frictional_{}", k));
+    const auto frictional = study.run(layer("frictional", k));
     if (!frictional) continue;
     const Strength base = strength(*frictional);
-    const auto strong = study.run(fmt::format("figure_12_strong_{}", k));
+    const auto strong = study.run(layer("strong", k));
     for (const char* law : {"frictional", "cohesive", "strong"}) {
-      const auto run = study.run(fmt::format("figure_12_{}_{}", law, k));
+      const auto run = study.run(layer(law, k));
       if (!run) continue;
       const Strength s = strength(*run);
       table.row({static_cast<double>(k), law, s.peak, s.peak_at, s.residual, s.residual_21,
@@ -153,9 +168,10 @@ void compare_layers(PaperStudy& study) {
       note("layer.{}.volume_at_peak_mean", s.volume_at_peak);
       note("layer.{}.ratio_change_mean", late_change(*run, ratio(*run)) / s.peak);
       note("layer.{}.volume_change_mean", late_change(*run, volume(*run)) / std::abs(s.volume - 1));
-      note("layer.{}.rotation_growth",
-           rotation_at(*run, 0.2) /
-               rotation_at(*run, law == std::string("frictional") ? 0.07 : 0.12));
+      if (run->particles)
+        note("layer.{}.rotation_growth",
+             rotation_at(*run, 0.2) /
+                 rotation_at(*run, law == std::string("frictional") ? 0.07 : 0.12));
       // Bonds of the same packing, of which none breaks when they are 20 times as strong.
       if (strong) {
         note("layer.{}.broken_at_start_mean", s.broken_start / strength(*strong).contacts);
@@ -165,19 +181,26 @@ void compare_layers(PaperStudy& study) {
         found["layer.particles_mean"].push_back(ends.table["particles"][*end]);
     }
     found["layer.fraction_mean"].push_back(1 / (1 + frictional->history["void_ratio"].front()));
-    const auto cohesive = study.run(fmt::format("figure_12_cohesive_{}", k));
+    const auto cohesive = study.run(layer("cohesive", k));
     if (!cohesive) continue;
     const auto early = [](const PaperRun& run) {
       return interpolate(run.history["F12"], ratio(run), 0.02);
     };
     found["layer.cohesive_over_frictional_0.02"].push_back(early(*cohesive) / early(*frictional));
-    found["layer.start_rotation_frictional_over_cohesive"].push_back(rotation_at(*frictional, 0) /
-                                                                     rotation_at(*cohesive, 0));
+    if (frictional->particles && cohesive->particles)
+      found["layer.start_rotation_frictional_over_cohesive"].push_back(rotation_at(*frictional, 0) /
+                                                                       rotation_at(*cohesive, 0));
   }
   if (found.empty()) return;
   table.print();
   table.write(study.results / "layer.csv");
   for (const auto& [fact, values] : found) study.facts.add(fact, mean(values));
+  study.facts.add("layer.packings", static_cast<double>(found["layer.fraction_mean"].size()));
+  for (const char* law : {"frictional", "cohesive", "strong"}) {
+    spread(study, found, "layer.{}.residual", law);
+    spread(study, found, "layer.{}.peak_at", law);
+    spread(study, found, "layer.{}.gain", law);
+  }
 }
 
 // Cases WHAT of a scene, one row each.

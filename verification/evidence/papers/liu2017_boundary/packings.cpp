@@ -84,6 +84,9 @@ double slope(const std::vector<std::pair<double, double>>& points) {
 }
 
 void coordination(PaperStudy& study) {
+  // sigma t / kn of the thesis over sigma R / kn of the paper.
+  const PaperUnits units = read_units(study.scenes / "pack_650.toml");
+  study.facts.add("packings.thickness_over_radius", units.thickness / units.mean_radius);
   Table table("Coordination by how it is counted",
               {"made", "packing[-]", "volume_fraction[-]", "copies_once[-]",
                "copies_once_no_rattlers[-]", "inner_discs[-]", "all_discs_of_the_frame[-]"});

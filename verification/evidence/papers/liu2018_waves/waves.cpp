@@ -97,6 +97,7 @@ void add_liu2018_waves_study(CLI::App& study, const std::shared_ptr<StudyOptions
     study_string_waves(waves);
     study_packing_waves(waves);
     study_why_waves_differ(waves);
+    study_further_waves(waves, std::filesystem::path(options->scenes) / "liu2018_waves");
     study_wave_cost(waves);
     waves.facts.write(waves.results);
   });

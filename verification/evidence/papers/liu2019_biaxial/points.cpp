@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace verification {
 namespace {
@@ -46,6 +47,9 @@ Panel panel_of(PaperStudy& study, const char* mesh, Table& table, double& last) 
        strain,
        {run->ratio.begin(), run->ratio.begin() + static_cast<std::ptrdiff_t>(rows)},
        colour::black});
+  if (strain[marked] > marked_strain - 0.003)
+    study.facts.add(fmt::format("points.{}.highest_over_lowest", mesh),
+                    (*high)[marked] / (*low)[marked]);
   std::vector<double> spreads;
   for (const double wanted : {0.02, 0.04, 0.06, 0.09}) {
     const auto k = static_cast<std::size_t>(
@@ -63,9 +67,63 @@ Panel panel_of(PaperStudy& study, const char* mesh, Table& table, double& last) 
   return panel;
 }
 
+// Largest over mean increment of the deviatoric strain, in the last step to a strain.
+double localisation(const PaperStudy& study, const std::string& name, double until) {
+  const auto path = study.results / (name + "_every_deviatoric_strain.csv");
+  const auto run = load_biaxial(study, name);
+  if (!run || !std::filesystem::exists(path)) return std::nan("");
+  const CsvTable points = read_csv(path);
+  std::size_t k = std::min(points.rows(), run->strain.size()) - 1;
+  while (k > 1 && run->strain[k] > until + 1e-9) --k;
+  double most = 0, sum = 0;
+  for (std::size_t p = 1; p < points.columns.size(); ++p) {
+    const double increment = std::abs(points.columns[p][k] - points.columns[p][k - 1]);
+    most = std::max(most, increment), sum += increment;
+  }
+  return most * static_cast<double>(points.columns.size() - 1) / sum;
+}
+
+// On both meshes at the last strain that both reach.
+void compare_localisation(PaperStudy& study) {
+  const auto coarse = load_biaxial(study, "biaxial_2x4"), fine = load_biaxial(study, "biaxial_4x8");
+  if (!coarse || !fine) return;
+  const double until = std::min(coarse->strain.back(), fine->strain.back());
+  study.facts.add("points.increment_at", until);
+  study.facts.add("points.increment_4x8_over_2x4", localisation(study, "biaxial_4x8", until) /
+                                                       localisation(study, "biaxial_2x4", until));
+}
+
+// Eq. 40: the angle by the ratio of the principal stresses, tan^2(45 + phi / 2), less the arcsine of
+// the stress ratio, over a test.
+void friction_angle(PaperStudy& study) {
+  const auto run = study.run("biaxial_2x4");
+  if (!run) return;
+  double apart = 0;
+  for (std::size_t k = 0; k < run->steps(); ++k) {
+    const double s1 = -run->history["sigma22"][k], s3 = -run->history["sigma11"][k];
+    const double angle = 2 * std::atan(std::sqrt(s1 / s3)) - 0.5 * std::numbers::pi;
+    apart = std::max(apart, std::abs(angle - std::asin((s1 - s3) / (s1 + s3))));
+  }
+  study.facts.add("biaxial_2x4.arcsine_less_angle", apart);
+}
+
+// Both published methods together against Newton's method, one element to 0.6 %.
+void published_methods(PaperStudy& study) {
+  const auto published = load_biaxial(study, "published_explicit"),
+             newton = load_biaxial(study, "published_newton");
+  if (!published || !newton) return;
+  study.facts.add("published.until", published->strain.back());
+  study.facts.add(
+      "published.ratio_apart",
+      std::abs(published->ratio.back() / newton->ratio_at(published->strain.back()) - 1));
+}
+
 }  // namespace
 
 void draw_points(PaperStudy& study) {
+  compare_localisation(study);
+  friction_angle(study);
+  published_methods(study);
   Table table(
       "Figure 6: stress ratio in the integration points",
       {"mesh", "strain[-]", "of_the_mean_stress[-]", "lowest[-]", "highest[-]", "spread[-]"});
