@@ -17,6 +17,8 @@
 //   grainlawStepRatio(sand), grainlawFirstFailed(sand), grainlawMessage(sand)
 //       of the last evaluation: by how much to shorten the step, which point failed first (-1:
 //       none) and why
+//   grainlawPointSeconds(sand)                         processor time of the points in it, without
+//                                                      waits for other ranks [s]
 //   grainlawCommit(sand), grainlawRevert(sand)         when the load step has converged, or is cut
 //   grainlawSave(sand, "file"), grainlawLoad(sand, "file")
 //   grainlawMeasure(sand, "void_ratio", values)        [components, n], or [n] for a scalar
@@ -68,6 +70,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -257,6 +260,13 @@ double step_ratio(const long& number) {
   return guarded("grainlawStepRatio", [&] { return find(number).last().summary.step_ratio; });
 }
 
+double point_seconds(const long& number) {
+  return guarded("grainlawPointSeconds", [&] {
+    const std::vector<double> cost = find(number).points().cost();
+    return std::accumulate(cost.begin(), cost.end(), 0.0);
+  });
+}
+
 long first_failed(const long& number) {
   return guarded("grainlawFirstFailed", [&] { return find(number).last().summary.first_failed; });
 }
@@ -440,6 +450,7 @@ void add_functions() {
   Global.Add("grainlawLoad", "(", new OneOperator2_<long, long, string*>(load));
   Global.Add("grainlawWriteVtk", "(", new OneOperator3_<long, long, long, string*>(write_vtk));
   Global.Add("grainlawStepRatio", "(", new OneOperator1_<double, long>(step_ratio));
+  Global.Add("grainlawPointSeconds", "(", new OneOperator1_<double, long>(point_seconds));
   Global.Add("grainlawFirstFailed", "(", new OneOperator1_<long, long>(first_failed));
   Global.Add("grainlawMessage", "(", new OneOperator1s_<string*, long>(message));
   Global.Add("grainlawPoints", "(", new OneOperator1_<long, long>(points));

@@ -5,3 +5,4 @@
 #include <grainlaw/dealii/newton.hpp>
 #include <grainlaw/dealii/points.hpp>
 #include <grainlaw/dealii/ranks.hpp>
+#include <grainlaw/dealii/refinement.hpp>

@@ -1,13 +1,14 @@
 // Newton's method over the points of a mesh, led by the library's march.
 #pragma once
 
+#include <deal.II/distributed/solution_transfer.h>
 #include <deal.II/lac/affine_constraints.h>
 
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <grainlaw/dealii/points.hpp>
+#include <grainlaw/dealii/refinement.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -89,6 +90,23 @@ class Newton {
   void save(const std::string& path) { points_.save(path, u_, reached_); }
   void load(const std::string& path) { reached_ = points_.load(path, u_); }
 
+  // Refine, coarsen and share a mesh of p4est again by its flags. rebuild() gives field, u and matrix
+  // their new sizes. u is interpolated, states go as Refinement says. What was lost.
+  template <class Rebuild>
+  Lost refine(typename Refinement<dim>::Mesh& mesh, Rebuild&& rebuild) {
+    mesh.prepare_coarsening_and_refinement();
+    Refinement<dim> change(points_, mesh);
+    ::dealii::parallel::distributed::SolutionTransfer<dim, Vector> of_u(points_.dofs());
+    const Vector all = points_.readable(u_);
+    of_u.prepare_for_coarsening_and_refinement(all);
+    mesh.execute_coarsening_and_refinement();
+    rebuild();
+    for (Vector* const v : {&internal_, &external_, &right_, &correction_}) v->reinit(u_);
+    of_u.interpolate(u_);
+    conditions(reached_, false).distribute(u_);
+    return change.finish(u_);
+  }
+
  private:
   // Conditions at a load: on u, or on its correction.
   [[nodiscard]] ::dealii::AffineConstraints<double> conditions(double load,
@@ -100,10 +118,13 @@ class Newton {
     all.close();
     if (!of_correction) return all;
     const Vector at_ghosts = points_.readable(u_);
-    for (const auto& line : all.get_lines())
-      all.set_inhomogeneity(line.index, line.entries.empty()
-                                            ? line.inhomogeneity - at_ghosts(line.index)
-                                            : line.inhomogeneity);
+    // A hanging node may hang on a prescribed one: its line then has a part of the value, and is not of
+    // a correction either.
+    for (const auto& line : all.get_lines()) {
+      double missing = line.inhomogeneity - at_ghosts(line.index);
+      for (const auto& [other, weight] : line.entries) missing += weight * at_ghosts(other);
+      all.set_inhomogeneity(line.index, missing);
+    }
     return all;
   }
 

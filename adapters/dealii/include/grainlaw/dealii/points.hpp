@@ -28,6 +28,9 @@
 
 namespace grainlaw::dealii {
 
+template <int dim>
+class Refinement;
+
 // The points of a displacement field with dim components, of one material; a rank has those of its
 // cells, which may be none. In 2D forces and stiffness are per metre of thickness. Vectors are those of
 // deal.II, PETSc or Trilinos, of the unknowns that a rank owns.
@@ -58,14 +61,7 @@ class Points {
       if (fingerprint_ != expected)
         throw StatusError(GRAINLAW_WRONG_MATERIAL,
                           "the material is not that of rank 0: all need one file and packing");
-      std::size_t cells = 0;
-      each_cell([&](const auto&, std::size_t) { ++cells; });
-      set_.resize(cells * quadrature.size());
-      F_.resize(square * set_.size());
-      P_.resize(square * set_.size());
-      A_.resize(square * square * set_.size());
-      trial_P_ = committed_P_ = P_;
-      trial_A_ = committed_A_ = A_;
+      fit();
     });
     if (!alone)
       set_.share(static_cast<int>(::dealii::Utilities::MPI::this_mpi_process(comm_)), reduce,
@@ -179,10 +175,7 @@ class Points {
         if (owned.is_element(indices[a])) u(indices[a]) = cells.unknowns[k * indices.size() + a];
     });
     u.compress(::dealii::VectorOperation::insert);
-    const auto found = set_.answer(P_, GRAINLAW_WANT_TANGENT_EXACT, A_);
-    if (!found) throw StatusError(found.status, found.message());
-    committed_P_ = P_;
-    committed_A_ = A_;
+    take_answer();
     return load;
   }
 
@@ -248,7 +241,27 @@ class Points {
   }
 
  private:
+  friend class Refinement<dim>;
   static constexpr std::size_t square = dim * dim;
+
+  // Gives the set as many points as this rank's cells have now; new ones have new states.
+  void fit() {
+    std::size_t cells = 0;
+    each_cell([&](const auto&, std::size_t) { ++cells; });
+    set_.resize(cells * values_.n_quadrature_points);
+    F_.resize(square * set_.size());
+    P_.resize(square * set_.size());
+    A_.resize(square * square * set_.size());
+    trial_P_ = committed_P_ = P_;
+    trial_A_ = committed_A_ = A_;
+  }
+  // P and A of states that came as bytes.
+  void take_answer() {
+    const auto found = set_.answer(P_, GRAINLAW_WANT_TANGENT_EXACT, A_);
+    if (!found) throw StatusError(found.status, found.message());
+    committed_P_ = P_;
+    committed_A_ = A_;
+  }
 
   template <class Call>
   void together(Call&& call) const {
