@@ -9,10 +9,14 @@ namespace verification::drag {
 
 struct Study {
   Materials materials;
-  int most_packings = 0;  // 0: as many as a section has
+  int most_packings = 0;      // 0: as many as a section has
+  double only_stiffness = 0;  // of what jumps counts; 0: all [-]
 
   [[nodiscard]] int packings(int usual) const {
     return most_packings > 0 ? std::min(usual, most_packings) : usual;
+  }
+  [[nodiscard]] bool takes(double stiffness) const {
+    return only_stiffness == 0 || stiffness == only_stiffness;
   }
   [[nodiscard]] const StudyOptions& options() const { return materials.options(); }
 };
