@@ -37,6 +37,7 @@ struct Starts {
   int starts = 0, same = 0, told_apart = 0, apart = 0;
   double worst = 0;                                 // difference of P [p]
   double milliseconds = 0, milliseconds_again = 0;  // from the trial, and from the committed state
+  std::vector<double> changes, changes_of_other;    // of status, where P is the same, and where not
 };
 
 template <int D>
@@ -129,7 +130,10 @@ void start_twice(Starts& starts, const State& committed, const TensorOf<D>& from
   const double difference = (cold.stress - warm.stress).norm();
   starts.worst = std::max(starts.worst, difference / pressure);
   if (difference > smallest_jump * pressure) ++starts.apart;
-  if (difference <= same * cold.stress.norm()) {
+  const bool is_same = difference <= same * cold.stress.norm();
+  (is_same ? starts.changes : starts.changes_of_other)
+      .push_back(static_cast<double>(warm.report.status_changes));
+  if (is_same) {
     ++starts.same;
   } else if (warm.report.message[0] != 0) {
     ++starts.told_apart;
@@ -181,11 +185,12 @@ void count_jumps(Study& study) {
       "takes none, and with trial; apart: by more than 1e-4 p",
       {"packings", "stiffness", "lines[-]", "failed[-]", "ended[-]", "jumps_to_0.1%[-]",
        "worst_to_0.1%[p]", "starts[-]", "same_start[-]", "told_apart[-]", "apart[-]",
-       "worst_start[p]", "from_trial[ms]", "from_committed[ms]"},
+       "worst_start[p]", "changes[-]", "changes_of_other[-]", "from_trial[ms]",
+       "from_committed[ms]"},
       {{"jumps[-]"}, {"worst[p]"}, {"other_by_committed[-]"}, {"other_by_trial[-]"}});
   for (const int dimension : {2, 3}) {
     for (const double stiffness : {300.0, 3e3, 3e4}) {
-      if (!study.takes(stiffness)) continue;
+      if (!study.takes(dimension, stiffness)) continue;
       Lines lines;
       Starts by_state, by_trial;
       const int count = study.packings(packings);
@@ -195,18 +200,18 @@ void count_jumps(Study& study) {
                      [&](auto d) { look_along<d>(lines, by_state, by_trial, study, packing); });
       }
       const double tried = std::max(1, by_trial.starts);
-      findings.row(
-          {fmt::format("{} of {}", count, dimension == 2 ? "200 discs" : "150 spheres"),
-           fmt::format("{:g}", stiffness), static_cast<double>(lines.lines),
-           static_cast<double>(lines.failed), static_cast<double>(lines.ended),
-           static_cast<double>(lines.jumps_in_first_half), lines.worst_in_first_half,
-           static_cast<double>(by_trial.starts), static_cast<double>(by_trial.same),
-           static_cast<double>(by_trial.told_apart), static_cast<double>(by_trial.apart),
-           by_trial.worst, by_trial.milliseconds / tried, by_trial.milliseconds_again / tried},
-          {{static_cast<double>(lines.jumps), stiffness < 1e3 ? most_at_300 : told},
-           {lines.worst, largest_jump},
-           {other(by_state), 0},
-           {other(by_trial), 0}});
+      findings.row({fmt::format("{} of {}", count, dimension == 2 ? "200 discs" : "150 spheres"),
+                    fmt::format("{:g}", stiffness), static_cast<double>(lines.lines),
+                    static_cast<double>(lines.failed), static_cast<double>(lines.ended),
+                    static_cast<double>(lines.jumps_in_first_half), lines.worst_in_first_half,
+                    static_cast<double>(by_trial.starts), static_cast<double>(by_trial.same),
+                    static_cast<double>(by_trial.told_apart), static_cast<double>(by_trial.apart),
+                    by_trial.worst, average(by_trial.changes), average(by_trial.changes_of_other),
+                    by_trial.milliseconds / tried, by_trial.milliseconds_again / tried},
+                   {{static_cast<double>(lines.jumps), stiffness < 1e3 ? most_at_300 : told},
+                    {lines.worst, largest_jump},
+                    {other(by_state), 0},
+                    {other(by_trial), 0}});
     }
   }
   findings.print();

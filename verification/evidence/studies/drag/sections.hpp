@@ -9,14 +9,17 @@ namespace verification::drag {
 
 struct Study {
   Materials materials;
-  int most_packings = 0;      // 0: as many as a section has
-  double only_stiffness = 0;  // of what jumps counts; 0: all [-]
+  int most_packings = 0;  // 0: as many as a section has
+  // Of what jumps counts; 0: all.
+  int only_dimension = 0;
+  double only_stiffness = 0;
 
   [[nodiscard]] int packings(int usual) const {
     return most_packings > 0 ? std::min(usual, most_packings) : usual;
   }
-  [[nodiscard]] bool takes(double stiffness) const {
-    return only_stiffness == 0 || stiffness == only_stiffness;
+  [[nodiscard]] bool takes(int dimension, double stiffness) const {
+    return (only_dimension == 0 || dimension == only_dimension) &&
+           (only_stiffness == 0 || stiffness == only_stiffness);
   }
   [[nodiscard]] const StudyOptions& options() const { return materials.options(); }
 };
