@@ -2,6 +2,8 @@
 #include "evidence/studies/drag/host.hpp"
 #include "evidence/studies/drag/sections.hpp"
 
+#include "app/progress.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -155,6 +157,10 @@ void look_along(Lines& lines, Starts& by_state, Starts& by_trial, Study& study,
                                     step_size * probed.back(), probed.back(), {}, observe);
     lines.ended += path.failure.empty() ? 1 : 0;
   };
+  follow(true, [&](const PointStepOf<D>& step) { start(by_trial, step); });
+  tell(fmt::format(
+      "jumps: {}: P from two starts the same in {} of {} steps, apart in {}, by {:.2e} p\n",
+      packing.name(), by_trial.same, by_trial.starts, by_trial.apart, by_trial.worst));
   follow(false, [&](const PointStepOf<D>& step) {
     start(by_state, step);
     if (std::find(probed.begin(), probed.end(), step.record.step) == probed.end()) return;
@@ -165,10 +171,14 @@ void look_along(Lines& lines, Starts& by_state, Starts& by_trial, Study& study,
     TensorOf<D> any;
     for (int k = 0; k < D * D; ++k) any(k) = normal(random);
     any -= any.trace() / D * TensorOf<D>::Identity();
-    for (const TensorOf<D>& direction : {onward, any})
+    for (const TensorOf<D>& direction : {onward, any}) {
       walk_line<D>(lines, state, from, direction / direction.norm());
+      tell(
+          fmt::format("jumps: {}: {} lines, {} jumps of up to {:.2e} p, {} and {:.2e} p to 0.1 %\n",
+                      packing.name(), lines.lines, lines.jumps, lines.worst,
+                      lines.jumps_in_first_half, lines.worst_in_first_half));
+    }
   });
-  follow(true, [&](const PointStepOf<D>& step) { start(by_trial, step); });
 }
 
 // Starts that lead to another P, untold.

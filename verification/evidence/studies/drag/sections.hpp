@@ -10,7 +10,7 @@ namespace verification::drag {
 struct Study {
   Materials materials;
   int most_packings = 0;  // 0: as many as a section has
-  // Of what jumps counts; 0: all.
+  // Jumps are counted with these alone; 0: all.
   int only_dimension = 0;
   double only_stiffness = 0;
 
