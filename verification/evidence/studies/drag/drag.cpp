@@ -40,6 +40,8 @@ void add_drag_study(CLI::App& study, const std::shared_ptr<StudyOptions>& option
     double number = 1e-3;
     std::vector<std::string> keys;
     int packings = 0;
+    int dimension = 0;
+    double stiffness = 0;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = study.add_subcommand("drag", "the law in time against what is asked of it");
@@ -57,8 +59,19 @@ void add_drag_study(CLI::App& study, const std::shared_ptr<StudyOptions>& option
                    "at most so many of each kind [-]; 0: as many as a section has")
       ->check(at_least(0))
       ->capture_default_str();
+  command
+      ->add_option("--dimension", arguments->dimension,
+                   "section jumps with discs, 2, or spheres, 3, alone; 0: both")
+      ->check(CLI::IsMember({0, 2, 3}));
+  command
+      ->add_option("--stiffness", arguments->stiffness,
+                   "section jumps at this kn / p alone: 300, 3000 or 30000 [-]; 0: all three")
+      ->check(CLI::IsMember({0.0, 300.0, 3e3, 3e4}));
   command->callback([arguments, options] {
-    drag::Study all{{*options, arguments->number, arguments->keys}, arguments->packings};
+    drag::Study all{{*options, arguments->number, arguments->keys},
+                    arguments->packings,
+                    arguments->dimension,
+                    arguments->stiffness};
     for (const Section& section : sections) {
       const auto& wanted = arguments->sections;
       if (wanted.empty() || std::find(wanted.begin(), wanted.end(), section.name) != wanted.end())

@@ -10,9 +10,16 @@ namespace verification::drag {
 struct Study {
   Materials materials;
   int most_packings = 0;  // 0: as many as a section has
+  // Jumps are counted with these alone; 0: all.
+  int only_dimension = 0;
+  double only_stiffness = 0;
 
   [[nodiscard]] int packings(int usual) const {
     return most_packings > 0 ? std::min(usual, most_packings) : usual;
+  }
+  [[nodiscard]] bool takes(int dimension, double stiffness) const {
+    return (only_dimension == 0 || dimension == only_dimension) &&
+           (only_stiffness == 0 || stiffness == only_stiffness);
   }
   [[nodiscard]] const StudyOptions& options() const { return materials.options(); }
 };

@@ -5,11 +5,13 @@
 #include <fmt/format.h>
 
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -17,7 +19,14 @@
 namespace verification::stability {
 namespace {
 
-[[noreturn]] void answer(const std::function<std::string()>& work, int out) {
+constexpr double longest_wait = 20;  // wall time over CPU time, on a busy machine [-]
+
+// Ends by SIGXCPU beyond so much CPU time [s].
+[[noreturn]] void answer(const std::function<std::string()>& work, double seconds, int out) {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_CPU, &limit) != 0) _exit(1);
+  limit.rlim_cur = static_cast<rlim_t>(std::ceil(seconds));
+  if (setrlimit(RLIMIT_CPU, &limit) != 0) _exit(1);
   const std::string text = work();
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t count = write(out, text.data() + done, text.size() - done);
@@ -52,17 +61,19 @@ Answer run_isolated(const std::function<std::string()>& work, double seconds) {
   if (child < 0) throw ComputationError("no process for a case");
   if (child == 0) {
     close(ends[0]);
-    answer(work, ends[1]);
+    answer(work, seconds, ends[1]);
   }
   close(ends[1]);
   Answer result;
-  const bool in_time = read_all(ends[0], seconds, result.text);
+  const bool in_time = read_all(ends[0], longest_wait * seconds, result.text);
   close(ends[0]);
   if (!in_time) kill(child, SIGKILL);
   int status = 0;
   waitpid(child, &status, 0);
   if (!in_time)
-    result.failure = fmt::format("no answer within {:g} s", seconds);
+    result.failure = fmt::format("no answer within {:g} s", longest_wait * seconds);
+  else if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+    result.failure = fmt::format("no answer within {:g} s of CPU time", seconds);
   else if (WIFSIGNALED(status))
     result.failure = fmt::format("the process ended by signal {} ({})", WTERMSIG(status),
                                  strsignal(WTERMSIG(status)));

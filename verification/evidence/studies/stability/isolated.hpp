@@ -11,8 +11,9 @@ struct Answer {
   std::string failure;  // "", or how the process ended
 };
 
-// Calls work() in a child process and returns its text; ends the child after `seconds` of wall time.
-// `work` must not throw. Throws ComputationError when there can be no child.
+// Calls work() in a child process and returns its text; ends the child after `seconds` of CPU
+// time, or twenty times as long on the wall. `work` must not throw. Throws ComputationError when
+// there can be no child.
 Answer run_isolated(const std::function<std::string()>& work, double seconds);
 
 }  // namespace verification::stability

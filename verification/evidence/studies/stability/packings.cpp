@@ -138,7 +138,8 @@ Material PackingStore::with_rattler(const Recipe& recipe, Contact contact) const
 Material PackingStore::barely_touching(const Recipe& recipe, Contact contact) const {
   contact.young = recipe.young();
   const std::string name = ensure(recipe) + "_barely_touching";
-  const Material tight = from_files(ensure(recipe), contact, true);
+  // At equilibrium, as the packings of all cases.
+  const Material tight = PackingStore(directory_).generated(recipe, contact);
   State state(tight);
   double stretch = 1;
   for (double step = 0.1 / recipe.stiffness; step > 1e-6 / recipe.stiffness;) {

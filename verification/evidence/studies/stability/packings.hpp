@@ -57,7 +57,7 @@ class PackingStore {
   [[nodiscard]] Material generated(const Recipe& recipe, Contact contact) const;
   // Adds to generated() a disc in the middle of the widest void, which touches nothing.
   [[nodiscard]] Material with_rattler(const Recipe& recipe, Contact contact) const;
-  // Expands generated() until contacts are lost: the last state before that, at its own F = I.
+  // Expands generated() until contacts are lost: the last equilibrium before that, at its own F = I.
   [[nodiscard]] Material barely_touching(const Recipe& recipe, Contact contact) const;
   // Writes generated() in other units.
   [[nodiscard]] Material in_units(const Recipe& recipe, Contact contact, const Units& units) const;

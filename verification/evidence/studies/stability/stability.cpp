@@ -19,7 +19,7 @@ namespace {
 
 using namespace stability;
 
-constexpr double time_limit = 120;  // wall time of one case; more counts as a hang [s]
+constexpr double time_limit = 120;  // CPU time of one case; more counts as a hang [s]
 constexpr const char* undefined = "UNDEFINED: ";
 
 struct Column {
