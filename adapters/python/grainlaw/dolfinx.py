@@ -310,6 +310,18 @@ def _elastic_answer(law: Elastic, F: Array, resting: Array) -> tuple[Array, Arra
     return np.einsum("pik,pkj->pij", F, S), A
 
 
+def direct_solver(comm: MPI.Intracomm, matrix: Any) -> Any:
+    """MUMPS, or what PETSc's options with the prefix grainlaw_ ask for."""
+    solver = PETSc.KSP().create(comm)
+    solver.setOperators(matrix)
+    solver.setType("preonly")
+    solver.getPC().setType("lu")
+    solver.getPC().setFactorSolverType("mumps")
+    solver.setOptionsPrefix("grainlaw_")
+    solver.setFromOptions()
+    return solver
+
+
 class Newton:
     """Equilibrium of displacements along a way of loads, by Newton's method; steps are cut and jumps
     crossed as a March decides. The start is evaluated and committed.
@@ -349,13 +361,7 @@ class Newton:
             stiffness -= ufl.derivative(external(v), u, du)
         self._residual, self._stiffness = fem.form(residual), fem.form(stiffness)
         self._matrix = _petsc.create_matrix(self._stiffness)
-        self._solver = PETSc.KSP().create(self.comm)
-        self._solver.setOperators(self._matrix)
-        self._solver.setType("preonly")
-        self._solver.getPC().setType("lu")
-        self._solver.getPC().setFactorSolverType("mumps")
-        self._solver.setOptionsPrefix("grainlaw_")
-        self._solver.setFromOptions()
+        self._solver = direct_solver(self.comm, self._matrix)
         self.correction = fem.Function(V)
         self.march = March(points.states, **march)
         answer = points.evaluate(u)

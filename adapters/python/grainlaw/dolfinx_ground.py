@@ -32,7 +32,7 @@ from petsc4py import PETSc
 
 from .abi import Error
 from .arrays import Array
-from .dolfinx import Elastic, Points, assembled
+from .dolfinx import Elastic, Points, assembled, direct_solver
 from .march import March
 from .material import AnyPath
 from .names import Action, Measure, Status
@@ -257,13 +257,7 @@ class Ground:
         self._internal = fem.form(self.points.stress_power(v))
         self._stiffness = fem.form(self.points.stiffness(du, v))
         self._matrix, self._correction = _petsc.create_matrix(self._stiffness), fem.Function(self.V)
-        self._solver = PETSc.KSP().create(self.comm)
-        self._solver.setOperators(self._matrix)
-        self._solver.setType("preonly")
-        self._solver.getPC().setType("lu")
-        self._solver.getPC().setFactorSolverType("mumps")
-        self._solver.setOptionsPrefix("grainlaw_")
-        self._solver.setFromOptions()
+        self._solver = direct_solver(self.comm, self._matrix)
         self._made = True
 
     def _kept(self) -> tuple[Any, ...]:
