@@ -53,7 +53,7 @@ void add_contact_cases(const PackingStore& store, Cases& cases);
 void add_path_cases(const PackingStore& store, const MaterialSource& yade, Cases& cases);
 // Closed forms, rattlers, units: what P must be.
 void add_exact_cases(const PackingStore& store, Cases& cases);
-// Of spheres: all of these kinds, fewer of each, with what must converge.
+// All of these kinds with spheres, fewer of each, with what must converge.
 void add_sphere_cases(const PackingStore& store, Cases& cases);
 
 // Largest |P - other| over the points of both walks / largest |P| [-].

@@ -65,7 +65,7 @@ struct WalkOf : Course {
   std::vector<PointOf<D>> points;
 };
 
-// Of discs.
+// Walks of discs.
 using Path = PathOf<2>;
 using Point = PointOf<2>;
 using Walk = WalkOf<2>;
