@@ -16,7 +16,7 @@ constexpr int most_halvings = 10;
 constexpr double small_step = 1e-3;        // of the step that failed
 constexpr double longest_answer = 20;      // CPU time of one evaluation; more counts as a hang [s]
 constexpr double loosest_residual = 1e-2;  // that may pass for an equilibrium [-]
-constexpr double no_work = 1e-9;           // of the stored energy: rounding of a rotation [-]
+constexpr double no_work = 1e-6;           // of the stored energy: a rotation, by residuals [-]
 constexpr double dissipation_rounding = 1e-9;  // of the total work [-]
 // What an increment leaves unaccounted counts as a jump beyond this share of the mean work: without
 // a jump it is of second order in the increment, and the mean work of first.
@@ -35,6 +35,19 @@ TensorOf<D> rotation_of(const TensorOf<D>& f) {
   const Eigen::JacobiSVD<Eigen::Matrix<double, D, D>> parts(
       columns, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return parts.matrixU() * parts.matrixV().transpose();
+}
+
+// The logarithm of a rotation: angle times axis, as a skew tensor.
+template <int D>
+TensorOf<D> spin_of(const TensorOf<D>& q) {
+  TensorOf<D> spin = TensorOf<D>::Zero();
+  if constexpr (D == 2) {
+    spin(1, 0) = std::atan2(q(1, 0), q(0, 0));
+  } else {
+    const Eigen::AngleAxisd turn{Eigen::Matrix3d(q)};
+    for (int k = 0; k < 3; ++k) spin((k + 2) % 3, (k + 1) % 3) = turn.angle() * turn.axis()(k);
+  }
+  return spin - spin.transpose().eval();
 }
 
 template <int D>
@@ -183,10 +196,16 @@ class Host {
   }
 
   void account(const EvaluationOf<D>& found, const TensorOf<D>& deformation) {
-    // The rotation of the increment does no work; a trapezoid with it would not know.
-    const TensorOf<D> back = rotation_of<D>(deformation * here_.inverse()).transpose();
-    const TensorOf<D> sum = back * found.stress + stress_;
-    const double work = 0.5 * volume_ * sum.cwiseProduct(back * deformation - here_).sum();
+    // A trapezoid would not know of the rotation of the increment. It does work on the moments of
+    // drag, of which P F^T is skew.
+    const TensorOf<D> turn = rotation_of<D>(deformation * here_.inverse());
+    const TensorOf<D> stress = turn.transpose() * found.stress;
+    const TensorOf<D> stretched = turn.transpose() * deformation;
+    const TensorOf<D> sum = stress + stress_;
+    const TensorOf<D> kirchhoff = stress * stretched.transpose() + stress_ * here_.transpose();
+    const double work = 0.5 * volume_ *
+                        (sum.cwiseProduct(stretched - here_).sum() +
+                         kirchhoff.cwiseProduct(spin_of<D>(turn)).sum());
     walk_.work += work;
     walk_.total_work += std::abs(work);
     const double stored = measure_scalar(state_.get(), GRAINLAW_ELASTIC_ENERGY);
