@@ -179,7 +179,8 @@ static grainlaw_status check(const grainlaw_lending* l, const struct call* call,
   return known ? GRAINLAW_OK : GRAINLAW_BAD_ARGUMENT;
 }
 
-static void evaluate_own(const grainlaw_lending* l, struct call* call, size_t point) {
+static void evaluate_own(grainlaw_lending* l, struct call* call, size_t point) {
+  const double start = processor_time();
   const size_t square = l->square;
   grainlaw_summary one = grainlaw_summary_default();
   const grainlaw_status status = grainlaw_points_evaluate_some(
@@ -188,6 +189,7 @@ static void evaluate_own(const grainlaw_lending* l, struct call* call, size_t po
       call->A == NULL ? NULL : call->A + point * square * square, 0,
       call->statuses == NULL ? NULL : call->statuses + point, report_at(call, point), 1, &one);
   add(call, point, status, &one);
+  l->count.own += processor_time() - start;
 }
 
 /* ---- what is offered ------------------------------------------------------------------------ */

@@ -32,10 +32,11 @@ class Lent(ctypes.Structure):
     bytes: float       #: that it got and gave back for these [byte]
     packing: float     #: processor time of offering, and of taking answers over [s]
     carrying: float    #: processor time of getting points of others and giving them back [s]
+    own: float         #: processor time of evaluating own points [s]
     seconds: float     #: processor time of evaluating points of others [s]
     _fields_ = [("size", ctypes.c_size_t), ("offered", ctypes.c_long), ("lent", ctypes.c_long),
                 ("taken", ctypes.c_long), ("bytes", ctypes.c_double), ("packing", ctypes.c_double),
-                ("carrying", ctypes.c_double), ("seconds", ctypes.c_double)]
+                ("carrying", ctypes.c_double), ("own", ctypes.c_double), ("seconds", ctypes.c_double)]
 
 
 class Lending:

@@ -48,6 +48,7 @@ typedef struct grainlaw_lent {
   double bytes;    /* that it got and gave back for these [byte] */
   double packing;  /* processor time of offering, and of taking answers over [s] */
   double carrying; /* processor time of getting points of others and giving them back [s] */
+  double own;      /* processor time of evaluating own points [s] */
   double seconds;  /* processor time of evaluating points of others [s] */
 } grainlaw_lent;
 
