@@ -492,6 +492,13 @@ static void take_answers(grainlaw_lending* l, struct call* call) {
     if (!l->own[k]) evaluate_own(l, call, l->numbers[k]);
 }
 
+/* Lets MPI answer other ranks, where the network does not do it alone. */
+static void serve(const grainlaw_lending* l) {
+  int arrived = 0;
+  if (l->window != MPI_WIN_NULL)
+    MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, l->comm, &arrived, MPI_STATUS_IGNORE);
+}
+
 /* ---- calls ---------------------------------------------------------------------------------- */
 
 static void evaluate(grainlaw_lending* l, struct call* call) {
@@ -504,7 +511,10 @@ static void evaluate(grainlaw_lending* l, struct call* call) {
   plan(l);
   fit(l);
   if (l->window != MPI_WIN_NULL) offer(l, call);
-  for (size_t k = 0; k < l->kept; ++k) evaluate_own(l, call, l->order[k].number);
+  for (size_t k = 0; k < l->kept; ++k) {
+    evaluate_own(l, call, l->order[k].number);
+    serve(l);
+  }
   if (l->window == MPI_WIN_NULL) return;
   for (int64_t number; (number = take(l, l->rank)) >= 0;) {
     const size_t k = l->offered - 1 - (size_t)number;
