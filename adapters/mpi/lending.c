@@ -12,7 +12,7 @@
 #include <time.h>
 
 /* Share of the ranks' mean time that an owner keeps points for, by what they took last [-]. */
-static const double kept = 0.5;
+static const double own_share = 0.5;
 /* What a point has to take over what its owner spends on moving it; the other rank spends as much [-]. */
 static const double worth = 2;
 /* Room of a point in the window over its bytes, for the answer's contacts and slopes [-]. */
@@ -41,7 +41,7 @@ struct answer { /* P, A where wanted, and the trial are behind it */
 
 struct rank {
   double seconds; /* of all its points, last time */
-  double grows;   /* 1: its window has too little room */
+  int64_t grows;  /* 1: its window has too little room */
 };
 
 struct point {
@@ -65,7 +65,7 @@ struct grainlaw_lending {
   double* left;    /* of each rank, as far as known; 0: nothing to take */
   int64_t* opened; /* evaluation in which a rank was seen to offer last */
   int64_t* asked;  /* round in which it was asked last */
-  /* Of the set's points: */
+  /* One of each of the set's points: */
   size_t points;
   double* seconds;
   struct point* order; /* own ones, then those offered, each the dearest first */
@@ -262,7 +262,7 @@ static void plan(grainlaw_lending* l) {
   for (size_t k = 0; k < l->points; ++k) {
     const struct point one = l->order[k];
     const int lendable = l->material_of == NULL || one.number < l->numbered;
-    if (before >= kept * mean && one.seconds > least && lendable)
+    if (before >= own_share * mean && one.seconds > least && lendable)
       l->numbers[l->offered++] = one.number;
     else
       l->order[l->kept++] = one;
@@ -370,11 +370,10 @@ static size_t evaluate_other(grainlaw_lending* l, const struct slot* slot, doubl
     return 0;
   struct answer answer = {
       .done = 1, .summary = grainlaw_summary_default(), .report = grainlaw_report_default()};
-  grainlaw_status status = GRAINLAW_OK;
   const double start = processor_time();
   answer.status = grainlaw_points_evaluate_some(set, 1, NULL, F, 0, (unsigned)slot->want, P, 0,
-                                                slot->want == 0 ? NULL : A, 0, &status,
-                                                &answer.report, 1, &answer.summary);
+                                                slot->want == 0 ? NULL : A, 0, NULL, &answer.report,
+                                                1, &answer.summary);
   *seconds = processor_time() - start;
   size_t sizes[2];
   const size_t tangent = slot->want == 0 ? 0 : numbers * l->square;
@@ -433,7 +432,7 @@ static void help(grainlaw_lending* l) {
   const double mean = mean_of_ranks(l);
   for (int r = 0; r < l->ranks; ++r) {
     const double seconds = l->all[r].seconds;
-    l->left[r] = r == l->rank || seconds <= kept * mean ? 0 : seconds;
+    l->left[r] = r == l->rank || seconds <= own_share * mean ? 0 : seconds;
     l->asked[r] = 0;
   }
   for (int64_t round = 1; rank_with_most(l, round) >= 0; ++round) {
@@ -502,7 +501,7 @@ static void serve(const grainlaw_lending* l) {
 /* ---- calls ---------------------------------------------------------------------------------- */
 
 static void evaluate(grainlaw_lending* l, struct call* call) {
-  struct rank mine = {0, l->needed > l->room};
+  struct rank mine = {.grows = l->needed > l->room};
   if (call->status == GRAINLAW_OK) grainlaw_points_cost(l->set, l->seconds);
   for (size_t k = 0; k < l->points; ++k) mine.seconds += l->seconds[k];
   MPI_Allgather(&mine, sizeof mine, MPI_BYTE, l->all, sizeof mine, MPI_BYTE, l->comm);
@@ -540,7 +539,7 @@ grainlaw_status grainlaw_lending_evaluate(grainlaw_lending* l, const double* F, 
                       .reports = reports,
                       .found = grainlaw_summary_default()};
   grainlaw_points_share(l->set, 0, NULL, NULL); /* each rank for itself */
-  /* Of no points: tells whether the summary is of a known size. */
+  /* A call for no points tells whether the summary is of a known size. */
   const int unknown = grainlaw_points_evaluate_some(l->set, 0, NULL, NULL, 0, 0, NULL, 0, NULL, 0,
                                                     NULL, NULL, 1, summary) != GRAINLAW_OK;
   grainlaw_status checked = reserve(l) ? check(l, &call, want) : GRAINLAW_OUT_OF_MEMORY;
@@ -600,6 +599,16 @@ static grainlaw_status number_materials(grainlaw_lending* l, const int* material
   return GRAINLAW_OK;
 }
 
+/* Refuses a material of another dimension than the set's points. */
+static grainlaw_status compare_dimension(const grainlaw_lending* l) {
+  size_t components = 0;
+  const grainlaw_status status =
+      grainlaw_points_measure(l->set, GRAINLAW_CAUCHY_STRESS, NULL, &components);
+  if (status != GRAINLAW_OK) return status;
+  const int same = components == l->square * grainlaw_points_size(l->set);
+  return same ? GRAINLAW_OK : GRAINLAW_BAD_ARGUMENT;
+}
+
 /* Makes what a rank needs. `mark`: of all materials. */
 static grainlaw_status make(grainlaw_lending* l, const grainlaw_material* const* materials,
                             const int* material_of, unsigned long long* mark) {
@@ -618,12 +627,13 @@ static grainlaw_status make(grainlaw_lending* l, const grainlaw_material* const*
   for (size_t k = 0; k < l->materials; ++k) {
     unsigned long long fingerprint = 0;
     grainlaw_status status = grainlaw_points_create(materials[k], 1, &l->others[k]);
+    const size_t dimension = (size_t)grainlaw_material_dimension(materials[k]);
+    l->square = dimension * dimension;
+    if (status == GRAINLAW_OK) status = compare_dimension(l);
     if (status == GRAINLAW_OK) status = grainlaw_material_fingerprint(materials[k], &fingerprint);
     if (status != GRAINLAW_OK) return status;
     *mark = *mark * 1099511628211ULL + fingerprint;
   }
-  const size_t dimension = (size_t)grainlaw_material_dimension(materials[0]);
-  l->square = dimension * dimension;
   return number_materials(l, material_of);
 }
 

@@ -1,8 +1,8 @@
 // Trials of points as bytes.
-#include "grainlaw/trials.h"
-
 #include "api/some_points.hpp"
 #include "points/serialise_trials.hpp"
+
+#include <grainlaw/trials.h>
 
 using namespace grainlaw::core;
 

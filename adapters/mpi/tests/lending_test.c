@@ -1,9 +1,9 @@
 /* Points that ranks lend have the bits of those that they do not:
  *
- *   mpirun -n RANKS lending_test MATERIAL.toml OTHER.toml
+ *   mpirun -n RANKS lending_test MATERIAL.toml OTHER.toml WRONG.toml
  *
- * Rank 0 has nearly all points, the last of several has none. Every third point is of the other material, of
- * the same dimension. */
+ * Rank 0 has nearly all points, the last of several has none. Every third point is of the other material;
+ * the third is of the other dimension. */
 #include <grainlaw/lending.h>
 
 #include <math.h>
@@ -227,7 +227,7 @@ static void compare(const grainlaw_material* const* materials, const int* materi
 }
 
 /* What create() refuses, the same on all ranks. */
-static void refuse(const grainlaw_material* const* materials) {
+static void refuse(const grainlaw_material* const* materials, const grainlaw_material* other) {
   const int comm = MPI_Comm_c2f(MPI_COMM_WORLD), last = rank == ranks - 1;
   const int wrong[1] = {2};
   char message[256] = "";
@@ -246,6 +246,8 @@ static void refuse(const grainlaw_material* const* materials) {
                                   0) == GRAINLAW_BAD_ARGUMENT);
   require(grainlaw_lending_create(comm, set, 0, materials, NULL, &lending, NULL, 0) ==
           GRAINLAW_BAD_ARGUMENT);
+  require(grainlaw_lending_create(comm, set, 1, &other, NULL, &lending, NULL, 0) ==
+          GRAINLAW_BAD_ARGUMENT);
   require(lending == NULL);
   require(grainlaw_lending_evaluate(NULL, NULL, 0, NULL, NULL, NULL, NULL, NULL) ==
           GRAINLAW_NULL_POINTER);
@@ -261,18 +263,20 @@ int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  require(argc == 3);
+  require(argc == 4);
   grainlaw_material *first = read_material(argv[1]), *second = read_material(argv[2]);
+  grainlaw_material* const third = read_material(argv[3]);
   const grainlaw_material* const materials[2] = {first, second};
   const size_t d = (size_t)grainlaw_material_dimension(first);
   square = d * d;
   points = rank == 0 ? most : rank == ranks - 1 ? 0 : 2;
   int material_of[most];
   for (int k = 0; k < most; ++k) material_of[k] = k % 3 == 2;
-  refuse(materials);
+  refuse(materials, third);
   compare(materials, material_of);
   grainlaw_material_destroy(first);
   grainlaw_material_destroy(second);
+  grainlaw_material_destroy(third);
   MPI_Finalize();
   return 0;
 }

@@ -18,7 +18,7 @@ typedef struct grainlaw_lending grainlaw_lending;
  * all are of the first. The set is shared (grainlaw_points_share) and has to outlive the handle.
  * message (may be NULL) receives a zero-terminated text, truncated to message_size bytes. Errors, the
  * same on all ranks: NULL_POINTER, BAD_HANDLE, BAD_ARGUMENT (numbers, or MPI is not running),
- * WRONG_MATERIAL, OUT_OF_MEMORY. On any error *out is NULL. */
+ * WRONG_MATERIAL, OUT_OF_MEMORY. On any error *out is NULL, and the set is not shared. */
 GRAINLAW_API grainlaw_status grainlaw_lending_create(int communicator, grainlaw_points* set,
                                                      size_t n,
                                                      const grainlaw_material* const* materials,

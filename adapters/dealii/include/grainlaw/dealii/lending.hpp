@@ -9,8 +9,8 @@
 
 namespace grainlaw::dealii {
 
-// As long as it lives, ranks that are done with their own points evaluate points of others, with the same
-// bits. Made and ended by all ranks together, within the life of the points and of no exception alone.
+// While it lives, ranks that are done with their own points evaluate points of others, with the same bits.
+// All ranks make and end it together, within the life of the points.
 template <int dim>
 class Lending {
  public:
@@ -37,7 +37,7 @@ class Lending {
   }
   ~Lending() {
     points_.evaluate_ = nullptr;
-    if (std::uncaught_exceptions() > 0) return;  // of this rank alone, perhaps: others do not come
+    if (std::uncaught_exceptions() > 0) return;  // others may not come
     grainlaw_lending_destroy(handle_);
     points_.share();
   }
