@@ -57,6 +57,7 @@ class Ground:
     surface   height of the ground [m]
     order     of the displacements, 1 or 2
     rehearse  whether all layers are elastic
+    lend      whether ranks lend each other points, as of Points
     march     options of March, as tolerance=1e-9: |force on the unknowns| / |nodal forces of P| [-]
 
     What is wrong with layers raises ValueError, or Error for a file."""
@@ -66,12 +67,12 @@ class Ground:
     unit_weights: Array                  #: of the layers, from their void ratio [N/m3]
 
     def __init__(self, domain: Any, surface: float, layers: Sequence[Layer], gravity: float = 9.81,
-                 order: int = 1, rehearse: bool = False, **march: float) -> None:
+                 order: int = 1, rehearse: bool = False, lend: bool = False, **march: float) -> None:
         _check(domain, surface, layers, gravity)
         self.domain, self.comm, self.dimension = domain, domain.comm, domain.topology.dim
         self.layers, self.gravity, self._options = list(layers), gravity, {"tolerance": 1e-9, **march}
         self._tops = [surface] + [layer.bottom for layer in layers[:-1]]
-        self._order, self._up = order, self.dimension - 1
+        self._order, self._up, self._lend = order, self.dimension - 1, lend
         self._sand_on_top = not isinstance(layers[0].material, Elastic)
         laws: list[Any] = [layer.material if isinstance(layer.material, Elastic) else
                            read_material(self.comm, layer.material) for layer in layers]
@@ -249,7 +250,8 @@ class Ground:
         self._tell_pulled((self._load.x.array > 0) & self._of_up(), self._load.x.array)
         bottoms = np.array([layer.bottom for layer in self.layers])
         self.points = Points(self.domain, self._laws, 1 if self._order == 1 else 2,
-                             lambda x: np.asarray(np.sum(x[self._up] < bottoms[:-1, None], axis=0)))
+                             lambda x: np.asarray(np.sum(x[self._up] < bottoms[:-1, None], axis=0)),
+                             lend=self._lend)
         self.march = March(self.points.states, **self._options)
         nothing = np.zeros(len(self.points.layer))
         self._unit, self._gone = self.points.scalars(nothing), self.points.scalars(nothing)
