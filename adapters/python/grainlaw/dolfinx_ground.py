@@ -106,13 +106,14 @@ class Ground:
         # unknowns are. Of each unknown: its place at first and its component, of a pressure the last.
         self.u, self._load, self._ramp, self._target, self._held = (fem.Function(self.V) for _ in range(5))
         self._places, self._component = _unknowns(self.V, self.dimension, water is not None)
-        self.fraction, self._made, self._checked = 0.0, False, False
+        self.fraction, self._made = 0.0, False
+        self._checked: bool | None = None   # whether water flowed when what is held was checked
 
     def hold(self, where: Region, component: int, value: float = 0.0) -> None:
         """Nodes of a region are held, or moved by so much over the run [m]."""
         dofs = self._nodes(where, component, "hold")
         self._held.x.array[dofs], self._target.x.array[dofs] = 1, value
-        self._checked = False
+        self._checked = None
 
     def release(self, where: Region, component: int) -> None:
         """Of a stage: what holds the nodes of a region goes, and its force fades over the run."""
@@ -132,7 +133,7 @@ class Ground:
         dofs = self._nodes(where, self._pore(), "drain")
         self._held.x.array[dofs] = 1
         self._target.x.array[dofs] = value - self.u.x.array[dofs]
-        self._checked = False
+        self._checked = None
         if self._sand_on_top:
             lift = self._lift()
             later = lift + self._load.x.array + self._ramp.x.array
@@ -146,7 +147,7 @@ class Ground:
         if self.comm.allreduce(len(dofs)) == 0:
             raise ValueError("seal: nothing is drained there")
         self._held.x.array[dofs] = self._target.x.array[dofs] = 0
-        self._checked = False
+        self._checked = None
 
     def traction(self, side: Region, component: int, value: float) -> None:
         """Force per area of a side at first [Pa], which comes over the run of a stage, and before
@@ -226,9 +227,11 @@ class Ground:
         """To a fraction of the run from where it stands, by Newton's method in as many parts as it takes;
         from 0 to 0 loads come to act. Yields the march at the end of each part. Raises StepError where the
         smallest part fails too."""
-        if not self._checked:
-            self._check_held()
         check_time(self.step_time)
+        flows = bool(self.step_time > 0 and fraction != self.fraction)
+        if self._checked is not flows:   # held is what was since, or water flows from now on
+            self._check_held(flows)
+            self._checked = flows
         march, points, u = self.march, self.points, self.u.x.array
         committed, length = u.copy(), fraction - self.fraction
         farthest = committed
@@ -270,7 +273,6 @@ class Ground:
         self.points.remove(self.points.values(self._gone) > 0.5)
         if self._flow is not None:
             self._flow.hold()
-        self._checked = True
         unit, layer = self.points.values(self._unit), self.points.layer
         self.unit_weights = np.array([unit[layer == k].max(initial=0) for k in range(len(self.layers))])
         self.comm.Allreduce(MPI.IN_PLACE, self.unit_weights, MPI.MAX)
@@ -328,11 +330,15 @@ class Ground:
         points, count = self.points, len(self.layers)
         solid = np.ones(len(points.layer))
         solid[points.grains] = 1 / (1 + points.states.measure(Measure.VOID_RATIO))
-        of_cell = ufl.TestFunction(fem.FunctionSpace(self.domain, ("DG", 0)))
-        cells = assembled(fem.form(of_cell * points.dx))
-        volume = np.repeat(cells, len(solid) // max(len(cells), 1))
-        sums = self.comm.allreduce(np.array([[solid[points.layer == k] @ volume[points.layer == k],
-                                              volume[points.layer == k].sum()] for k in range(count)]))
+        values = points.scalars(solid)
+        integral = fem.form(values * points.dx)
+
+        def integrate(of_points: Array) -> float:
+            values.x.array[:] = points.scalars(of_points).x.array
+            return float(fem.assemble_scalar(integral))
+
+        sums = self.comm.allreduce(np.array([[integrate(solid * (points.layer == k)),
+                                              integrate(points.layer == k)] for k in range(count)]))
         shares = np.divide(sums[:, 0], sums[:, 1], out=np.ones(count), where=sums[:, 1] > 0)
         weights: Array = self.gravity * np.array([layer.solid for layer in self.layers]) * shares
         return weights
@@ -345,7 +351,7 @@ class Ground:
 
     def _lead(self, weights: Array, surcharge: float, share: float, **how: Any) -> None:
         points = self.points
-        vertical = -share * (surcharge + self._pressure(points.x[:, self._up], weights))
+        vertical = _alike(-share * (surcharge + self._pressure(points.x[:, self._up], weights)))
         lateral = np.ones(len(vertical))
         for k, law in enumerate(self._laws):
             if isinstance(law, Elastic):
@@ -459,14 +465,15 @@ class Ground:
         around: Array = counts.x.array
         return around
 
-    def _check_held(self) -> None:
+    def _check_held(self, flows: bool = True) -> None:
         """That each part of the mesh that hangs together is held in every component, and that its pore
-        pressure is determined: by a drained side, or by displacements that change the volume."""
+        pressure is determined: by a drained side if water flows, or by displacements that change the
+        volume."""
         index, bs, own = self.V.dofmap.index_map, self.V.dofmap.index_map_bs, self.owned
         numbers = (index.local_to_global(np.arange(len(self._component) // bs, dtype=np.int32))[:, None] * bs
                    + np.arange(bs)).ravel()
         held, component = self._held.x.array[:own] > 0, self._component[:own]
-        firm = held & (component == self.dimension)   # determines the pressure around
+        firm = held & (component == self.dimension) & flows   # determines the pressure around
         if self._water is not None:
             firm |= ~held & self._changes_volume()[:own]
         everywhere = self.comm.allgather((numbers[self._left()], firm, held, component, self._places[:own]))
@@ -488,8 +495,7 @@ class Ground:
             if loose.size:
                 raise ValueError("nothing determines the pore pressure around "
                                  f"{_place(places[loose[0]])}: no side is drained, water is incompressible and "
-                                 "no displacement changes the volume; expected drain()")
-        self._checked = True
+                                 "no displacement changes the volume; expected drain(), and step_time above 0")
 
     def _changes_volume(self) -> npt.NDArray[np.bool_]:
         """Which unknowns change the volume of what is left."""
@@ -537,8 +543,15 @@ def _unknowns(V: Any, dimension: int, water: bool) -> tuple[Array, npt.NDArray[n
     return places, component
 
 
+def _alike(values: Array) -> Array:
+    """With 12 digits: points at one depth have the same bits on any number of ranks, and are led once."""
+    digits = 10.0**(11 - np.floor(np.log10(np.abs(np.where(values == 0, 1, values)))))
+    rounded: Array = np.round(values * digits) / digits
+    return rounded
+
+
 def _place(x: Array) -> str:
-    return "(" + ", ".join(f"{value:g}" for value in x) + ") m"
+    return "(" + ", ".join(f"{round(value, 12) + 0:g}" for value in x) + ") m"
 
 
 def _check_pores(layers: Sequence[Layer]) -> None:
