@@ -81,9 +81,8 @@ def rows(ground, step):
 
 def volume(ground):
     """Of what has not left [m2]."""
-    there, u = 1 - ground._gone, ufl.split(ground.u)[0]
-    own = fem.assemble_scalar(fem.form(there * ufl.det(ufl.Identity(2) + ufl.grad(u)) * ground.points.dx))
-    return ground.comm.allreduce(own)
+    there, F = ground.points.scalars(~ground.points.gone), ufl.Identity(2) + ufl.grad(ufl.split(ground.u)[0])
+    return ground.comm.allreduce(fem.assemble_scalar(fem.form(there * ufl.det(F) * ground.points.dx)))
 
 
 def main(sand, output=None):
@@ -92,7 +91,7 @@ def main(sand, output=None):
     table, volumes = [rows(ground, 0)], [volume(ground)]
     for step, part in enumerate(dig(ground), 1):
         now, left = rows(ground, step), ground.out_of_balance() / weight
-        heave = COMM.allreduce(ground.u.x.array[ground._component == 1].max(), MPI.MAX)
+        heave = COMM.allreduce(ground.moved(lambda x: x[1] > -9, 1).max(), MPI.MAX)
         tell(f"step {step}: pore pressure from {now[:, 7].min():.6g} to {now[:, 7].max():.6g} Pa, heave "
              f"{1e3 * heave:.6g} mm, out of balance {left:.1e} of the weight, {part.solves} iterations, "
              f"{part.cuts} cuts")

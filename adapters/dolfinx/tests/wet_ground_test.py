@@ -1,4 +1,4 @@
-"""Ground with pore water and stages on any number of ranks:  wet_ground_test.py SAND.toml"""
+"""Ground with pore water and stages on any number of ranks:  wet_ground_test.py SAND.toml BONDED.toml"""
 import importlib.util
 import os
 import pathlib
@@ -17,7 +17,7 @@ from grainlaw.dolfinx_water import PoreWater
 import wet_pit
 
 COMM = MPI.COMM_WORLD
-SAND = sys.argv[1]
+SAND, BONDED = sys.argv[1:3]
 WATER = PoreWater(permeability=1e-9)
 BUOYANT = 2650 - 1000
 
@@ -34,12 +34,12 @@ def everywhere(x):
     return x[0] > -1
 
 
-def column(comm=COMM, sides=everywhere, **how):
+def column(material=SAND, **how):
     """Three metres of ground that moves along y alone."""
-    domain = mesh.create_rectangle(comm, [[0, -3], [1, 0]], [1, 3], mesh.CellType.triangle)
-    ground = Ground(domain, 0, [Layer(-3, SAND, BUOYANT)], water=WATER, **{"tolerance": 1e-11, **how})
+    domain = mesh.create_rectangle(COMM, [[0, -3], [1, 0]], [1, 3], mesh.CellType.triangle)
+    ground = Ground(domain, 0, [Layer(-3, material, BUOYANT)], water=WATER, tolerance=1e-11, **how)
     ground.hold(base, 1)
-    ground.hold(sides, 0)
+    ground.hold(everywhere, 0)
     return ground
 
 
@@ -87,7 +87,7 @@ class Stages(unittest.TestCase):
         self.assertLess(ground.out_of_balance(), 1e-6 * ground.weight())
 
     def test_loads_and_supports_come_and_go_and_the_water_carries_them_first(self):
-        ground, load = resting(), 5e3
+        ground, load = resting(material=BONDED), 5e3
         weight = ground.weight()
         ground.stage()
         ground.traction(top, 1, -load)

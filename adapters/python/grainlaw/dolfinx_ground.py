@@ -85,7 +85,7 @@ class Ground:
         self.domain, self.comm, self.dimension = domain, domain.comm, domain.topology.dim
         self.layers, self.gravity, self._options = list(layers), gravity, {"tolerance": 1e-9, **march}
         self._tops = [surface] + [layer.bottom for layer in layers[:-1]]
-        self._up, self._water = self.dimension - 1, water
+        self._up, self.water = self.dimension - 1, water   #: in the pores, or None
         self._degree = degree or (1 if order == 1 and water is None else 2)
         self._sand_on_top = not isinstance(layers[0].material, Elastic)
         laws: list[Any] = [layer.material if isinstance(layer.material, Elastic) else
@@ -293,6 +293,25 @@ class Ground:
         left = np.abs(self._residual_function(self.fraction).x.array) * free
         return float(self.comm.allreduce(left.max(initial=0), MPI.MAX))
 
+    def imbalance(self) -> float:
+        """out_of_balance() over the largest nodal force of the stresses [-]."""
+        largest = float(np.abs(assembled(self._internal)).max(initial=0))
+        return self.out_of_balance() / float(self.comm.allreduce(largest, MPI.MAX))
+
+    def displacement(self) -> Any:
+        """A function of the displacements alone [m]."""
+        return self.u if self.water is None else self.u.sub(0).collapse()
+
+    def pore_pressure(self) -> Any:
+        """A function of the pressures alone [Pa]."""
+        self._pore()
+        return self.u.sub(1).collapse()
+
+    def moved(self, where: Region, component: int) -> Array:
+        """Displacements of nodes of a region, of this rank and its ghosts, which may be none [m]."""
+        moved: Array = self.u.x.array[self._nodes(where, component, "moved")]
+        return moved
+
     def force(self, where: Region, component: int) -> float:
         """That holds the nodes of a region [N, 2D: N/m]."""
         dofs = self._nodes(where, component, "force")
@@ -308,8 +327,8 @@ class Ground:
         self.march = March(self.points.states, **self._options)
         nothing = np.zeros(len(self.points.layer))
         self._unit, self._gone = self.points.scalars(nothing), self.points.scalars(nothing)
-        self._flow = (None if self._water is None else
-                      PoreFlow(self.points, self.u, self._water, there=1 - self._gone))
+        self._flow = (None if self.water is None else
+                      PoreFlow(self.points, self.u, self.water, there=1 - self._gone))
         v, du = ufl.TestFunction(self.V), ufl.TrialFunction(self.V)
         power, stiffness, volumes = self._stress_power(v), self.points.stiffness(du, v), None
         if self._flow is not None:
@@ -372,7 +391,7 @@ class Ground:
 
     def _pore(self) -> int:
         """The component of pressures."""
-        if self._water is None:
+        if self.water is None:
             raise ValueError("the ground has no pore water, expected water=PoreWater(...)")
         return self.dimension
 
@@ -384,7 +403,7 @@ class Ground:
 
     def _lift(self) -> Array:
         """Nodal forces of the water that will stand at drained sides below the sky, upward [N]."""
-        if self._water is None:
+        if self.water is None:
             return np.zeros(len(self._load.x.array))
         later = fem.Function(self.V)
         drained = (self._held.x.array > 0) & (self._component == self.dimension)
@@ -474,7 +493,7 @@ class Ground:
                    + np.arange(bs)).ravel()
         held, component = self._held.x.array[:own] > 0, self._component[:own]
         firm = held & (component == self.dimension) & flows   # determines the pressure around
-        if self._water is not None:
+        if self.water is not None:
             firm |= ~held & self._changes_volume()[:own]
         everywhere = self.comm.allgather((numbers[self._left()], firm, held, component, self._places[:own]))
         cells, firm, held, component, places = (np.concatenate([part[k] for part in everywhere])
@@ -490,7 +509,7 @@ class Ground:
             loose = np.setdiff1d(there, part[held & (component == k)])
             if loose.size:
                 raise ValueError(f"nothing holds component {k} of what is around {_place(places[loose[0]])}")
-        if self._water is not None and math.isinf(self._water.bulk_modulus):
+        if self.water is not None and math.isinf(self.water.bulk_modulus):
             loose = np.setdiff1d(there, part[firm])
             if loose.size:
                 raise ValueError("nothing determines the pore pressure around "
