@@ -23,7 +23,7 @@ void keep_slopes(const Problem<D>& problem, std::span<const ByDeformation<D>> mo
                  std::vector<float>& slopes) {
   const std::size_t nodes = problem.nodes();
   const auto components = static_cast<std::size_t>(problem.components());
-  resize_with_capacity(slopes, lanes_of_change<D> * motion.size(), state_capacity);
+  slopes.resize(lanes_of_change<D> * motion.size());
   auto at = slopes.begin();
   for (std::size_t lane = 0; lane < lanes_of_change<D>; ++lane) {
     for (std::size_t k = 0; k < components; ++k) {

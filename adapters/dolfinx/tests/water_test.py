@@ -116,7 +116,7 @@ class Water(unittest.TestCase):
                 points = Points(domain, read_material(COMM, material), degree=2)
                 newton = WaterNewton(points, w, [], lambda load: None, PoreWater(1e-9, 1e9, True))
                 points.set_time_step(1)
-                newton._time.value = 10
+                newton.flow.time.value = 10
                 pore = np.zeros(len(w.x.array), bool)
                 pore[w.function_space.sub(1).collapse()[1]] = True
                 chance = np.random.default_rng(7)
@@ -178,7 +178,7 @@ class Water(unittest.TestCase):
         list(whole.to(1))
         half = element(water)
         half.load("water.h5")
-        self.assertLess(np.abs(half._solid.x.array - whole._solid.x.array).max(), 1e-12)
+        self.assertLess(np.abs(half.flow.solid.x.array - whole.flow.solid.x.array).max(), 1e-12)
         COMM.Barrier()
         if COMM.rank == 0:
             os.unlink("water.h5")

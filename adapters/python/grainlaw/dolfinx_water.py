@@ -36,7 +36,9 @@ from .march import March
 from .material import AnyPath
 from .names import Measure, Status
 
-__all__ = ["PoreWater", "WaterNewton", "check_drainage", "water_space"]
+_ELASTIC_SHARE = 0.5   # solid share of points in closed form, as of a rehearsal
+
+__all__ = ["PoreFlow", "PoreWater", "WaterNewton", "check_drainage", "water_space"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -63,6 +65,60 @@ def water_space(domain: Any) -> Any:
                                                       ufl.FiniteElement("Lagrange", cell, 1)))
 
 
+class PoreFlow:
+    """The forms of water in the pores of points, and what they count from.
+
+    w      a function of water_space(), with ghosts
+    there  1 where points are, a quadrature function"""
+
+    former: Any   #: w at the end of the last part of a step
+    time: Any     #: that passes in this one, a constant [s]
+    solid: Any    #: volume of the grains over that of each point at F = I, a quadrature function [-]
+    scale: Any    #: stress that an error of volume counts as, the same at all points [Pa/m]
+
+    def __init__(self, points: Points, w: Any, water: PoreWater, there: Any = 1) -> None:
+        self._points, self._w, self._water, self._there = points, w, water, there
+        self.former, self.time = fem.Function(w.function_space), fem.Constant(points.domain, 0.0)
+        nothing = np.zeros(len(points.layer))
+        self.solid, self.scale = points.scalars(nothing), points.scalars(nothing)
+        self.hold()
+
+    def hold(self) -> None:
+        """What comes from now on counts from w."""
+        self.former.x.array[:] = self._w.x.array
+
+    def weigh(self) -> None:
+        """Take the solid shares from the committed points, at w."""
+        self.solid.x.array[:] = self._points.scalars(_solid_shares(self._points, self._w)).x.array
+
+    def measure(self) -> None:
+        """Take the scale from the tangents of the points."""
+        points = self._points
+        scale = _modulus(points) / _size(points)
+        self.scale.x.array[:] = points.scalars(np.full(len(points.layer), scale)).x.array
+
+    def push(self, test: Any, mark: Any = 1) -> Any:
+        """The work of the pressure, of marked points."""
+        F, p = _gradient(self._w), ufl.split(self._w)[1]
+        cofactor = ufl.det(F) * ufl.inv(F).T
+        return -mark * self._there * p * ufl.inner(cofactor, ufl.grad(ufl.split(test)[0])) * self._points.dx
+
+    def came(self, test: Any) -> Any:
+        """The volume of water that came and flowed, as the stress that it makes."""
+        F, s, k = _gradient(self._w), self.solid, self._water.permeability
+        J, p, q = ufl.det(F), ufl.split(self._w)[1], ufl.split(test)[1]
+        former_J, former_p = ufl.det(_gradient(self.former)), ufl.split(self.former)[1]
+        if self._water.kozeny_carman:
+            k *= ((J - s) / (1 - s))**3 / J
+        left = former_J - s
+        if math.isfinite(self._water.bulk_modulus):
+            left *= ufl.exp((former_p - p) / self._water.bulk_modulus)
+        f = ufl.inv(F)
+        flow = k * J * f * f.T * ufl.grad(p)
+        return self._there * self.scale * ((J - s - left) * q
+                                           + self.time * ufl.inner(flow, ufl.grad(q))) * self._points.dx
+
+
 class WaterNewton(Newton):
     """Newton with pore water. A side without a condition on the pressure is sealed.
 
@@ -75,61 +131,44 @@ class WaterNewton(Newton):
     Error as it does, and where nothing determines the pressure."""
 
     step_time: float = 0   #: that passes in a load step [s], in a part of it so much less; 0: undrained
+    flow: PoreFlow
 
     def __init__(self, points: Points, w: Any, conditions: Sequence[Any], apply: Callable[[float], None],
                  water: PoreWater, external: Callable[[Any], Any] | None = None,
                  tell: Callable[[str], object] | None = None, **march: float) -> None:
-        self.water, self._former = water, fem.Function(w.function_space)
-        self._former.x.array[:] = w.x.array
+        self.flow = PoreFlow(points, w, water)
         self._set_load, self._length = apply, 0.0
-        self._time, self._scale = (fem.Constant(points.domain, 0.0) for _ in range(2))
-        self._solid = points.scalars(_solid_shares(points, w))
+        self.flow.weigh()
         check_drainage(w, conditions, water)
         super().__init__(points, w, conditions, self._apply_with_time, external=lambda test:
-                         (external(ufl.split(test)[0]) if external else 0) - self._came(test),
-                         internal=self._push, tell=tell, **march)
-        self._scale.value = _modulus(points) / _size(points)
+                         (external(ufl.split(test)[0]) if external else 0) - self.flow.came(test),
+                         internal=self.flow.push, tell=tell, **march)
+        self.flow.measure()
 
     def to(self, load: float) -> Iterator[March]:
         """As Newton.to, in step_time; from 0 to 0 no time passes."""
-        if not 0 <= self.step_time < math.inf:
-            raise Error(Status.BAD_ARGUMENT, f"step_time is {self.step_time} s, expected at least 0")
+        check_time(self.step_time)
         self._length = load - self.march.reached
         for part in super().to(load):
-            self._former.x.array[:] = self.u.x.array
+            self.flow.hold()
             yield part
 
     def load(self, path: AnyPath) -> None:
         """As Newton.load."""
         super().load(path)
-        self._solid.x.array[:] = self.points.scalars(_solid_shares(self.points, self.u)).x.array
-        self._former.x.array[:] = self.u.x.array
+        self.flow.weigh()
+        self.flow.hold()
 
     def _apply_with_time(self, load: float) -> None:
         passed = (load - self.march.reached) / self._length if self._length else 0
-        self._time.value = self.step_time * passed
+        self.flow.time.value = self.step_time * passed
         self._set_load(load)
 
-    def _push(self, test: Any) -> Any:
-        """The work of the pressure."""
-        F, p = _gradient(self.u), ufl.split(self.u)[1]
-        cofactor = ufl.det(F) * ufl.inv(F).T
-        return -p * ufl.inner(cofactor, ufl.grad(ufl.split(test)[0])) * self.points.dx
 
-    def _came(self, test: Any) -> Any:
-        """The volume of water that came and flowed, as the stress that it makes."""
-        F, s, k = _gradient(self.u), self._solid, self.water.permeability
-        J, p, q = ufl.det(F), ufl.split(self.u)[1], ufl.split(test)[1]
-        former_J, former_p = ufl.det(_gradient(self._former)), ufl.split(self._former)[1]
-        if self.water.kozeny_carman:
-            k *= ((J - s) / (1 - s))**3 / J
-        left = former_J - s
-        if math.isfinite(self.water.bulk_modulus):
-            left *= ufl.exp((former_p - p) / self.water.bulk_modulus)
-        f = ufl.inv(F)
-        flow = k * J * f * f.T * ufl.grad(p)
-        return self._scale * ((J - s - left) * q
-                              + self._time * ufl.inner(flow, ufl.grad(q))) * self.points.dx
+def check_time(step_time: float) -> None:
+    """Raises Error for a time that does not pass."""
+    if not 0 <= step_time < math.inf:
+        raise Error(Status.BAD_ARGUMENT, f"step_time is {step_time} s, expected at least 0")
 
 
 def _gradient(w: Any) -> Any:
@@ -139,7 +178,10 @@ def _gradient(w: Any) -> Any:
 
 def _solid_shares(points: Points, w: Any) -> Array:
     """Volume of the grains over that of each point at F = I [-]."""
-    return points.values(ufl.det(_gradient(w))) / (1 + points.states.measure(Measure.VOID_RATIO))
+    solid = np.full(len(points.layer), _ELASTIC_SHARE)
+    J = points.values(ufl.det(_gradient(w)))[points.grains]
+    solid[points.grains] = J / (1 + points.states.measure(Measure.VOID_RATIO))
+    return solid
 
 
 def check_drainage(w: Any, conditions: Sequence[Any], water: PoreWater) -> None:
@@ -174,5 +216,5 @@ def _modulus(points: Points) -> float:
 def _size(points: Points) -> float:
     """Mean distance of points [m]."""
     one = fem.form(fem.Constant(points.domain, 1.0) * points.dx)
-    volume = points.comm.allreduce(np.array([fem.assemble_scalar(one), len(points.states)]))
+    volume = points.comm.allreduce(np.array([fem.assemble_scalar(one), len(points.layer)]))
     return float((volume[0] / volume[1])**(1 / points.dimension))
