@@ -320,7 +320,9 @@ class Ground:
 
     def _make(self) -> None:
         """Points of the layers, and what is assembled over them."""
-        self._tell_pulled((self._load.x.array > 0) & self._of_up(), self._load.x.array)
+        load = self._load.x.array
+        largest = self.comm.allreduce(np.abs(load).max(initial=0.0), MPI.MAX)
+        self._tell_pulled((load > 1e-9 * largest) & self._of_up(), load)
         bottoms = np.array([layer.bottom for layer in self.layers])
         self.points = Points(self.domain, self._laws, self._degree,
                              lambda x: np.asarray(np.sum(x[self._up] < bottoms[:-1, None], axis=0)))
