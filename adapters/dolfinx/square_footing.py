@@ -89,11 +89,11 @@ def main():
         borne, left = ground.force(base, 2) / (loads + footing), ground.imbalance()
         pressure = of.surcharge + footing / FOOT**2
         settled, core = 2 * of.settlement * FOOT * step / of.steps, COMM.allreduce(time.process_time())
-        text += (f"{settled:.15g},{pressure:.15g},{pressure / of.surcharge:.15g},{borne:.15g},{left:.3g},{solves},"
-                 f"{cuts},{core:.1f}\n")
+        ratio = pressure / of.surcharge
+        text += f"{settled:.15g},{pressure:.15g},{ratio:.15g},{borne:.15g},{left:.3g},{solves},{cuts},{core:.1f}\n"
         if COMM.rank == 0:
-            print(f"settlement {1e3 * settled:.6g} mm: {pressure / of.surcharge:.6g} surcharges, the base bears "
-                  f"{borne:.9g} of the loads, out of balance {left:.1e}, {solves} iterations, {cuts} cuts", flush=True)
+            print(f"settlement {1e3 * settled:.6g} mm: {ratio:.6g} surcharges, the base bears {borne:.9g} of the "
+                  f"loads, out of balance {left:.1e}, {solves} iterations, {cuts} cuts", flush=True)
             write_whole(of.output + ".csv", text)
         assert abs(borne - 1) < 1e-6
     write_fields(ground, of.output + ".xdmf")

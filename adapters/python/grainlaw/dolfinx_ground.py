@@ -395,7 +395,7 @@ class Ground:
         """The component of pressures."""
         if self.water is None:
             raise ValueError("the ground has no pore water, expected water=PoreWater(...)")
-        return self.dimension
+        return int(self.dimension)
 
     def _stress_power(self, v: Any, mark: Any = 1) -> Any:
         """The form of the work of grains and water in a test function, of marked points."""
@@ -467,7 +467,8 @@ class Ground:
         """Unknowns of the own cells (n, k)."""
         dofmap, owned = self.V.dofmap, self.domain.topology.index_map(self.dimension).size_local
         blocks = dofmap.list.array.reshape(-1, dofmap.dof_layout.num_dofs)[:owned].astype(np.int64)
-        return (blocks[:, :, None] * dofmap.bs + np.arange(dofmap.bs)).reshape(owned, -1)
+        unknowns: npt.NDArray[np.int64] = blocks[:, :, None] * dofmap.bs + np.arange(dofmap.bs)
+        return unknowns.reshape(owned, -1)
 
     def _left(self) -> npt.NDArray[np.int64]:
         """Unknowns of the own cells that have a point left (n, k)."""
@@ -537,8 +538,8 @@ class Ground:
         return along & self._sand_on_top
 
     def _tell_pulled(self, pulled: npt.NDArray[np.bool_], force: Array) -> None:
-        self._tell(pulled, lambda k: f"the node at {_place(self._places[k])} is pulled up by {force[k]:g} N: the surface "
-                                     "would be in tension")
+        self._tell(pulled, lambda k: f"the node at {_place(self._places[k])} is pulled up by {force[k]:g} N: the "
+                                     "surface would be in tension")
 
     def _tell(self, wrong: npt.NDArray[np.bool_], text: Callable[[int], str]) -> None:
         """Raises ValueError on all ranks with the text of the first unknown that is wrong."""
