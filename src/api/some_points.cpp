@@ -37,65 +37,75 @@ SomePoints distinct_points(grainlaw_points& set, std::size_t n, const std::size_
   return some;
 }
 
-}  // namespace grainlaw::core::api
-
-namespace {
-
 bool all_in(const grainlaw_points& set, std::size_t n, const std::size_t* which) {
   const std::size_t size = set.points.size();
   if (which == nullptr) return n <= size;
   return std::all_of(which, which + n, [=](std::size_t k) { return k < size; });
 }
 
-}  // namespace
-
-grainlaw_status grainlaw_points_save_some(const grainlaw_points* handle, size_t n,
-                                          const size_t* which, void* bytes, size_t* offsets) {
-  if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
+grainlaw_status save_each(const grainlaw_points* handle, std::size_t n, const std::size_t* which,
+                          void* bytes, std::size_t* offsets, const SizeOf& size_of,
+                          const SaveOne& save) {
+  if (const auto status = check_handle(handle); status != GRAINLAW_OK) return status;
   if (offsets == nullptr) return GRAINLAW_NULL_POINTER;
   if (!all_in(*handle, n, which)) return GRAINLAW_BAD_ARGUMENT;
-  return api::guarded([&] {
+  return guarded([&] {
     const auto point = [&](std::size_t k) -> const IntegrationPoint& {
       return *handle->points[which == nullptr ? k : which[k]];
     };
     if (bytes == nullptr) {
       offsets[0] = 0;
-      for (std::size_t k = 0; k < n; ++k) offsets[k + 1] = offsets[k] + saved_size(point(k));
+      for (std::size_t k = 0; k < n; ++k) offsets[k + 1] = offsets[k] + size_of(point(k));
       return GRAINLAW_OK;
     }
     for (std::size_t k = 0; k < n; ++k)
-      if (offsets[k + 1] - offsets[k] != saved_size(point(k))) return GRAINLAW_BUFFER_TOO_SMALL;
+      if (offsets[k + 1] - offsets[k] != size_of(point(k))) return GRAINLAW_BUFFER_TOO_SMALL;
     for (std::size_t k = 0; k < n; ++k)
-      save_point(point(k), {static_cast<std::byte*>(bytes) + offsets[k], saved_size(point(k))});
+      save(point(k), {static_cast<std::byte*>(bytes) + offsets[k], offsets[k + 1] - offsets[k]});
     return GRAINLAW_OK;
   });
 }
 
-grainlaw_status grainlaw_points_load_some(grainlaw_points* handle, size_t n, const size_t* which,
-                                          const void* bytes, const size_t* offsets, char* message,
-                                          size_t message_size) {
-  const api::MessageBuffer text{message, message_size};
+grainlaw_status load_each(grainlaw_points* handle, std::size_t n, const std::size_t* which,
+                          const void* bytes, const std::size_t* offsets, const MessageBuffer& text,
+                          const LoadAll& load) {
   text.write("");
   const auto refused = [&](grainlaw_status status) {
     text.write(grainlaw_status_text(status));
     return status;
   };
-  if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return refused(status);
+  if (const auto status = check_handle(handle); status != GRAINLAW_OK) return refused(status);
   if (n > 0 && (bytes == nullptr || offsets == nullptr)) return refused(GRAINLAW_NULL_POINTER);
-  const api::SomePoints some = api::distinct_points(*handle, n, which);
+  const SomePoints some = distinct_points(*handle, n, which);
   if (!some.known) return refused(GRAINLAW_BAD_ARGUMENT);
   for (std::size_t k = 0; k < n; ++k)
     if (offsets[k + 1] < offsets[k]) return refused(GRAINLAW_BAD_ARGUMENT);
-  return api::guarded(
+  return guarded(
       [&] {
         std::vector<std::span<const std::byte>> parts;
         parts.reserve(n);
         for (std::size_t k = 0; k < n; ++k)
           parts.emplace_back(static_cast<const std::byte*>(bytes) + offsets[k],
                              offsets[k + 1] - offsets[k]);
-        load_each(some.points, parts, [&](std::size_t k) { return some.number(k); });
+        load(some.points, parts, [&](std::size_t k) { return some.number(k); });
       },
       text);
+}
+
+}  // namespace grainlaw::core::api
+
+grainlaw_status grainlaw_points_save_some(const grainlaw_points* handle, size_t n,
+                                          const size_t* which, void* bytes, size_t* offsets) {
+  return api::save_each(
+      handle, n, which, bytes, offsets,
+      [](const IntegrationPoint& point) { return saved_size(point); },
+      [](const IntegrationPoint& point, std::span<std::byte> to) { save_point(point, to); });
+}
+
+grainlaw_status grainlaw_points_load_some(grainlaw_points* handle, size_t n, const size_t* which,
+                                          const void* bytes, const size_t* offsets, char* message,
+                                          size_t message_size) {
+  return api::load_each(handle, n, which, bytes, offsets, {message, message_size}, load_each);
 }
 
 grainlaw_status grainlaw_points_resize(grainlaw_points* handle, size_t n,
@@ -121,7 +131,7 @@ grainlaw_status grainlaw_points_clone_some(grainlaw_points* to, size_t n, const 
   for (const grainlaw_points* handle : {static_cast<const grainlaw_points*>(to), from})
     if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
   const api::SomePoints some = api::distinct_points(*to, n, which_to);
-  if (!some.known || !all_in(*from, n, which_from) || to->dimension() != from->dimension())
+  if (!some.known || !api::all_in(*from, n, which_from) || to->dimension() != from->dimension())
     return GRAINLAW_BAD_ARGUMENT;
   return api::guarded([&] {
     std::vector<IntegrationPoint> copies;

@@ -1,9 +1,13 @@
 // Points of a set that a call names by number.
 #pragma once
 
+#include "api/guard.hpp"
 #include "api/handle.hpp"
+#include "points/serialise_points.hpp"
 
 #include <cstddef>
+#include <functional>
+#include <span>
 
 namespace grainlaw::core::api {
 
@@ -20,5 +24,20 @@ struct SomePoints {
 // Finds n points by number, each at most once; which may be null: 0 to n - 1. Uses the set's
 // workspaces; does not allocate.
 SomePoints distinct_points(grainlaw_points& set, std::size_t n, const std::size_t* which);
+
+// Whether n numbers are all of points of the set; which may be null.
+[[nodiscard]] bool all_in(const grainlaw_points& set, std::size_t n, const std::size_t* which);
+
+// The calls of one signature that write bytes of some points, and those that read them.
+using SizeOf = std::function<std::size_t(const IntegrationPoint&)>;
+using SaveOne = std::function<void(const IntegrationPoint&, std::span<std::byte>)>;
+grainlaw_status save_each(const grainlaw_points* handle, std::size_t n, const std::size_t* which,
+                          void* bytes, std::size_t* offsets, const SizeOf& size_of,
+                          const SaveOne& save);
+using LoadAll =
+    std::function<void(PointSpan, std::span<const std::span<const std::byte>>, const NumberOf&)>;
+grainlaw_status load_each(grainlaw_points* handle, std::size_t n, const std::size_t* which,
+                          const void* bytes, const std::size_t* offsets, const MessageBuffer& text,
+                          const LoadAll& load);
 
 }  // namespace grainlaw::core::api

@@ -54,7 +54,7 @@ GRAINLAW_TUNED(long, mass_interval, (D == 2 ? 10 : 15));
 // Gap of contacts that take part in steps of spheres, besides a mean overlap: multiples of the largest
 // displacement between the last two updates [-]; chosen.
 GRAINLAW_TUNED(double, near_moves, 2);
-// Residual above which steps of spheres are in single precision, whose rounding is a tenth of it [-];
+// Residual above which steps are in single precision, whose rounding is a tenth of it [-];
 // method.
 GRAINLAW_TUNED(double, single_precision, 1e-5);
 // Steps between updates of the masses while contacts hardly change, a multiple of mass_interval

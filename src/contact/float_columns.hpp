@@ -1,4 +1,4 @@
-// Conversion between records of eight floats and columns of four, eight or sixteen lanes.
+// Conversion between records of four or eight floats and columns of four, eight or sixteen lanes.
 #pragma once
 
 #include "base/simd.hpp"
@@ -98,6 +98,42 @@ GRAINLAW_INLINE void gather(const float* records, const std::int32_t* index,
     for (std::size_t k = 0; k < 4; ++k) column[k] = shuffle<Even, width>(row[k], row[k + 4]);
     column[4] = shuffle<Odd, width>(row[0], row[4]);
     column[5] = shuffle<Odd, width>(row[1], row[5]);
+  }
+}
+
+// Records of four at these indices, a column for each component.
+template <std::size_t width>
+GRAINLAW_INLINE void gather_four(const float* records, const std::int32_t* index,
+                                 Floats<width>* column) {
+  static_assert(width == 4 || width == 8);
+  const auto at = [&](std::size_t k) {
+    return load<4>(records + 4 * static_cast<std::size_t>(index[k]));
+  };
+#pragma GCC unroll 4
+  for (std::size_t k = 0; k < 4; ++k) {
+    if constexpr (width == 4) {
+      column[k] = at(k);
+    } else {
+      column[k] = __builtin_shufflevector(at(k), at(k + 4), 0, 1, 2, 3, 4, 5, 6, 7);
+    }
+  }
+  transpose<width>(column);
+}
+
+// Stores four columns as consecutive records.
+template <std::size_t width>
+GRAINLAW_INLINE void scatter_four(const Floats<width>* column, float* records) {
+  static_assert(width == 4 || width == 8);
+  Floats<width> row[4] = {column[0], column[1], column[2], column[3]};
+  transpose<width>(row);
+#pragma GCC unroll 4
+  for (std::size_t k = 0; k < 4; ++k) {
+    if constexpr (width == 4) {
+      store(records + 4 * k, row[k]);
+    } else {
+      store(records + 4 * k, __builtin_shufflevector(row[k], row[k], 0, 1, 2, 3));
+      store(records + 4 * (k + 4), __builtin_shufflevector(row[k], row[k], 4, 5, 6, 7));
+    }
   }
 }
 

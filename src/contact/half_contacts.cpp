@@ -2,8 +2,10 @@
 #include "contact/half_contacts.hpp"
 
 #include "base/capacity.hpp"
+#include "contact/half_contact_steps.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace grainlaw::core {
@@ -16,6 +18,9 @@ double spin_of(const LeastMass<2>& least) { return least.roll; }
 double spin_of(const LeastMass<3>& least) { return least.spin; }
 double spin_of(const MassRecord<2>& stiffness) { return stiffness.roll; }
 double spin_of(const MassRecord<3>& stiffness) { return stiffness.spin_x; }
+
+// Power of two that is at most this number, so that units do not round.
+double power_of_two(double number) { return std::ldexp(1.0, std::ilogb(number)); }
 
 }  // namespace
 
@@ -36,6 +41,7 @@ void HalfContacts<D>::arrange(const ContactList<D>& list, const Packing& packing
     if (at_rest) moved_ = 0;
     find_near(list, particles);
   }
+  choose_units(list);
   slots_.sort(std::span(list.i).first(list.size()), std::span(list.j).first(list.size()),
               particles_, packing.order, near_);
   const std::size_t groups = slots_.groups().size();
@@ -53,7 +59,7 @@ void HalfContacts<D>::arrange(const ContactList<D>& list, const Packing& packing
     resize_with_capacity(steps.half_contacts, slots_.row_count());
   };
   begin(steps_);
-  if constexpr (D == 3) begin(single_);
+  begin(single_);
   if (!at_rest) {
     for (std::size_t p = 0; p < particles_; ++p) set_velocity(p, velocity_[p]);
   }
@@ -62,6 +68,108 @@ void HalfContacts<D>::arrange(const ContactList<D>& list, const Packing& packing
     for (auto& record : positions_) record.radius = largest;
   }
   list_half_contacts(list, 2 * largest);
+}
+
+template <int D>
+auto HalfContacts<D>::velocity(std::size_t particle) const -> Velocity {
+  const std::size_t slot = slots_.slot(particle);
+  Velocity result{};
+  with_steps([&](const auto& steps) {
+    for (std::size_t c = 0; c < components; ++c) {
+      result[c] = steps.length * steps.nodes[slot / lanes].velocity[c][slot % lanes];
+    }
+  });
+  return result;
+}
+
+template <int D>
+void HalfContacts<D>::set_velocity(std::size_t particle, const Velocity& velocity) {
+  const std::size_t slot = slots_.slot(particle);
+  with_steps([&]<class Real>(Steps<Real>& steps) {
+    for (std::size_t c = 0; c < components; ++c) {
+      steps.nodes[slot / lanes].velocity[c][slot % lanes] =
+          static_cast<Real>(velocity[c] / steps.length);
+    }
+  });
+}
+
+// Updates the largest displacement if there is one.
+template <int D>
+void HalfContacts<D>::measure_moves() {
+  with_steps([this]<class Real>(const Steps<Real>& steps) {
+    Real largest = 0;
+    for (const auto& nodes : steps.nodes) {
+      for (const auto& moved : nodes.moved) {
+        for (const Real value : moved) largest = std::max(largest, std::abs(value));
+      }
+    }
+    if (largest > 0) moved_ = steps.length * static_cast<double>(largest);
+  });
+}
+
+template <int D>
+void HalfContacts<D>::step_in_single_precision(bool single) {
+  if (single == single_precision_) return;
+  if constexpr (D == 3) measure_moves();
+  const auto carry = []<class From, class To>(const Steps<From>& from, Steps<To>& to) {
+    for (std::size_t g = 0; g < from.nodes.size(); ++g) {
+      for (std::size_t c = 0; c < components; ++c) {
+        const auto& velocity = from.nodes[g].velocity[c];
+        std::transform(velocity, velocity + lanes, to.nodes[g].velocity[c], [&](From value) {
+          return static_cast<To>(value * (from.length / to.length));
+        });
+        std::fill_n(to.nodes[g].moved[c], lanes, To(0));
+      }
+    }
+  };
+  if (single) {
+    carry(steps_, single_);
+  } else {
+    carry(single_, steps_);
+  }
+  single_precision_ = single;
+}
+
+// Counts displacements from the present positions on, without drag.
+template <int D>
+template <class Real>
+void HalfContacts<D>::restart(Steps<Real>& steps) {
+  for (auto& nodes : steps.nodes) std::fill_n(nodes.moved[0], components * lanes, Real(0));
+  std::fill(steps.displacements.begin(), steps.displacements.end(), Displacement<Real>{});
+  steps.drags.clear();
+}
+
+template <int D>
+StepMeasures HalfContacts<D>::step(const ContactLaw& law, double keep, double gain) {
+  return with_steps([&]<class Real>(Steps<Real>& steps) {
+    const half_contact_steps::Step<D, Real> next{
+        .groups = D == 3 ? std::span<const HalfContactRows>(near_rows_) : slots_.groups(),
+        .drags = steps.drags.empty() ? nullptr : steps.drags.data(),
+        .half_contacts = steps.half_contacts.data(),
+        .nodes = steps.nodes.data(),
+        .displacements = steps.displacements[0].component,
+        .next_displacements = steps.last_displacements[0].component,
+        .curvature = static_cast<Real>(curvature_ * steps.length),
+        .friction = static_cast<Real>(law.friction),
+        .ratio = static_cast<Real>(law.ratio),
+        .keep = static_cast<Real>(keep),
+        .gain = static_cast<Real>(gain)};
+    const StepMeasures measures = half_contact_steps::take_step(next, law.rotating());
+    steps.displacements.swap(steps.last_displacements);
+    const double force = steps.stiffness * steps.length;
+    const double energy = force * steps.length;
+    return StepMeasures{force * measures.largest, energy * measures.power,
+                        energy * measures.next_power, energy * measures.inertia};
+  });
+}
+
+template <int D>
+void HalfContacts<D>::choose_units(const ContactList<D>& list) {
+  const auto stiffness = std::span(list.normal_stiffness).first(list.size());
+  const double sum = std::accumulate(stiffness.begin(), stiffness.end(), 0.0);
+  mean_stiffness_ = list.size() > 0 ? sum / static_cast<double>(list.size()) : 1;
+  single_.length = power_of_two(0.5 / curvature_);
+  single_.stiffness = power_of_two(mean_stiffness_);
 }
 
 template <int D>
@@ -88,22 +196,10 @@ void HalfContacts<D>::list_half_contacts(const ContactList<D>& list, double long
   std::fill_n(padding.normal[0], lanes, 1.0);
   resize_with_capacity(starts_, slots_.row_count());
   std::fill(starts_.begin(), starts_.end(), padding);
-  if constexpr (D == 2) {
-    std::fill(steps_.half_contacts.begin(), steps_.half_contacts.end(),
-              typename Columns::HalfContact{});
-  }
-  auto& partners = [this]() -> auto& {
-    if constexpr (D == 2) {
-      return steps_.half_contacts;
-    } else {
-      return starts_;
-    }
-  }
-  ();
   std::int32_t first = 0;
   for (const auto& group : slots_.groups()) {
     for (std::size_t row = group.first; row < group.first + group.count; ++row) {
-      std::iota(partners[row].other, partners[row].other + lanes, first);
+      std::iota(starts_[row].other, starts_[row].other + lanes, first);
     }
     first += lanes;
   }
@@ -122,8 +218,8 @@ void HalfContacts<D>::list_half_contacts(const ContactList<D>& list, double long
       start.force[m][k] = (D == 3 ? sign : 1) * list.start_force[m][c];
     }
     if constexpr (D == 2) start.spin[k] = list.start_roll[c];
-    partners[row].other[k] = static_cast<std::int32_t>(slots_.slot(at(other)));
-    partners[row].normal_stiffness[k] = list.normal_stiffness[c];
+    start.other[k] = static_cast<std::int32_t>(slots_.slot(at(other)));
+    start.normal_stiffness[k] = list.normal_stiffness[c];
   };
   const auto add_all = [&](auto&& wanted) {
     for (std::size_t c = 0; c < list.size(); ++c) {
@@ -164,6 +260,11 @@ void HalfContacts<D>::add_drag(std::span<const ParticleRecord<D>> particles,
 }
 
 #define GRAINLAW_FOR(D)                                                                           \
+  template void HalfContacts<D>::restart(Steps<double>&);                                         \
+  template void HalfContacts<D>::restart(Steps<float>&);                                          \
+  template void HalfContacts<D>::step_in_single_precision(bool);                                  \
+  template StepMeasures HalfContacts<D>::step(const ContactLaw&, double, double);                 \
+  template void HalfContacts<D>::measure_moves();                                                 \
   template void HalfContacts<D>::arrange(const ContactList<D>&, const Packing&,                   \
                                          std::span<const LeastMass<D>>,                           \
                                          std::span<const ParticleRecord<D>>, bool);               \

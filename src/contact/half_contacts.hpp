@@ -20,8 +20,8 @@
 namespace grainlaw::core {
 
 // Columns of half contacts and their nodes, one lane for each node of a group. The lanes of registers
-// do not decide their number, so that results do not depend on these. Steps of spheres may be in
-// single precision, of which the widest registers have sixteen lanes.
+// do not decide their number, so that results do not depend on these. Steps may be in single
+// precision.
 template <int D>
 struct HalfContactColumns {
   static constexpr std::size_t lanes = D == 2 ? 8 : 16;
@@ -32,27 +32,10 @@ struct HalfContactColumns {
   using Doubles = Lanes<double>;
 
   template <class Real>
-  struct Masses {
+  struct alignas(64) NodesOf {
     Lanes<Real> mass, mass_spin, gain, gain_spin;  // gain = 1 / mass
-  };
-  template <class Real>
-  struct Motion {
     Lanes<Real> moved[components], velocity[components];
   };
-  struct Rotations {
-    Doubles spin;  // R_i theta_i + R_j theta_j there
-  };
-  struct Partners {
-    std::int32_t other[lanes];
-    Doubles normal_stiffness;
-  };
-  template <int>
-  struct Nothing {};
-
-  // Discs have their displacements in records alone.
-  template <class Real>
-  struct alignas(64) NodesOf : Masses<Real>,
-                               std::conditional_t<D == 3, Motion<Real>, Nothing<0>> {};
   struct alignas(64) Bounds {
     Doubles least, least_spin, inverse_radius;  // lower bounds of the masses; 1 / R
   };
@@ -61,9 +44,14 @@ struct HalfContactColumns {
     Lanes<Real> stiffness, stiffness_spin;
     Lanes<Real> distance[components];  // to the expected position
   };
+  struct Rotations {
+    Doubles spin;  // R_i theta_i + R_j theta_j there
+  };
+  struct Nothing {};
   // Columns of ContactList<D>, with the node as j.
-  struct alignas(64) Start : std::conditional_t<D == 2, Rotations, Partners> {
-    Doubles offset[D], inverse_reach, normal[D], force[tangents];
+  struct alignas(64) Start : std::conditional_t<D == 2, Rotations, Nothing> {
+    std::int32_t other[lanes];
+    Doubles normal_stiffness, offset[D], inverse_reach, normal[D], force[tangents];
   };
   template <class Real>
   struct alignas(D == 2 ? 32 : 64) HalfContactOf {
@@ -72,12 +60,11 @@ struct HalfContactColumns {
     // At the positions: kn overlap, trial force, s.
     Lanes<Real> normal_force, trial[tangents], stretch;
   };
+  static constexpr std::size_t displacement_lanes = Dimension<D>::lanes;
   template <class Real>
-  struct alignas(8 * sizeof(Real)) SphereDisplacement {
-    Real component[8];
+  struct alignas(displacement_lanes * sizeof(Real)) Displacement {
+    Real component[displacement_lanes];
   };
-  template <class Real>
-  using Displacement = std::conditional_t<D == 2, ParticleRecord<D>, SphereDisplacement<Real>>;
 
   // What steps change and read, in units of a length [m] and a stiffness [N/m].
   template <class Real>
@@ -89,9 +76,6 @@ struct HalfContactColumns {
     // Records of the nodes, and of those that pad the last group.
     simd::Column<Displacement<Real>> displacements, last_displacements;
   };
-  using Nodes = NodesOf<double>;
-  using Drag = DragOf<double>;
-  using HalfContact = HalfContactOf<double>;
 };
 
 // What a step of a relaxation measures of the state before it.
@@ -118,7 +102,7 @@ class HalfContacts : public HalfContactColumns<D> {
   template <class Real>
   using Steps = typename Columns::template Steps<Real>;
   template <class Real>
-  using SphereDisplacement = typename Columns::template SphereDisplacement<Real>;
+  using Displacement = typename Columns::template Displacement<Real>;
   using typename Columns::Bounds;
   using typename Columns::Start;
 
@@ -129,7 +113,7 @@ class HalfContacts : public HalfContactColumns<D> {
                std::span<const LeastMass<D>> least_masses,
                std::span<const ParticleRecord<D>> particles, bool at_rest);
 
-  // Sets the precision of the steps from the next relinearise() on, for spheres.
+  // Sets the precision of the steps from the next relinearise() on.
   void step_in_single_precision(bool single);
 
   // Computes forces at these positions, and masses of `factor` times the larger of
@@ -155,22 +139,21 @@ class HalfContacts : public HalfContactColumns<D> {
   void set_velocity(std::size_t particle, const Velocity& velocity);
   void find_near(const ContactList<D>& list, std::span<const ParticleRecord<D>> particles);
   void measure_moves();
+  template <class Real>
+  void restart(Steps<Real>& steps);
+  void choose_units(const ContactList<D>& list);
   void bound_masses(std::span<const LeastMass<D>> least_masses);
   void list_half_contacts(const ContactList<D>& list, double longest_reach);
 
   // Calls act() with the steps of the present precision.
   template <class Act>
   decltype(auto) with_steps(Act&& act) {
-    if constexpr (D == 3) {
-      if (single_precision_) return act(single_);
-    }
+    if (single_precision_) return act(single_);
     return act(steps_);
   }
   template <class Act>
   decltype(auto) with_steps(Act&& act) const {
-    if constexpr (D == 3) {
-      if (single_precision_) return act(single_);
-    }
+    if (single_precision_) return act(single_);
     return act(steps_);
   }
 
@@ -181,7 +164,7 @@ class HalfContacts : public HalfContactColumns<D> {
   simd::Column<Start> starts_;
   simd::Column<ParticleRecord<D>> positions_;  // of the nodes, and of those that pad the last group
   Steps<double> steps_;
-  Steps<float> single_;  // of spheres
+  Steps<float> single_;
   bool single_precision_ = false;
   std::vector<Velocity> velocity_;  // by particles, while listing
   // Near contacts of spheres have gaps below a margin; rows up to the last near one take part in

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "contact/float_columns.hpp"
-#include "contact/half_contacts.hpp"
+#include "contact/half_contact_steps.hpp"
 #include "contact/sphere_loops.hpp"
 
 #include <algorithm>
@@ -15,13 +15,11 @@
 namespace grainlaw::core::sphere_half_contacts {
 
 using namespace sphere_loops;
+using namespace half_contact_steps;
+using half_contact_steps::put_as;
 using Half = HalfContactColumns<3>;
 constexpr std::size_t lanes = Half::lanes;
 static_assert(lanes % ContactList<3>::group == 0);
-
-// Numbers of this kind in a register of so many doubles.
-template <class Real, std::size_t doubles>
-inline constexpr std::size_t in_register = doubles * sizeof(double) / sizeof(Real);
 
 template <class Real>
 struct Relinearisation {
@@ -41,31 +39,11 @@ struct Relinearised {
   double force, touching;
 };
 
-template <class Real>
-struct Step {
-  std::span<const HalfContactRows> groups;
-  const Half::DragOf<Real>* drags;
-  const Half::HalfContactOf<Real>* half_contacts;
-  Half::NodesOf<Real>* nodes;
-  const Real* displacements;  // records of eight
-  Real* next_displacements;   // out
-  Real friction, ratio, keep, gain;
-};
-
 template <std::size_t width, class Real>
 GRAINLAW_INLINE Triple<width, Real> triple_at(const Half::Lanes<Real>* columns, std::size_t k) {
   return {load<width>(columns[0] + k), load<width>(columns[1] + k), load<width>(columns[2] + k)};
 }
 
-// Stores values in units of the steps; doubles have the unit 1.
-template <class Real, std::size_t width>
-GRAINLAW_INLINE void put_as(const Lanes<width>& value, double per_unit, Real* to) {
-  if constexpr (std::is_same_v<Real, double>) {
-    store(to, value);
-  } else {
-    store(to, __builtin_convertvector(value * per_unit, Lanes<width, float>));
-  }
-}
 template <class Real, std::size_t width>
 GRAINLAW_INLINE void put_as(const Triple<width>& value, double per_unit, Half::Lanes<Real>* columns,
                             std::size_t k) {
@@ -123,15 +101,12 @@ GRAINLAW_INLINE Relinearised relinearise_loop(const Relinearisation<Real>& loop)
         touching.add(k, here ? one : zero);
       }
       near = std::max(near, most(last_near));
-      const auto put_mass = [&](const V& sum, const double* least, Real* mass, Real* gain) {
-        const V value = loop.factor * largest(sum, load<width>(least + k));
-        put_as<Real, width>(value, loop.per_stiffness, mass + k);
-        put_as<Real, width>(1 / value, 1 / loop.per_stiffness, gain + k);
-      };
-      put_mass(stiffness, bounds.least, nodes.mass, nodes.gain);
+      put_mass<Real, width>(stiffness, bounds.least + k, loop.factor, loop.per_stiffness,
+                            nodes.mass + k, nodes.gain + k);
       if constexpr (rotating) {
-        put_mass(stiffness_spin * load<width>(bounds.inverse_radius + k), bounds.least_spin,
-                 nodes.mass_spin, nodes.gain_spin);
+        put_mass<Real, width>(stiffness_spin * load<width>(bounds.inverse_radius + k),
+                              bounds.least_spin + k, loop.factor, loop.per_stiffness,
+                              nodes.mass_spin + k, nodes.gain_spin + k);
       }
     }
     loop.near_rows[g] = {rows.first, static_cast<std::uint32_t>(near)};
@@ -167,16 +142,15 @@ GRAINLAW_INLINE void put_displacements(const Triple<width, Real>& moved,
 }
 
 template <std::size_t doubles, bool rotating, bool dragged, class Real>
-GRAINLAW_INLINE StepMeasures step_loop(const Step<Real>& loop) {
-  constexpr std::size_t width = in_register<Real, doubles>;
+GRAINLAW_INLINE StepMeasures step_loop(const Step<3, Real>& loop) {
+  constexpr std::size_t width = nodes_at_once<3, Real, doubles>;
   // Below it a squared trial force is nothing, in units of the steps.
   constexpr Real least_square = std::is_same_v<Real, double> ? Real(tiny) : Real(1e-30);
   using V = Lanes<width, Real>;
   using T = Triple<width, Real>;
   const V zero{};
   const V one = zero + Real(1);
-  V largest_force{};
-  GroupSum<width, Real> power, next_power, inertia;
+  NodeSteps<3, width, Real> steps(loop);
   for (std::size_t g = 0; g < loop.groups.size(); ++g) {
     const HalfContactRows rows = loop.groups[g];
     Half::NodesOf<Real>& nodes = loop.nodes[g];
@@ -218,35 +192,19 @@ GRAINLAW_INLINE StepMeasures step_loop(const Step<Real>& loop) {
         pull(drag.stiffness, drag.distance, own, f);
         if constexpr (rotating) pull(drag.stiffness_spin, drag.distance + 3, own_spin, tau);
       }
-      V work{}, next_work{}, twice_energy{};
-      const auto go_on = [&](const V& r, const Real* mass, const Real* gain, std::size_t c,
-                             V& moved) {
-        Real* const velocity = nodes.velocity[c] + k;
-        const V v = load<width>(velocity);
-        largest_force = largest(largest_force, magnitude(r));
-        work += v * r;
-        twice_energy += v * load<width>(mass + k) * v;
-        const V next = loop.keep * v + loop.gain * r * load<width>(gain + k);
-        next_work += next * r;
-        store(velocity, next);
-        moved += next;
-        store(nodes.moved[c] + k, moved);
-      };
-      go_on(f.x, nodes.mass, nodes.gain, 0, own.x);
-      go_on(f.y, nodes.mass, nodes.gain, 1, own.y);
-      go_on(f.z, nodes.mass, nodes.gain, 2, own.z);
+      steps.go_on(nodes, k, 0, false, f.x, own.x);
+      steps.go_on(nodes, k, 1, false, f.y, own.y);
+      steps.go_on(nodes, k, 2, false, f.z, own.z);
       if constexpr (rotating) {
-        go_on(tau.x, nodes.mass_spin, nodes.gain_spin, 3, own_spin.x);
-        go_on(tau.y, nodes.mass_spin, nodes.gain_spin, 4, own_spin.y);
-        go_on(tau.z, nodes.mass_spin, nodes.gain_spin, 5, own_spin.z);
+        steps.go_on(nodes, k, 3, true, tau.x, own_spin.x);
+        steps.go_on(nodes, k, 4, true, tau.y, own_spin.y);
+        steps.go_on(nodes, k, 5, true, tau.z, own_spin.z);
       }
-      power.add(k, work);
-      next_power.add(k, next_work);
-      inertia.add(k, twice_energy);
+      steps.end(k);
       put_displacements<width, Real>(own, own_spin, loop.next_displacements + 8 * (lanes * g + k));
     }
   }
-  return {most(largest_force), power.total(), next_power.total(), inertia.total()};
+  return steps.measured();
 }
 
 }  // namespace grainlaw::core::sphere_half_contacts

@@ -12,87 +12,37 @@ namespace {
 
 using namespace sphere_half_contacts;
 
-#define GRAINLAW_HALF_CONTACT_LOOPS(Real)                                                          \
-  GRAINLAW_BY_LANES(Relinearised, relinearise_locked, relinearise_loop,                            \
-                    (const Relinearisation<Real>& loop), (loop), false)                            \
-  GRAINLAW_BY_LANES(Relinearised, relinearise_rotating, relinearise_loop,                          \
-                    (const Relinearisation<Real>& loop), (loop), true)                             \
-  GRAINLAW_BY_LANES(StepMeasures, step_locked, step_loop, (const Step<Real>& loop), (loop), false, \
-                    false)                                                                         \
-  GRAINLAW_BY_LANES(StepMeasures, step_locked_dragged, step_loop, (const Step<Real>& loop),        \
-                    (loop), false, true)                                                           \
-  GRAINLAW_BY_LANES(StepMeasures, step_rotating, step_loop, (const Step<Real>& loop), (loop),      \
-                    true, false)                                                                   \
-  GRAINLAW_BY_LANES(StepMeasures, step_rotating_dragged, step_loop, (const Step<Real>& loop),      \
+#define GRAINLAW_HALF_CONTACT_LOOPS(Real)                                                        \
+  GRAINLAW_BY_LANES(Relinearised, relinearise_locked, relinearise_loop,                          \
+                    (const Relinearisation<Real>& loop), (loop), false)                          \
+  GRAINLAW_BY_LANES(Relinearised, relinearise_rotating, relinearise_loop,                        \
+                    (const Relinearisation<Real>& loop), (loop), true)                           \
+  GRAINLAW_BY_LANES(StepMeasures, step_locked, step_loop, (const Step<3, Real>& loop), (loop),   \
+                    false, false)                                                                \
+  GRAINLAW_BY_LANES(StepMeasures, step_locked_dragged, step_loop, (const Step<3, Real>& loop),   \
+                    (loop), false, true)                                                         \
+  GRAINLAW_BY_LANES(StepMeasures, step_rotating, step_loop, (const Step<3, Real>& loop), (loop), \
+                    true, false)                                                                 \
+  GRAINLAW_BY_LANES(StepMeasures, step_rotating_dragged, step_loop, (const Step<3, Real>& loop), \
                     (loop), true, true)
 GRAINLAW_HALF_CONTACT_LOOPS(double)
 GRAINLAW_HALF_CONTACT_LOOPS(float)
 
-std::size_t at(std::int32_t particle) { return static_cast<std::size_t>(particle); }
+template <class Real>
+StepMeasures take(const Step<3, Real>& step, bool rotating) {
+  if (step.drags == nullptr) return rotating ? step_rotating(step) : step_locked(step);
+  return rotating ? step_rotating_dragged(step) : step_locked_dragged(step);
+}
 
-// Power of two that is at most this number, so that units do not round.
-double power_of_two(double number) { return std::ldexp(1.0, std::ilogb(number)); }
+std::size_t at(std::int32_t particle) { return static_cast<std::size_t>(particle); }
 
 }  // namespace
 
-template <>
-auto HalfContacts<3>::velocity(std::size_t particle) const -> Velocity {
-  const std::size_t slot = slots_.slot(particle);
-  Velocity result{};
-  with_steps([&](const auto& steps) {
-    for (std::size_t c = 0; c < components; ++c) {
-      result[c] = steps.length * steps.nodes[slot / lanes].velocity[c][slot % lanes];
-    }
-  });
-  return result;
+StepMeasures half_contact_steps::take_step(const Step<3, double>& step, bool rotating) {
+  return take(step, rotating);
 }
-
-template <>
-void HalfContacts<3>::set_velocity(std::size_t particle, const Velocity& velocity) {
-  const std::size_t slot = slots_.slot(particle);
-  with_steps([&]<class Real>(Steps<Real>& steps) {
-    for (std::size_t c = 0; c < components; ++c) {
-      steps.nodes[slot / lanes].velocity[c][slot % lanes] =
-          static_cast<Real>(velocity[c] / steps.length);
-    }
-  });
-}
-
-// Updates the largest displacement if there is one.
-template <>
-void HalfContacts<3>::measure_moves() {
-  with_steps([this]<class Real>(const Steps<Real>& steps) {
-    Real largest = 0;
-    for (const auto& nodes : steps.nodes) {
-      for (const auto& moved : nodes.moved) {
-        for (const Real value : moved) largest = std::max(largest, std::abs(value));
-      }
-    }
-    if (largest > 0) moved_ = steps.length * static_cast<double>(largest);
-  });
-}
-
-template <>
-void HalfContacts<3>::step_in_single_precision(bool single) {
-  if (single == single_precision_) return;
-  measure_moves();
-  const auto carry = []<class From, class To>(const Steps<From>& from, Steps<To>& to) {
-    for (std::size_t g = 0; g < from.nodes.size(); ++g) {
-      for (std::size_t c = 0; c < components; ++c) {
-        const auto& velocity = from.nodes[g].velocity[c];
-        std::transform(velocity, velocity + lanes, to.nodes[g].velocity[c], [&](From value) {
-          return static_cast<To>(value * (from.length / to.length));
-        });
-        std::fill_n(to.nodes[g].moved[c], lanes, To(0));
-      }
-    }
-  };
-  if (single) {
-    carry(steps_, single_);
-  } else {
-    carry(single_, steps_);
-  }
-  single_precision_ = single;
+StepMeasures half_contact_steps::take_step(const Step<3, float>& step, bool rotating) {
+  return take(step, rotating);
 }
 
 // Finds the contacts that touch or that a move as large as an overlap may close.
@@ -101,7 +51,6 @@ void HalfContacts<3>::find_near(const ContactList<3>& list,
                                 std::span<const ParticleRecord<3>> particles) {
   resize_with_capacity(overlap_, list.size());
   double overlaps = 0;
-  double stiffness = 0;
   std::size_t touching = 0;
   for (std::size_t c = 0; c < list.size(); ++c) {
     double square = 0;
@@ -111,7 +60,6 @@ void HalfContacts<3>::find_near(const ContactList<3>& list,
       square += l * l;
     }
     overlap_[c] = list.reach[c] - std::sqrt(square);
-    stiffness += list.normal_stiffness[c];
     if (overlap_[c] <= 0) continue;
     overlaps += overlap_[c];
     ++touching;
@@ -119,9 +67,6 @@ void HalfContacts<3>::find_near(const ContactList<3>& list,
   mean_overlap_ = touching > 0 ? overlaps / static_cast<double>(touching) : 0;
   resize_with_capacity(near_, list.size());
   for (std::size_t c = 0; c < list.size(); ++c) near_[c] = overlap_[c] > -mean_overlap_ ? 1 : 0;
-  mean_stiffness_ = list.size() > 0 ? stiffness / static_cast<double>(list.size()) : 1;
-  single_.length = power_of_two(0.5 / curvature_);
-  single_.stiffness = power_of_two(mean_stiffness_);
 }
 
 template <>
@@ -132,9 +77,7 @@ ContactTotals HalfContacts<3>::relinearise(std::span<const ParticleRecord<3>> pa
   measure_moves();
   resize_with_capacity(near_rows_, slots_.groups().size());
   const auto found = with_steps([&]<class Real>(Steps<Real>& steps) {
-    for (auto& nodes : steps.nodes) std::fill_n(nodes.moved[0], components * lanes, Real(0));
-    std::fill(steps.displacements.begin(), steps.displacements.end(), SphereDisplacement<Real>{});
-    steps.drags.clear();
+    restart(steps);
     const Relinearisation<Real> loop{.groups = slots_.groups(),
                                      .bounds = bounds_.data(),
                                      .starts = starts_.data(),
@@ -154,33 +97,6 @@ ContactTotals HalfContacts<3>::relinearise(std::span<const ParticleRecord<3>> pa
                              static_cast<int>(0.5 * found.touching)};
   if (totals.touching > 0) mean_overlap_ = totals.force / (totals.weights * mean_stiffness_);
   return totals;
-}
-
-template <>
-StepMeasures HalfContacts<3>::step(const ContactLaw& law, double keep, double gain) {
-  return with_steps([&]<class Real>(Steps<Real>& steps) {
-    const sphere_half_contacts::Step<Real> loop{
-        .groups = near_rows_,
-        .drags = steps.drags.data(),
-        .half_contacts = steps.half_contacts.data(),
-        .nodes = steps.nodes.data(),
-        .displacements = steps.displacements[0].component,
-        .next_displacements = steps.last_displacements[0].component,
-        .friction = static_cast<Real>(law.friction),
-        .ratio = static_cast<Real>(law.ratio),
-        .keep = static_cast<Real>(keep),
-        .gain = static_cast<Real>(gain)};
-    const auto stepped = [&] {
-      if (steps.drags.empty()) return law.rotating() ? step_rotating(loop) : step_locked(loop);
-      return law.rotating() ? step_rotating_dragged(loop) : step_locked_dragged(loop);
-    };
-    const StepMeasures measures = stepped();
-    steps.displacements.swap(steps.last_displacements);
-    const double force = steps.stiffness * steps.length;
-    const double energy = force * steps.length;
-    return StepMeasures{force * measures.largest, energy * measures.power,
-                        energy * measures.next_power, energy * measures.inertia};
-  });
 }
 
 template <>

@@ -63,9 +63,7 @@ void Relaxation<D>::refresh() {
       at_rest_ = false;
     }
     refresh_start_ = refresh_max_ = residual_;
-    if constexpr (D == 3) {
-      memory_.half_contacts.step_in_single_precision(residual_ > tuned::single_precision);
-    }
+    memory_.half_contacts.step_in_single_precision(residual_ > tuned::single_precision);
     return increment_.relinearise(memory_.half_contacts);
   }
   increment_.sum_masses();
@@ -218,7 +216,7 @@ template <int D>
 bool Relaxation<D>::run(double tolerance, long steps, double least_force) {
   motion_.load_records();
   arranged_ = false;
-  if (D == 3 && by_half_contacts_) {
+  if (by_half_contacts_) {
     increment_.keep_neighbours();
     increment_.update_forces();
     residual_ = increment_.residual_norm();

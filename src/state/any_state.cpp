@@ -127,6 +127,25 @@ void AnyState::restore(SavedState saved) noexcept {
       state_);
 }
 
+std::size_t AnyState::saved_trial_size(bool evaluated) const {
+  return std::visit([=](const auto& state) { return state.saved_trial_size(evaluated); }, state_);
+}
+
+void AnyState::save_trial(bool evaluated, std::span<std::byte> bytes) const {
+  std::visit([&](const auto& state) { state.save_trial(evaluated, bytes); }, state_);
+}
+
+SavedTrial AnyState::read_trial(std::span<const std::byte> bytes) const {
+  return std::visit([&](const auto& state) -> SavedTrial { return state.read_trial(bytes); },
+                    state_);
+}
+
+void AnyState::restore(SavedTrial saved) noexcept {
+  std::visit(
+      [&]<int D>(State<D>& state) { state.restore(std::get<SavedTrialOf<D>>(std::move(saved))); },
+      state_);
+}
+
 void AnyState::measure(grainlaw_measure what, double* value) const {
   std::visit([&](const auto& state) { state.measure(what, value); }, state_);
 }

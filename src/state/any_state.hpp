@@ -23,6 +23,7 @@ using AnyMaterial =
 AnyMaterial make_any_material(MaterialDescription description);
 
 using SavedState = std::variant<SavedStateOf<2>, SavedStateOf<3>>;
+using SavedTrial = std::variant<SavedTrialOf<2>, SavedTrialOf<3>>;
 
 class AnyState {
  public:
@@ -59,6 +60,11 @@ class AnyState {
   [[nodiscard]] SavedState read(std::span<const std::byte> bytes) const;
   // Makes a loaded state the committed one and drops the trial.
   void restore(SavedState saved) noexcept;
+  // The trial likewise, as State's.
+  [[nodiscard]] std::size_t saved_trial_size(bool evaluated) const;
+  void save_trial(bool evaluated, std::span<std::byte> bytes) const;
+  [[nodiscard]] SavedTrial read_trial(std::span<const std::byte> bytes) const;
+  void restore(SavedTrial saved) noexcept;
 
   // Calls `act` with the state of its dimension.
   template <class Act>

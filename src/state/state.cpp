@@ -262,7 +262,7 @@ void State<D>::keep_trial(const Outcome& outcome, Workspace<D>& w, grainlaw_repo
   w.increment.export_to(committed_, trial_);
   const auto& drag = w.increment.motion().drag();
   if (drag.acts()) {
-    copy_with_capacity(w.velocity, trial_.velocity, state_capacity);
+    trial_.velocity = w.velocity;  // whose size stays
     trial_.strain_rate = drag.how().strain_rate;
   }
   trial_loose_ = outcome.loose;

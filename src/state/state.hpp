@@ -4,12 +4,14 @@
 #include "material/material.hpp"
 #include "state/reference.hpp"
 #include "state/serialise.hpp"
+#include "state/serialise_trial.hpp"
 #include "state/time_step.hpp"
 
 #include <grainlaw/grainlaw.h>
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace grainlaw::core {
@@ -77,6 +79,15 @@ class State {
   void restore(Configuration<D> committed);  // of the packing's reference
   [[nodiscard]] const Material<D>& material() const { return *material_; }
 
+  // The trial as bytes, of which there are saved_trial_size(). Unless `evaluated`, only what the next
+  // trial starts from.
+  [[nodiscard]] std::size_t saved_trial_size(bool evaluated) const;
+  void save_trial(bool evaluated, std::span<std::byte> bytes) const;
+  // Reads any bytes of any length. Throws Error (BAD_BYTES, WRONG_VERSION, WRONG_MATERIAL).
+  [[nodiscard]] SavedTrialOf<D> read_trial(std::span<const std::byte> bytes) const;
+  // Makes a trial found elsewhere, from the same committed state, that of this one.
+  void restore(SavedTrialOf<D> saved) noexcept;
+
  private:
   grainlaw_status follow(const Tensor<D>& F, std::optional<double> duration, TangentKind kind,
                          Answer<D>& answer, grainlaw_report& report, Workspace<D>& workspace);
@@ -88,6 +99,7 @@ class State {
   void keep_trial(const Outcome& outcome, Workspace<D>& workspace, grainlaw_report& report);
   void rotate_back(const SplitIncrement<D>& split, const Tensor<D>& F, bool tangent_wanted,
                    Answer<D>& answer);
+  [[nodiscard]] bool keeps_trial(bool evaluated) const;
 
   std::shared_ptr<const Material<D>> material_;
   std::optional<Reference<D>> reference_;  // none: that of the packing

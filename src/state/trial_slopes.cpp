@@ -14,11 +14,16 @@ inline constexpr std::size_t lanes_of_change = D == 2 ? 4 : 6;
 }  // namespace
 
 template <int D>
+std::size_t number_of_slopes(const Problem<D>& problem) {
+  return lanes_of_change<D> * problem.node_unknowns();
+}
+
+template <int D>
 void keep_slopes(const Problem<D>& problem, std::span<const ByDeformation<D>> motion,
                  std::vector<float>& slopes) {
   const std::size_t nodes = problem.nodes();
   const auto components = static_cast<std::size_t>(problem.components());
-  resize_with_capacity(slopes, lanes_of_change<D> * motion.size(), state_capacity);
+  slopes.resize(lanes_of_change<D> * motion.size());
   auto at = slopes.begin();
   for (std::size_t lane = 0; lane < lanes_of_change<D>; ++lane) {
     for (std::size_t k = 0; k < components; ++k) {
@@ -45,6 +50,8 @@ void follow_slopes(std::span<const float> slopes, std::vector<double>& step, Req
   request.guess_step = step;
 }
 
+template std::size_t number_of_slopes(const Problem<2>&);
+template std::size_t number_of_slopes(const Problem<3>&);
 template void keep_slopes(const Problem<2>&, std::span<const ByDeformation<2>>,
                           std::vector<float>&);
 template void keep_slopes(const Problem<3>&, std::span<const ByDeformation<3>>,

@@ -4,10 +4,15 @@
 #include "equilibrium/request.hpp"
 #include "tangent/derivatives.hpp"
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
 namespace grainlaw::core {
+
+// Numbers that keep_slopes() keeps.
+template <int D>
+[[nodiscard]] std::size_t number_of_slopes(const Problem<D>& problem);
 
 // Keeps derivatives per node and component as a column of the nodes, component-major, for each lane.
 template <int D>

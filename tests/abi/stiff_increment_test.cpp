@@ -70,7 +70,7 @@ double measured(const State& state, grainlaw_measure quantity) {
   return value;
 }
 
-// Of the stress at the end of each increment, and on the drag [J].
+// Work of the stress at the end of each increment, and on the drag [J].
 struct Work {
   double stress = 0, drag = 0;
 };

@@ -166,6 +166,12 @@ CASES = {
         "point", point("steps = 6\ndF22 = -0.2\nsigma11 = -100e3\n", "max_cuts = 0",
                        solver="solver = { viscous_number = 1e-2, viscous_rate = 1e-3, tolerance = 1e-9 }\n"),
         r"Newton did not converge: best relative residual .*, expected 1.0e-08 \[-\]; try more steps$", [("steps = 6", "steps = 200")]),
+    "a_tangent_by_differences_beside_the_loss_of_contacts": (
+        "point", point("steps = 14\nF11 = 1.00403\nF22 = 1.00403\n[[segment]]\nsteps = 5\ndF22 = -5e-4\nsigma11 = -1e3\n",
+                       "tangent = 'perturbed'", RANDOM.replace("count = 30", "count = 20").replace("seed = 3", "seed = 1")
+                       .replace(", friction = 0.3", "").replace("friction = 0.5 ", "friction = 0.01 "), ""),
+        "evaluating the tangent at the start of a segment, after step 14, failed: a perturbed increment found no equilibrium; extend it less",
+        [("F11 = 1.00403\nF22 = 1.00403", "F11 = 1.0035\nF22 = 1.0035")]),
     "numbers_that_overflow": (
         "point", point("steps = 1\nF11 = 1e200\nF22 = 1e200\n", "max_cuts = 0"), "det F overflows",
         [("1e200", "1.0001")]),

@@ -3,9 +3,12 @@
 #include "allocator.hpp"
 #include "materials.hpp"
 
+#include <grainlaw/trials.h>
+
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace grainlaw::core::test {
@@ -81,6 +84,34 @@ TEST_F(some_points_without_memory, are_loaded_all_or_none) {
                                          0);
       },
       [&] { return bytes(); }, n);
+}
+
+TEST_F(some_points_without_memory, get_trials_all_or_none) {
+  const auto trials_of = [](grainlaw_points* set) {
+    std::array<std::size_t, n + 1> offsets{};
+    EXPECT_EQ(grainlaw_points_save_trials(set, n, nullptr, 1, nullptr, offsets.data()),
+              GRAINLAW_OK);
+    Bytes found(offsets[n]);
+    EXPECT_EQ(grainlaw_points_save_trials(set, n, nullptr, 1, found.data(), offsets.data()),
+              GRAINLAW_OK);
+    return std::pair(found, offsets);
+  };
+  grainlaw_points* same = nullptr;
+  ASSERT_EQ(grainlaw_points_create(&material_, n, &same), GRAINLAW_OK);
+  std::vector<double> F(target.begin(), target.end()), A(16 * n);
+  F.insert(F.end(), target.begin(), target.end());
+  ASSERT_EQ(grainlaw_points_evaluate(same, F.data(), GRAINLAW_WANT_TANGENT_EXACT, nullptr, A.data(),
+                                     nullptr, nullptr, 1, nullptr),
+            GRAINLAW_OK);
+  const auto saved = trials_of(same);
+  expect_told(
+      [&] {
+        return grainlaw_points_load_trials(set_, n, nullptr, saved.first.data(),
+                                           saved.second.data(), nullptr, 0);
+      },
+      [&] { return trials_of(set_).first; }, n);
+  EXPECT_EQ(trials_of(set_), saved);
+  grainlaw_points_destroy(same);
 }
 
 TEST_F(some_points_without_memory, become_more_or_stay) {

@@ -4,6 +4,8 @@
 #include "law_support.hpp"
 #include "sphere_support.hpp"
 
+#include <malloc.h>
+
 #include <cstdlib>
 #include <new>
 
@@ -11,11 +13,22 @@ namespace {
 
 bool counting = false;
 long count = 0;
+long live_bytes = 0;
 
 void* allocate_or_null(std::size_t size, std::size_t alignment) {
-  if (counting) ++count;
-  if (alignment == 0) return std::malloc(size);
-  return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  void* memory = alignment == 0 ? std::malloc(size)
+                                : std::aligned_alloc(
+                                      alignment, (size + alignment - 1) / alignment * alignment);
+  if (counting) {
+    ++count;
+    live_bytes += static_cast<long>(malloc_usable_size(memory));
+  }
+  return memory;
+}
+
+void release(void* memory) {
+  if (counting) live_bytes -= static_cast<long>(malloc_usable_size(memory));
+  std::free(memory);
 }
 
 void* allocate(std::size_t size, std::size_t alignment) {
@@ -37,14 +50,14 @@ void* operator new[](std::size_t size, std::align_val_t alignment) {
 void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
   return allocate_or_null(size, 0);
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept { release(memory); }
+void operator delete[](void* memory) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t) noexcept { release(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { release(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { release(memory); }
+void operator delete[](void* memory, std::align_val_t) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
 
 namespace grainlaw::core::test {
 namespace {
@@ -136,6 +149,29 @@ TEST(allocation, does_not_happen_on_a_path_that_was_gone_before) {
       EXPECT_EQ(allocations(state, TangentKind::exact, warm_up + 1, last), none);
     }
   }
+}
+
+TEST(allocation, of_a_state_is_at_most_250_bytes_a_disc_with_bonds_and_drag) {
+  const Packing packing = reference_packing();
+  MaterialDescription description =
+      describe_law(packing, bonded_law(1), BoundaryType::periodic_cell, 1e-8);
+  description.solver.viscosity.number = 1e-3;
+  const auto material = make_material(description);
+  State first(material);  // takes the memory of the thread
+  allocations(first, TangentKind::exact, 1, last);
+  live_bytes = 0;
+  counting = true;
+  State state(material);
+  for (int k = 1; k <= last; ++k) {
+    Evaluation at;
+    at.status = state.evaluate(after(k).data(), TangentKind::exact, at.stress.data(),
+                               at.tangent.data(), at.report);
+    EXPECT_EQ(at.status, GRAINLAW_OK);
+    EXPECT_TRUE(state.commit());
+  }
+  counting = false;
+  EXPECT_GT(live_bytes, 0);
+  EXPECT_LE(live_bytes, 250 * static_cast<long>(packing.radius.size()));
 }
 
 TEST(allocation, does_not_happen_in_the_reference_methods) {

@@ -147,21 +147,62 @@ TEST(half_contacts, give_every_particle_its_force_in_whatever_order_they_lie) {
   EXPECT_EQ(largest_difference(scene.step(), expected), 0);
 }
 
+// Places after steps, a new list or a change of precision, and another step.
+enum class Between { nothing, new_list, precisions };
+std::vector<std::array<double, 3>> moved(Between between, bool single) {
+  Scene scene(small_packing(), rough_law(), {1.0004, 2e-4, 0, 0.999});
+  const auto& law = scene.material->law;
+  scene.half_contacts.step_in_single_precision(single);
+  scene.relinearise();
+  for (int k = 0; k < 5; ++k) scene.half_contacts.step(law, 0.9, gain);
+  scene.half_contacts.displace(scene.records());
+  if (between == Between::new_list) scene.arrange(false);
+  if (between == Between::precisions) scene.half_contacts.step_in_single_precision(!single);
+  scene.relinearise();
+  scene.half_contacts.step(law, 0.9, gain);
+  scene.half_contacts.displace(scene.records());
+  std::vector<std::array<double, 3>> places;
+  for (const auto& at : scene.records()) places.push_back({at.x, at.y, at.roll});
+  return places;
+}
+
+double largest_difference(const std::vector<std::array<double, 3>>& a,
+                          const std::vector<std::array<double, 3>>& b) {
+  double result = 0;
+  for (std::size_t p = 0; p < a.size(); ++p) {
+    for (std::size_t c = 0; c < 3; ++c) result = std::max(result, std::abs(a[p][c] - b[p][c]));
+  }
+  return result;
+}
+
 TEST(half_contacts, keep_their_velocities_in_a_new_list) {
-  const auto moved = [](bool anew) {
-    Scene scene(small_packing(), rough_law(), {1.0004, 2e-4, 0, 0.999});
-    const auto& law = scene.material->law;
-    for (int k = 0; k < 5; ++k) scene.half_contacts.step(law, 0.9, gain);
-    scene.half_contacts.displace(scene.records());
-    if (anew) scene.arrange(false);
+  for (const bool single : {false, true}) {
+    EXPECT_EQ(moved(Between::new_list, single), moved(Between::nothing, single));
+  }
+}
+
+TEST(half_contacts, keep_their_velocities_when_the_precision_changes) {
+  std::vector<std::array<double, 3>> start;
+  Scene scene(small_packing(), rough_law(), {1.0004, 2e-4, 0, 0.999});
+  for (const auto& at : scene.records()) start.push_back({at.x, at.y, at.roll});
+  const auto expected = moved(Between::nothing, false);
+  const double move = largest_difference(expected, start);
+  EXPECT_GT(move, 0);
+  for (const bool single : {false, true}) {
+    EXPECT_LE(largest_difference(moved(Between::precisions, single), expected), 1e-5 * move);
+  }
+}
+
+TEST(half_contacts, have_nearly_the_forces_of_the_law_in_single_precision) {
+  for (const auto& law : laws()) {
+    Scene scene(small_packing(), law, {1.0004, 2e-4, 0, 0.999});
+    const auto expected = scene.residual();
+    scene.half_contacts.step_in_single_precision(true);
     scene.relinearise();
-    scene.half_contacts.step(law, 0.9, gain);
-    scene.half_contacts.displace(scene.records());
-    std::vector<std::array<double, 3>> places;
-    for (const auto& at : scene.records()) places.push_back({at.x, at.y, at.roll});
-    return places;
-  };
-  EXPECT_EQ(moved(true), moved(false));
+    const double force = scene.totals.force / scene.totals.weights;
+    EXPECT_LE(largest_difference(scene.step(), expected), 1e-5 * force);
+    EXPECT_GT(largest_difference(scene.step(), expected), 0);
+  }
 }
 
 }  // namespace

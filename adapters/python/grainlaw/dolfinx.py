@@ -25,6 +25,7 @@ from petsc4py import PETSc
 from .abi import Error
 from .arrays import Array
 from .checkpoint import Cells
+from .lending import Lending
 from .march import March
 from .material import AnyPath, Material
 from .names import Action, Measure, Status, Tangent
@@ -53,6 +54,7 @@ class Points:
     material  one, or several with `layer`, of which some may be Elastic
     degree    of the quadrature, basix' default scheme
     layer     the numbers (n,) of the materials of points at x (d, n) [m]
+    lend      ranks that are done with their own points evaluate points of others; the same bits
 
     Raises Error for a material of another dimension than the mesh, where ranks have different ones, and
     where none has grains."""
@@ -66,9 +68,10 @@ class Points:
     x: Array                         #: places of the points of this rank at first (n, d) [m]
     layer: npt.NDArray[np.int64]     #: number of the material of each point (n,)
     gone: npt.NDArray[np.bool_]      #: points that have left (n,)
+    lending: Lending | None          #: where points are lent
 
     def __init__(self, domain: Any, material: Material | Sequence[Material | Elastic], degree: int,
-                 layer: Callable[[Array], npt.ArrayLike] | None = None) -> None:
+                 layer: Callable[[Array], npt.ArrayLike] | None = None, lend: bool = False) -> None:
         self.comm, self.domain = domain.comm, domain
         materials: list[Material | Elastic] = (
             [material] if isinstance(material, Material) else list(material))
@@ -106,7 +109,10 @@ class Points:
         self._resting = [self._function(ufl.TensorElement(**self._element, shape=(d, d)))[0]
                          for _ in closed[:1]]   # stress where nothing has moved [Pa]
         self._F = self._committed_F = np.tile(np.eye(d), (count, 1, 1))
-        if self.comm.size > 1:
+        self.lending = None
+        if lend:
+            self.lending = _lending(self.comm, self.states, materials, self.layer[self.grains])
+        elif self.comm.size > 1:
             self.states.share(self.comm.rank, self._reduce)
         self._gradients: dict[Any, Any] = {}
         self._keep()
@@ -117,7 +123,9 @@ class Points:
         with together(self.comm):
             self._F = np.eye(self.dimension) + self._gradient(u)
             self._F[self.gone] = self._committed_F[self.gone]
-        answer = self.states.evaluate(self._F[self.grains], Tangent.EXACT)
+        F = self._F[self.grains]
+        answer = (self.states.evaluate(F, Tangent.EXACT) if self.lending is None
+                  else self.lending.evaluate(F, Tangent.EXACT))
         if answer.ok:
             self._set(answer)
         return answer
@@ -295,6 +303,14 @@ def _states(first: Material, materials: Sequence[Material | Elastic],
             assert isinstance(material, Material)
             states.resize(end, material)
     return states
+
+
+def _lending(comm: MPI.Intracomm, states: States, materials: Sequence[Material | Elastic],
+             layer: npt.NDArray[np.int64]) -> Lending:
+    """Of the materials of grains, which the states have as `layer` numbers all of them."""
+    grains = [k for k, each in enumerate(materials) if isinstance(each, Material)]
+    return Lending(comm, states, [each for each in materials if isinstance(each, Material)],
+                   np.searchsorted(grains, layer))
 
 
 def _elastic_answer(law: Elastic, F: Array, resting: Array) -> tuple[Array, Array]:

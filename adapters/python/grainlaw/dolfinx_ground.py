@@ -66,6 +66,7 @@ class Ground:
     rehearse  whether all layers are elastic
     water     in the pores: densities are those of the grains less that of water
     degree    of the quadrature, by default 1 of linear displacements and 2 of quadratic ones
+    lend      whether ranks lend each other points, as of Points
     march     options of March, as tolerance=1e-9: |force on the unknowns| / |nodal forces of P| [-]
 
     What is wrong with layers raises ValueError, or Error for a file."""
@@ -78,14 +79,14 @@ class Ground:
 
     def __init__(self, domain: Any, surface: float, layers: Sequence[Layer], gravity: float = 9.81,
                  order: int = 1, rehearse: bool = False, water: PoreWater | None = None,
-                 degree: int | None = None, **march: float) -> None:
+                 degree: int | None = None, lend: bool = False, **march: float) -> None:
         _check(domain, surface, layers, gravity)
         if water is not None and not rehearse:
             _check_pores(layers)
         self.domain, self.comm, self.dimension = domain, domain.comm, domain.topology.dim
         self.layers, self.gravity, self._options = list(layers), gravity, {"tolerance": 1e-9, **march}
         self._tops = [surface] + [layer.bottom for layer in layers[:-1]]
-        self._up, self.water = self.dimension - 1, water   #: in the pores, or None
+        self._up, self._lend, self.water = self.dimension - 1, lend, water   #: in the pores, or None
         self._degree = degree or (1 if order == 1 and water is None else 2)
         self._sand_on_top = not isinstance(layers[0].material, Elastic)
         laws: list[Any] = [layer.material if isinstance(layer.material, Elastic) else
@@ -325,7 +326,8 @@ class Ground:
         self._tell_pulled((load > 1e-9 * largest) & self._of_up(), load)
         bottoms = np.array([layer.bottom for layer in self.layers])
         self.points = Points(self.domain, self._laws, self._degree,
-                             lambda x: np.asarray(np.sum(x[self._up] < bottoms[:-1, None], axis=0)))
+                             lambda x: np.asarray(np.sum(x[self._up] < bottoms[:-1, None], axis=0)),
+                             lend=self._lend)
         self.march = March(self.points.states, **self._options)
         nothing = np.zeros(len(self.points.layer))
         self._unit, self._gone = self.points.scalars(nothing), self.points.scalars(nothing)

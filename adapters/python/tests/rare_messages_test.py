@@ -20,6 +20,13 @@ def sand(count=30, dimension=2, friction=", friction = 0.3", contact_friction=0.
         dimension="2\nthickness = 0.1" if dimension == 2 else "3"))
 
 
+def lattice(kind="hexagonal", shape="rows = 4, columns = 4", dimension="2\nthickness = 0.1", young=6e8):
+    return grainlaw.Material.parse(
+        f'dimension = {dimension}\n'
+        f'packing = {{ generator = "{kind}", {shape}, radius = 5e-3, overlap = 5e-6 }}\n'
+        f'contact = {{ law = "frictional", young = {young}, ratio = 0.8, friction = 0.5 }}\n')
+
+
 def message_of(answer):
     return answer.reports["message"].decode()
 
@@ -79,6 +86,29 @@ class RareMessages(Case):
             state.revert()
             stretch *= 0.5
         self.fail("differences never asked for too much")
+
+    def test_of_discs_that_slide_on_all_contacts(self):
+        """Rows have parted, and nothing resists a rotation of a disc: the stiffness is singular."""
+        state = grainlaw.State(lattice())
+        for step in (1, 2):
+            F = np.diag([1 + 4e-4 * step, 1 - 1e-3 * step])
+            answer = state.evaluate(F, Tangent.EXACT)
+            state.commit()
+        self.assertEqual(message_of(answer), "the stiffness is singular; the elastic tangent was returned")
+        self.assertEqual(answer.reports["tangent_exact"], 0)
+        self.assertTrue(np.isfinite(answer.A).all())
+        steepness = np.arctan2(np.sqrt(3) * F[1, 1], F[0, 0]) + np.arctan(0.5)  # of contact forces
+        self.assertAlmostEqual(answer.P[0, 0] / answer.P[1, 1], 1 / np.tan(steepness) / np.sqrt(3), delta=1e-9)
+        led = grainlaw.laboratory.path(state, 10, F22=1 - 4e-3, sigma11=-6e3)
+        self.assertEqual(led.loose_parts, 0)
+        self.assertAlmostEqual(led.sigma[-1, 0, 0] / -6e3, 1, delta=1e-6)
+
+    def test_of_numbers_that_overflow(self):
+        """A stiffness whose square is no number any more, and the one that was meant."""
+        F = np.diag([1, 1, 1 - 1e-3])
+        for young, told in ((6e200, "numbers too large: the stress, the tangent or the state overflows"), (6e8, "")):
+            answer = grainlaw.State(lattice("fcc", "cells = [1, 1, 1]", "3", young)).evaluate(F, Tangent.EXACT)
+            self.assertEqual((answer.ok, message_of(answer)), (not told, told))
 
     def test_of_a_packing_that_flows(self):
         """On the way to an initial stress that it does not carry: less is carried."""

@@ -33,14 +33,15 @@ struct Led {
   long factorisations = 0;
 };
 
-Led lead(const Material& material, const std::vector<Increment>& path, const Usage& usage) {
+template <int D>
+Led lead(const Material& material, const std::vector<Increment<D>>& path, const Usage& usage) {
   Led led{State(material)};
   State& state = led.state;
-  for (const Increment& increment : path) {
+  for (const Increment<D>& increment : path) {
     double& cpu = led.cpu.emplace_back();
-    for (const Tensor& deformation : increment) {
+    for (const TensorOf<D>& deformation : increment) {
       const double start = cpu_milliseconds();
-      const Evaluation found = evaluate(state, deformation, usage.want);
+      const auto found = evaluate_of<D>(state, deformation, usage.want);
       cpu += cpu_milliseconds() - start;
       check(found.status, "an increment of the feature table");
       ++led.evaluations;
@@ -58,13 +59,14 @@ Led lead(const Material& material, const std::vector<Increment>& path, const Usa
 }
 
 // Memory of a thread that has evaluated, over that of a state which has taken all it needs.
-double workspace_bytes(State& state, const Tensor& deformation, unsigned want) {
-  evaluate(state, deformation, want);
+template <int D>
+double workspace_bytes(State& state, const TensorOf<D>& deformation, unsigned want) {
+  evaluate_of<D>(state, deformation, want);
   state.revert();
   double bytes = 0;
   std::thread([&] {
     const double before = heap_bytes();
-    evaluate(state, deformation, want);
+    evaluate_of<D>(state, deformation, want);
     bytes = heap_bytes() - before;
   }).join();
   return bytes;
@@ -72,36 +74,42 @@ double workspace_bytes(State& state, const Tensor& deformation, unsigned want) {
 
 }  // namespace
 
-CostMeasurement::CostMeasurement(const MaterialSource& source, const std::vector<Increment>& path,
-                                 const Usage& usage)
+template <int D>
+CostMeasurement<D>::CostMeasurement(const MaterialSource& source,
+                                    const std::vector<Increment<D>>& path, const Usage& usage)
     : path_(path), usage_(usage) {
-  make_material(source);  // what is loaded and allocated once in a process
+  make_material(source, D);  // what is loaded and allocated once in a process
   double bytes = heap_bytes();
-  material_ = make_material(source);
+  material_ = make_material(source, D);
   cost_.material = heap_bytes() - bytes;
 
-  const Led led = lead(*material_, path_, usage_);  // takes the memory of this thread, too
+  const Led led = lead<D>(*material_, path_, usage_);  // takes the memory of this thread, too
   cpu_ = led.cpu;
   bytes = heap_bytes();
-  State state = lead(*material_, path_, usage_).state;
+  State state = lead<D>(*material_, path_, usage_).state;
   cost_.state = heap_bytes() - bytes;
   evaluations_ = static_cast<double>(led.evaluations);
   cost_.relaxation_steps = static_cast<double>(led.relaxation_steps) / evaluations_;
   cost_.factorisations = static_cast<double>(led.factorisations) / evaluations_;
-  cost_.workspace = workspace_bytes(state, path_.back().back(), usage_.want);
+  cost_.workspace = workspace_bytes<D>(state, path_.back().back(), usage_.want);
   cost_.saved = static_cast<double>(state.save().size());
   cost_.particles = measure_scalar(state.get(), GRAINLAW_PARTICLES);
 }
 
-void CostMeasurement::again() {
-  const Led led = lead(*material_, path_, usage_);
+template <int D>
+void CostMeasurement<D>::again() {
+  const Led led = lead<D>(*material_, path_, usage_);
   for (std::size_t k = 0; k < cpu_.size(); ++k) cpu_[k] = std::min(cpu_[k], led.cpu[k]);
 }
 
-Cost CostMeasurement::cost() const {
+template <int D>
+Cost CostMeasurement<D>::cost() const {
   Cost cost = cost_;
   cost.cpu = std::accumulate(cpu_.begin(), cpu_.end(), 0.0) / evaluations_;
   return cost;
 }
+
+template class CostMeasurement<2>;
+template class CostMeasurement<3>;
 
 }  // namespace verification

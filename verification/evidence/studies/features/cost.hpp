@@ -13,7 +13,8 @@ namespace verification {
 double heap_bytes();
 
 // One increment: the F that are tried one after the other; the last one is committed.
-using Increment = std::vector<Tensor>;
+template <int D>
+using Increment = std::vector<TensorOf<D>>;
 
 struct Usage {
   unsigned want = 0;  // tangent
@@ -35,15 +36,16 @@ struct Cost {
 
 // New states are led along the path, which has to outlive this; every increment counts with its
 // best time. Throws ComputationError when an increment fails.
+template <int D>
 class CostMeasurement {
  public:
-  CostMeasurement(const MaterialSource& source, const std::vector<Increment>& path,
+  CostMeasurement(const MaterialSource& source, const std::vector<Increment<D>>& path,
                   const Usage& usage);
   void again();
   [[nodiscard]] Cost cost() const;
 
  private:
-  const std::vector<Increment>& path_;
+  const std::vector<Increment<D>>& path_;
   Usage usage_;
   std::optional<Material> material_;
   Cost cost_;

@@ -18,8 +18,8 @@ constexpr double thickness = 0.1;     // [m]
 // Beyond this kn / p it is the pressure that falls, not the modulus that rises [-].
 constexpr double stiffest_modulus = 1e3;
 
-void describe(const Contact& contact, MaterialSource& source) {
-  source.changes.insert_or_assign("dimension", 2);
+void describe(const Contact& contact, int dimension, MaterialSource& source) {
+  source.changes.insert_or_assign("dimension", dimension);
   change(source, "contact", "law", "frictional");
   change(source, "contact", "young", contact.young);
   change(source, "contact", "ratio", contact.ratio);
@@ -73,28 +73,45 @@ double clearance(const TinyPacking& packing, double x, double y) {
   return least;
 }
 
+// Expands to the last equilibrium before contacts are lost.
+template <int D>
+void expand(State& state, double stiffness) {
+  double stretch = 1;
+  for (double step = 0.1 / stiffness; step > 1e-6 / stiffness;) {
+    const TensorOf<D> deformation = (stretch + step) * TensorOf<D>::Identity();
+    if (evaluate_of<D>(state, deformation, 0).status == GRAINLAW_OK) {
+      state.commit();
+      stretch += step;
+    } else {
+      step *= 0.5;
+    }
+  }
+}
+
 }  // namespace
 
 double Recipe::young() const {
-  return std::min(stiffness, stiffest_modulus) * pressure * thickness / mean_radius;
+  const double of_one = dimension == 2 ? pressure * thickness / mean_radius : pressure;
+  return std::min(stiffness, stiffest_modulus) * of_one;
 }
 
 Material PackingStore::make(const Recipe& recipe) {
   const double smallest = 2 * mean_radius / (1 + recipe.size_ratio);
   MaterialSource source;
-  describe({.young = recipe.young(), .tolerance = 1e-8}, source);
-  source.changes.insert_or_assign("thickness", thickness);
+  describe({.young = recipe.young(), .tolerance = 1e-8}, recipe.dimension, source);
+  if (recipe.dimension == 2) source.changes.insert_or_assign("thickness", thickness);
   change(source, "packing", "generator", "compaction");
   change(source, "packing", "count", recipe.count);
   change(source, "packing", "radii", toml::array{smallest, smallest * recipe.size_ratio});
   change(source, "packing", "seed", recipe.seed);
   change(source, "packing", "pressure",
          pressure * std::min(1.0, stiffest_modulus / recipe.stiffness));
-  return make_material(source);
+  return make_material(source, recipe.dimension);
 }
 
 std::string PackingStore::ensure(const Recipe& recipe) const {
-  const std::string name = fmt::format("discs{}_stiffness{:g}_sizes{:.3g}_seed{}", recipe.count,
+  const std::string name = fmt::format("{}{}_stiffness{:g}_sizes{:.3g}_seed{}",
+                                       recipe.dimension == 2 ? "discs" : "spheres", recipe.count,
                                        recipe.stiffness, recipe.size_ratio, recipe.seed);
   if (std::filesystem::exists(directory_ / (name + "_cell.csv"))) return name;
   std::filesystem::create_directories(directory_);
@@ -102,21 +119,35 @@ std::string PackingStore::ensure(const Recipe& recipe) const {
   return name;
 }
 
-Material PackingStore::from_files(const std::string& name, const Contact& contact,
-                                  bool with_forces) const {
+Material PackingStore::from_files(const std::string& name, const Contact& contact, bool with_forces,
+                                  int dimension) const {
   MaterialSource source;
   source.base = directory_;
-  describe(contact, source);
+  describe(contact, dimension, source);
   change(source, "packing", "particles", name + "_particles.csv");
   change(source, "packing", "cell", name + "_cell.csv");
   if (with_forces) change(source, "packing", "contacts", name + "_contacts.csv");
+  return made(std::move(source), dimension);
+}
+
+Material PackingStore::made(MaterialSource source, int dimension) const {
   if (viscous_number_ > 0) change(source, "solver", "viscous_number", viscous_number_);
-  return make_material(source);
+  return make_material(source, dimension);
+}
+
+Material PackingStore::fcc(double overlap, const Contact& contact) const {
+  MaterialSource source;
+  describe(contact, 3, source);
+  change(source, "packing", "generator", "fcc");
+  change(source, "packing", "cells", toml::array{2, 2, 2});
+  change(source, "packing", "radius", mean_radius);
+  change(source, "packing", "overlap", overlap);
+  return made(std::move(source), 3);
 }
 
 Material PackingStore::generated(const Recipe& recipe, Contact contact) const {
   contact.young = recipe.young();
-  return from_files(ensure(recipe), contact, true);
+  return from_files(ensure(recipe), contact, true, recipe.dimension);
 }
 
 Material PackingStore::with_rattler(const Recipe& recipe, Contact contact) const {
@@ -141,19 +172,14 @@ Material PackingStore::barely_touching(const Recipe& recipe, Contact contact) co
   // At equilibrium, as the packings of all cases.
   const Material tight = PackingStore(directory_).generated(recipe, contact);
   State state(tight);
-  double stretch = 1;
-  for (double step = 0.1 / recipe.stiffness; step > 1e-6 / recipe.stiffness;) {
-    const Tensor deformation = (stretch + step) * Tensor::Identity();
-    if (evaluate(state, deformation, 0).status == GRAINLAW_OK) {
-      state.commit();
-      stretch += step;
-    } else {
-      step *= 0.5;
-    }
+  if (recipe.dimension == 2) {
+    expand<2>(state, recipe.stiffness);
+  } else {
+    expand<3>(state, recipe.stiffness);
   }
   check(grainlaw_state_write_packing(state.get(), (directory_ / name).string().c_str()),
         "writing a packing");
-  return from_files(name, contact, true);
+  return from_files(name, contact, true, recipe.dimension);
 }
 
 Material PackingStore::in_units(const Recipe& recipe, Contact contact, const Units& units) const {

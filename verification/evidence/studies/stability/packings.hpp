@@ -30,13 +30,14 @@ struct Contact {
   bool stress_free = false;  // without contacts: P = 0, not an error
 };
 
-// A periodic packing of discs of mean radius 5 mm, uniform radii, at rest without friction: at 100
-// kPa up to a stiffness of 1000, at less beyond.
+// A periodic packing of mean radius 5 mm, uniform radii, at rest without friction: at 100 kPa up to
+// a stiffness of 1000, at less beyond.
 struct Recipe {
-  double stiffness = 300;       // kn / (p t) of the mean disc [-]
+  double stiffness = 300;       // kn / (p t) of the mean disc, kn / (p R) of the mean sphere [-]
   double size_ratio = 7.0 / 3;  // largest / smallest radius [-]
   int count = 100;
   long seed = 1;
+  int dimension = 2;
 
   [[nodiscard]] double young() const;  // [Pa]
 };
@@ -63,13 +64,16 @@ class PackingStore {
   [[nodiscard]] Material in_units(const Recipe& recipe, Contact contact, const Units& units) const;
   [[nodiscard]] Material tiny(const std::string& name, const TinyPacking& packing,
                               const Contact& contact) const;
+  // Spheres of 5 mm radius on a face-centred lattice, `overlap` [m] at F = I.
+  [[nodiscard]] Material fcc(double overlap, const Contact& contact) const;
 
  private:
   // Name of the files of the recipe, made when they are missing.
   [[nodiscard]] std::string ensure(const Recipe& recipe) const;
   [[nodiscard]] static Material make(const Recipe& recipe);
   [[nodiscard]] Material from_files(const std::string& name, const Contact& contact,
-                                    bool with_forces) const;
+                                    bool with_forces, int dimension = 2) const;
+  [[nodiscard]] Material made(MaterialSource source, int dimension) const;
 
   std::filesystem::path directory_;
   double viscous_number_;

@@ -31,7 +31,7 @@ void add_large(const Maker& material, Cases& cases) {
         return Check{0, 1, fmt::format("mean overlap {:.3f} diameters", overlap)};
       });
   add(cases, "increments of 10 %", "simple shear to 1", material,
-      {.targets = along(10, simple_shear)});
+      {.targets = along(10, simple_shear<2>)});
   add(cases, "increments of 10 %", "isochoric to 0.5", material,
       {.targets = along(5, [](double s) { return isochoric(0.5 * s); })});
   add(cases, "increments of 10 %", "isotropic compression to 0.7", material,
@@ -42,27 +42,15 @@ void add_large(const Maker& material, Cases& cases) {
   add(cases, "too large", "F mirrored", material, {.targets = {mirrored}});
 }
 
-// P of the same increments without rotation, turned.
-Check against_unrotated(const Maker& material, const Walk& walk, double angle,
-                        const Targets& still) {
-  const Walk reference = verification::stability::walk(material(), {.targets = still});
-  std::vector<Tensor> rotated;
-  for (std::size_t k = 0; k < reference.points.size(); ++k)
-    rotated.push_back(rotation(angle * static_cast<double>(k)) * reference.points[k].stress);
-  return {stress_distance(walk.points, rotated), 1e-4, "the same without rotation, turned"};
-}
-
 void add_rotations(const PackingStore& store, Cases& cases) {
   const Maker material = [store] { return store.generated({}, {.tolerance = 1e-8}); };
   for (const double angle : {0.3, 1.0, 3.0}) {
     const auto rotating_by = [&](const char* what,
                                  const std::function<Tensor(double)>& deformation) {
-      const Targets targets = rotating(angle, 10, deformation);
-      const int steps = static_cast<int>(targets.size());
-      const Targets still = along(steps, deformation);
+      const Targets still = along(steps_of_turns(angle, 10), deformation);
       add(cases, "10 turns", fmt::format("steps of {:g} rad, {}", angle, what), material,
-          {.targets = targets},
-          [=](const Walk& walk) { return against_unrotated(material, walk, angle, still); });
+          {.targets = rotated<2>(angle, still)},
+          [=](const Walk& walk) { return against_unrotated<2>(material(), walk, angle, still); });
     };
     rotating_by("rigid", unmoved);
     rotating_by("with shear to 1 %", small_shear);
@@ -80,29 +68,15 @@ void add_random(const PackingStore& store, Cases& cases) {
          .cpu_budget = 40});
 }
 
-// Once contacts are lost they stay so until F is dense again, and there the stress is back.
-Check bears_again(const Walk& walk) {
-  double lost = 0;
-  for (const Point& point : walk.points) lost = std::max(lost, point.lost ? 1.0 : 0.0);
-  const double ratio = walk.points.back().stress.norm() / walk.points.front().stress.norm();
-  // A packing compacts when it is shaken: any stress of the first one's order will do.
-  const bool right = lost > 0 && ratio > 0.1 && ratio < 10;
-  return {right ? 0.0 : 1.0, 0.5,
-          fmt::format("contacts lost: {}; |P| back to {:.4g} of the first", lost > 0 ? "yes" : "no",
-                      ratio)};
-}
-
 void add_dilution(const PackingStore& store, Cases& cases) {
   const Maker material = [store] { return store.generated({}, {}); };
   for (const double strain : {0.01, 0.1, 0.25})
     for (const int quarter : {1, 20}) {
       const auto expand = [=](double s) { return isotropic(1 + strain * s); };
-      Targets targets = along(quarter, expand);
-      for (int k = quarter - 1; k >= 0; --k)
-        targets.push_back(expand(static_cast<double>(k) / quarter));
       add(cases, "dilution and back",
           fmt::format("stretch {:g}, {} increments each way", strain, quarter), material,
-          {.targets = targets, .zero_stress_when_lost = true}, bears_again);
+          {.targets = there_and_back(quarter, expand), .zero_stress_when_lost = true},
+          bears_again<2>);
     }
   // About as wide as the packing bears at all, so that forces come, fade and go.
   for (const double stretch : {0.004, 0.005, 0.0052, 0.0053, 0.0054, 0.006}) {

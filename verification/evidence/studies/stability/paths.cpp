@@ -6,71 +6,62 @@
 
 namespace verification::stability {
 
-Targets along(int steps, const std::function<Tensor(double)>& deformation) {
-  Targets targets;
-  for (int k = 1; k <= steps; ++k) targets.push_back(deformation(static_cast<double>(k) / steps));
-  return targets;
-}
-
-Tensor rotation(double angle) {
-  Tensor q;
+template <>
+TensorOf<2> rotation(double angle) {
+  TensorOf<2> q;
   q << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
   return q;
 }
 
-Tensor simple_shear(double amount) {
-  Tensor f;
-  f << 1, amount, 0, 1;
+template <>
+TensorOf<3> rotation(double angle) {
+  return Eigen::AngleAxisd(angle, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+}
+
+template <int D>
+TensorOf<D> simple_shear(double amount) {
+  TensorOf<D> f = TensorOf<D>::Identity();
+  f(0, D - 1) = amount;
   return f;
 }
 
-Tensor isochoric(double strain) {
-  Tensor f;
-  f << std::exp(strain), 0, 0, std::exp(-strain);
+template <int D>
+TensorOf<D> isochoric(double strain) {
+  TensorOf<D> f = TensorOf<D>::Identity() * std::exp(strain / (D - 1));
+  f(D - 1, D - 1) = std::exp(-strain);
   return f;
 }
 
-Tensor isotropic(double stretch) { return stretch * Tensor::Identity(); }
-
-Targets cycles(int cycles, int quarter, const std::function<Tensor(double)>& deformation) {
-  Targets targets;
-  for (int cycle = 0; cycle < cycles; ++cycle)
-    for (int k = 1; k <= 4 * quarter; ++k) {
-      const double phase = static_cast<double>(k) / quarter;
-      const double share = phase <= 1 ? phase : phase <= 3 ? 2 - phase : phase - 4;
-      targets.push_back(deformation(share));
-    }
-  return targets;
+template <int D>
+TensorOf<D> isotropic(double stretch) {
+  return stretch * TensorOf<D>::Identity();
 }
 
-Targets rotating(double angle, double turns, const std::function<Tensor(double)>& deformation) {
-  const int steps = static_cast<int>(std::ceil(2 * std::numbers::pi * turns / angle));
-  Targets targets;
-  for (int k = 1; k <= steps; ++k)
-    targets.push_back(rotation(k * angle) * deformation(static_cast<double>(k) / steps));
-  return targets;
+int steps_of_turns(double angle, double turns) {
+  return static_cast<int>(std::ceil(2 * std::numbers::pi * turns / angle));
 }
 
-Targets random_walk(unsigned seed, int steps, double size, double bound) {
+template <int D>
+TargetsOf<D> random_walk(unsigned seed, int steps, double size, double bound) {
   // The engine's bits are fixed by the standard; what its distributions make of them is not.
   std::mt19937_64 engine(seed);
   const auto random = [&] {
     return 2 * static_cast<double>(engine() >> 11) * 0x1p-53 - 1;  // -1..1
   };
-  Tensor f = Tensor::Identity();
-  Targets targets;
+  TensorOf<D> f = TensorOf<D>::Identity();
+  TargetsOf<D> targets;
   while (static_cast<int>(targets.size()) < steps) {
-    Tensor step;
-    for (int k = 0; k < 4; ++k) step.data()[k] = size * random();
-    Tensor next = f + step;
-    const auto inside = [&](const Tensor& g) {
-      const double area = g.determinant();
-      return (g - Tensor::Identity()).cwiseAbs().maxCoeff() <= bound && area <= 1 &&
-             area >= 1 - 2 * bound;
+    TensorOf<D> step;
+    for (int k = 0; k < D * D; ++k) step.data()[k] = size * random();
+    TensorOf<D> next = f + step;
+    const auto inside = [&](const TensorOf<D>& g) {
+      const double volume = g.determinant();
+      return (g - TensorOf<D>::Identity()).cwiseAbs().maxCoeff() <= bound && volume <= 1 &&
+             volume >= 1 - 2 * bound;
     };
     if (!inside(next)) {
       // Back towards a dense state in the middle, no further than a step.
-      const Tensor way = isotropic(1 - 0.5 * bound) - f;
+      const TensorOf<D> way = isotropic<D>(1 - 0.5 * bound) - f;
       next = f + way * std::min(1.0, size / way.cwiseAbs().maxCoeff());
     }
     f = next;
@@ -78,5 +69,13 @@ Targets random_walk(unsigned seed, int steps, double size, double bound) {
   }
   return targets;
 }
+
+#define GRAINLAW_FOR(D)                         \
+  template TensorOf<D> simple_shear<D>(double); \
+  template TensorOf<D> isochoric<D>(double);    \
+  template TensorOf<D> isotropic<D>(double);    \
+  template TargetsOf<D> random_walk<D>(unsigned, int, double, double);
+GRAINLAW_FOR(2)
+GRAINLAW_FOR(3)
 
 }  // namespace verification::stability

@@ -50,16 +50,17 @@ constexpr Column columns[] = {{"case", true},
                               {"least_dissipation[-]", false},
                               {"error[-]", true},
                               {"against", false},
+                              {"bar", true},
                               {"ends", true}};
 using Row = std::vector<Table::Cell>;
 
-std::string ending(const Case& one, const Walk& walk, const std::optional<Check>& check) {
+std::string ending(const Case& one, const Walked& walked) {
+  const auto& [walk, check] = walked;
   if (!walk.violation.empty()) return undefined + walk.violation;
   if (check && one.judged && !(check->error <= check->bar))
     return fmt::format("{}P is {:.3g} off {}", undefined, check->error, check->against);
   if (!walk.gave_up.empty()) {
-    const bool skipped = one.path.surrender == Surrender::skip_the_increment;
-    return fmt::format("defined: {}: {}", skipped ? "increments skipped, first" : "given up",
+    return fmt::format("defined: {}: {}", one.skips ? "increments skipped, first" : "given up",
                        walk.gave_up);
   }
   std::string how = "converged";
@@ -70,14 +71,13 @@ std::string ending(const Case& one, const Walk& walk, const std::optional<Check>
 }
 
 // Relative to the total absolute work.
-Table::Cell per_work(const Walk& walk, double energy) {
+Table::Cell per_work(const Course& walk, double energy) {
   return walk.worked ? Table::Cell(energy / walk.total_work) : Table::Cell("");
 }
 
-Row row_of(const Case& one, const Walk& walk) {
-  // What is compared is a whole path.
-  std::optional<Check> check;
-  if (one.check && walk.gave_up.empty()) check = one.check(walk);
+Row row_of(const Case& one, const Walked& walked) {
+  const Course& walk = walked.course;
+  const std::optional<Check>& check = walked.check;
   const auto failed = [&](grainlaw_status status) -> double {
     const auto found = walk.failures.find(status);
     return found == walk.failures.end() ? 0 : found->second;
@@ -108,14 +108,16 @@ Row row_of(const Case& one, const Walk& walk) {
           per_work(walk, walk.least_dissipation),
           check ? Table::Cell(check->error) : Table::Cell(""),
           check ? check->against : "",
-          ending(one, walk, check)};
+          one.must_converge ? "must converge" : "",
+          ending(one, walked)};
 }
 
 Row row_without_walk(const Case& one, const std::string& ends) {
   Row row(std::size(columns), Table::Cell(""));
   row.front() = one.group;
   row[1] = one.setting;
-  row[2] = static_cast<double>(one.path.targets.size());
+  row[2] = static_cast<double>(one.increments);
+  row[row.size() - 2] = one.must_converge ? "must converge" : "";
   row.back() = ends;
   constexpr std::size_t most = 90;  // characters on a terminal
   if (ends.size() > most) row.back().shown = ends.substr(0, most) + "...";
@@ -131,7 +133,7 @@ Row run_case(const Case& one) {
     } catch (const ComputationError& error) {
       return row_without_walk(one, fmt::format("defined: no material: {}", error.what()));
     }
-    return row_of(one, walk(*material, one.path));
+    return row_of(one, one.walk(*material));
   } catch (const std::exception& error) {
     return row_without_walk(one, undefined + std::string(error.what()));
   }
@@ -193,17 +195,25 @@ void write_tables(const std::vector<Row>& rows, const std::filesystem::path& out
 void summarise(const std::vector<Row>& rows) {
   std::size_t converged = 0;
   std::size_t wrong = 0;
+  std::size_t must = 0;
+  std::size_t missed = 0;
   for (const Row& row : rows) {
     const std::string& ends = row.back().full;
     if (ends.starts_with("converged")) ++converged;
     if (ends.starts_with(undefined)) ++wrong;
+    if (row[row.size() - 2].full.empty()) continue;
+    ++must;
+    if (!ends.starts_with("converged")) ++missed;
   }
   fmt::print("\n{} cases: {} converged, {} ended as documented, {} undefined\n", rows.size(),
              converged, rows.size() - converged - wrong, wrong);
+  if (must > 0) fmt::print("{} of the {} that must converge did\n", must - missed, must);
   std::fflush(stdout);  // before what is said of it on stderr
-  if (wrong > 0)
+  if (wrong + missed > 0)
     throw ComputationError(
-        fmt::format("stability: {} of {} cases are undefined", wrong, rows.size()));
+        fmt::format("stability: {} of {} cases are undefined, {} must converge "
+                    "and did not",
+                    wrong, rows.size(), missed));
 }
 
 void run_study(const StudyOptions& options, const std::string& only, double viscous_number) {
@@ -217,6 +227,7 @@ void run_study(const StudyOptions& options, const std::string& only, double visc
   add_contact_cases(store, cases);
   add_path_cases(store, yade, cases);
   add_exact_cases(store, cases);
+  add_sphere_cases(store, cases);
   std::vector<Row> rows;
   Progress progress("stability");
   for (std::size_t k = 0; k < cases.size(); ++k) {

@@ -16,7 +16,7 @@ constexpr int most_halvings = 10;
 constexpr double small_step = 1e-3;        // of the step that failed
 constexpr double longest_answer = 20;      // CPU time of one evaluation; more counts as a hang [s]
 constexpr double loosest_residual = 1e-2;  // that may pass for an equilibrium [-]
-constexpr double no_work = 1e-9;           // of the stored energy: rounding of a rotation [-]
+constexpr double no_work = 1e-6;           // of the stored energy: a rotation, by residuals [-]
 constexpr double dissipation_rounding = 1e-9;  // of the total work [-]
 // What an increment leaves unaccounted counts as a jump beyond this share of the mean work: without
 // a jump it is of second order in the increment, and the mean work of first.
@@ -29,29 +29,44 @@ bool defined(grainlaw_measure what, double value) {
 }
 
 // The rotation of the polar decomposition.
-Tensor rotation_of(const Tensor& f) {
-  const double angle = std::atan2(f(1, 0) - f(0, 1), f(0, 0) + f(1, 1));
-  Tensor q;
-  q << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
-  return q;
+template <int D>
+TensorOf<D> rotation_of(const TensorOf<D>& f) {
+  const Eigen::Matrix<double, D, D> columns = f;
+  const Eigen::JacobiSVD<Eigen::Matrix<double, D, D>> parts(
+      columns, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return parts.matrixU() * parts.matrixV().transpose();
 }
 
+// The logarithm of a rotation: angle times axis, as a skew tensor.
+template <int D>
+TensorOf<D> spin_of(const TensorOf<D>& q) {
+  TensorOf<D> spin = TensorOf<D>::Zero();
+  if constexpr (D == 2) {
+    spin(1, 0) = std::atan2(q(1, 0), q(0, 0));
+  } else {
+    const Eigen::AngleAxisd turn{Eigen::Matrix3d(q)};
+    for (int k = 0; k < 3; ++k) spin((k + 2) % 3, (k + 1) % 3) = turn.angle() * turn.axis()(k);
+  }
+  return spin - spin.transpose().eval();
+}
+
+template <int D>
 class Host {
  public:
-  Host(const Material& material, const Path& path) : path_(path), state_(material) {
+  Host(const Material& material, const PathOf<D>& path) : path_(path), state_(material) {
     volume_ = measure_scalar(state_.get(), GRAINLAW_REFERENCE_VOLUME);
     first_stored_ = stored_ = measure_scalar(state_.get(), GRAINLAW_ELASTIC_ENERGY);
   }
 
-  Walk go() {
+  WalkOf<D> go() {
     walk_.increments = static_cast<int>(path_.targets.size());
-    if (!step_to(Tensor::Identity())) {
+    if (!step_to(TensorOf<D>::Identity())) {
       walk_.gave_up = "at F = I";
       return walk_;
     }
     walk_.points.push_back({here_, stress_});
     int number = 0;
-    for (const Tensor& target : path_.targets) {
+    for (const TensorOf<D>& target : path_.targets) {
       ++number;
       const Ending ending = reach(target);
       if (ending == Ending::reached) ++walk_.converged;
@@ -63,7 +78,7 @@ class Host {
       } else {
         const bool lost = ending == Ending::lost;
         walk_.points.push_back(
-            {target, lost ? Tensor::Zero().eval() : stress_, in_one_part_, lost});
+            {target, lost ? TensorOf<D>::Zero().eval() : stress_, in_one_part_, lost});
       }
       if (walk_.cpu > path_.cpu_budget) {
         if (number < walk_.increments)
@@ -85,15 +100,15 @@ class Host {
   enum class Ending { reached, lost, failed };
 
   // From where the point is to the target, in parts when it must be.
-  Ending reach(const Tensor& target) {
-    const Tensor from = here_;
+  Ending reach(const TensorOf<D>& target) {
+    const TensorOf<D> from = here_;
     double done = 0;
     double part = 1;
     int depth = 0;
     in_one_part_ = true;
     while (done < 1) {
       const double share = std::min(done + part, 1.0);
-      const Tensor next = share == 1 ? target : (from + share * (target - from)).eval();
+      const TensorOf<D> next = share == 1 ? target : (from + share * (target - from)).eval();
       if (step_to(next)) {
         done = share;
         part = std::min(2 * part, 1 - done);
@@ -111,10 +126,10 @@ class Host {
   }
 
   // One evaluation, and a commit when it succeeds.
-  bool step_to(const Tensor& deformation) {
+  bool step_to(const TensorOf<D>& deformation) {
     const std::vector<std::byte> before = state_.save();
     const double start = cpu_seconds();
-    const Evaluation found = evaluate(state_, deformation, GRAINLAW_WANT_TANGENT_EXACT);
+    const auto found = evaluate_of<D>(state_, deformation, GRAINLAW_WANT_TANGENT_EXACT);
     const double spent = cpu_seconds() - start;
     count(found, spent);
     if (found.status != GRAINLAW_OK) {
@@ -128,7 +143,7 @@ class Host {
     return true;
   }
 
-  void count(const Evaluation& found, double spent) {
+  void count(const EvaluationOf<D>& found, double spent) {
     last_status_ = found.status;
     ++walk_.evaluations;
     walk_.cpu += spent;
@@ -138,7 +153,7 @@ class Host {
     if (spent > longest_answer) violate(fmt::format("one evaluation took {:.0f} s", spent));
   }
 
-  void check_success(const Evaluation& found) {
+  void check_success(const EvaluationOf<D>& found) {
     const grainlaw_report& report = found.report;
     if (!found.stress.allFinite()) violate("P is not finite");
     if (!found.tangent.allFinite()) violate("the tangent is not finite");
@@ -160,7 +175,7 @@ class Host {
     if (report.tangent_exact == 0) ++walk_.inexact;
   }
 
-  void check_failure(const Evaluation& found, const std::vector<std::byte>& before) {
+  void check_failure(const EvaluationOf<D>& found, const std::vector<std::byte>& before) {
     if (state_.save() != before) violate("a failed evaluation changed the committed state");
     if (!found.stress.isZero(0) || !found.tangent.isZero(0))
       violate("a failed evaluation wrote P or the tangent");
@@ -171,20 +186,26 @@ class Host {
   }
 
   // After a failure the point must stand where it was, and a small step may still succeed.
-  void try_small_step(const Tensor& failed) {
-    if (evaluate(state_, here_, 0).status != GRAINLAW_OK)
+  void try_small_step(const TensorOf<D>& failed) {
+    if (evaluate_of<D>(state_, here_, 0).status != GRAINLAW_OK)
       violate("after a failure the committed F itself finds no equilibrium");
     ++walk_.small_steps;
-    const Tensor near = here_ + small_step * (failed - here_);
-    if (evaluate(state_, near, 0).status == GRAINLAW_OK) ++walk_.small_steps_done;
+    const TensorOf<D> near = here_ + small_step * (failed - here_);
+    if (evaluate_of<D>(state_, near, 0).status == GRAINLAW_OK) ++walk_.small_steps_done;
     state_.revert();
   }
 
-  void account(const Evaluation& found, const Tensor& deformation) {
-    // The rotation of the increment does no work; a trapezoid with it would not know.
-    const Tensor back = rotation_of(deformation * here_.inverse()).transpose();
-    const Tensor sum = back * found.stress + stress_;
-    const double work = 0.5 * volume_ * sum.cwiseProduct(back * deformation - here_).sum();
+  void account(const EvaluationOf<D>& found, const TensorOf<D>& deformation) {
+    // A trapezoid would not know of the rotation of the increment. It does work on the moments of
+    // drag, of which P F^T is skew.
+    const TensorOf<D> turn = rotation_of<D>(deformation * here_.inverse());
+    const TensorOf<D> stress = turn.transpose() * found.stress;
+    const TensorOf<D> stretched = turn.transpose() * deformation;
+    const TensorOf<D> sum = stress + stress_;
+    const TensorOf<D> kirchhoff = stress * stretched.transpose() + stress_ * here_.transpose();
+    const double work = 0.5 * volume_ *
+                        (sum.cwiseProduct(stretched - here_).sum() +
+                         kirchhoff.cwiseProduct(spin_of<D>(turn)).sum());
     walk_.work += work;
     walk_.total_work += std::abs(work);
     const double stored = measure_scalar(state_.get(), GRAINLAW_ELASTIC_ENERGY);
@@ -205,23 +226,29 @@ class Host {
     if (walk_.violation.empty()) walk_.violation = what;
   }
 
-  const Path& path_;
+  const PathOf<D>& path_;
   State state_;
   double volume_ = 0;              // at F = I [m3]
   double first_stored_ = 0;        // [J]
   double stored_ = 0;              // [J]
   double dissipated_ = 0;          // [J]
   std::vector<double> left_over_;  // of the work of every step: neither stored nor dissipated [J]
-  Tensor here_ = Tensor::Identity();
-  Tensor stress_ = Tensor::Zero();
+  TensorOf<D> here_ = TensorOf<D>::Identity();
+  TensorOf<D> stress_ = TensorOf<D>::Zero();
   grainlaw_status last_status_ = GRAINLAW_OK;
   bool in_one_part_ = true;
-  Walk walk_;
+  WalkOf<D> walk_;
 };
 
 }  // namespace
 
-Walk walk(const Material& material, const Path& path) { return Host(material, path).go(); }
+template <int D>
+WalkOf<D> walk(const Material& material, const PathOf<D>& path) {
+  return Host<D>(material, path).go();
+}
+
+template WalkOf<2> walk(const Material&, const PathOf<2>&);
+template WalkOf<3> walk(const Material&, const PathOf<3>&);
 
 std::string status_name(grainlaw_status status) {
   constexpr std::size_t prefix = sizeof "GRAINLAW_" - 1;

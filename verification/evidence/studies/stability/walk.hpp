@@ -12,23 +12,25 @@ namespace verification::stability {
 // What a host does with an increment that fails even in its smallest part.
 enum class Surrender { end_the_path, skip_the_increment };
 
-struct Path {
-  std::vector<Tensor> targets;  // F at the end of every increment; the first starts at F = I
+template <int D>
+struct PathOf {
+  std::vector<TensorOf<D>> targets;  // F at the end of every increment; the first starts at F = I
   Surrender surrender = Surrender::end_the_path;
   // When contacts are lost the host takes zero stress at this F and goes on from what is committed.
   bool zero_stress_when_lost = false;
   double cpu_budget = 10;  // of the whole path, which ends when it is spent [s]
 };
 
-struct Point {
-  Tensor deformation = Tensor::Identity();
-  Tensor stress = Tensor::Zero();  // P [Pa]
-  bool in_one_part = true;         // neither the host nor the library split the increment
-  bool lost = false;               // contacts lost; the stress is the host's zero
+template <int D>
+struct PointOf {
+  TensorOf<D> deformation = TensorOf<D>::Identity();
+  TensorOf<D> stress = TensorOf<D>::Zero();  // P [Pa]
+  bool in_one_part = true;                   // neither the host nor the library split the increment
+  bool lost = false;                         // contacts lost; the stress is the host's zero
 };
 
-struct Walk {
-  std::vector<Point> points;  // F = I, and every increment that reached its target, or zero stress
+// What a walk of either dimension took, and how it ended.
+struct Course {
   int increments = 0;
   int converged = 0;
   int zero_stress = 0;  // increments that ended without contacts
@@ -57,13 +59,25 @@ struct Walk {
   std::string violation;         // "", or the first thing that the contract excludes
 };
 
+template <int D>
+struct WalkOf : Course {
+  // F = I, and every increment that reached its target, or zero stress
+  std::vector<PointOf<D>> points;
+};
+
+// Walks of discs.
+using Path = PathOf<2>;
+using Point = PointOf<2>;
+using Walk = WalkOf<2>;
+
 // An increment in which the packing jumps from one equilibrium to another sets elastic energy free,
 // which the relaxation takes away. It stands out: what its work leaves over when the changes of
 // stored and dissipated energy are taken from it does not shrink with the increment.
 //
 // Every evaluation asks for the exact tangent. A failed step is halved up to ten times, a part that
 // succeeded doubles the next one.
-Walk walk(const Material& material, const Path& path);
+template <int D>
+WalkOf<D> walk(const Material& material, const PathOf<D>& path);
 
 // "NOT_CONVERGED", "CONTACTS_LOST", ...
 std::string status_name(grainlaw_status status);

@@ -18,16 +18,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <grainlaw/dealii/cells_file.hpp>
 #include <grainlaw/dealii/ranks.hpp>
 #include <grainlaw/grainlaw.hpp>
 #include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace grainlaw::dealii {
 
+template <int dim>
+class Lending;
 template <int dim>
 class Refinement;
 
@@ -63,9 +67,7 @@ class Points {
                           "the material is not that of rank 0: all need one file and packing");
       fit();
     });
-    if (!alone)
-      set_.share(static_cast<int>(::dealii::Utilities::MPI::this_mpi_process(comm_)), reduce,
-                 &comm_);
+    share();
   }
   Points(const Points&) = delete;
   Points& operator=(const Points&) = delete;
@@ -82,7 +84,9 @@ class Points {
     together([&] { gradients(readable(u)); });
     for (std::size_t k = 0; k < F_.size(); k += square)
       for (unsigned i = 0; i < dim; ++i) F_[k + i * (dim + 1)] += 1;
-    const auto found = set_.evaluate(F_, trial_P_, GRAINLAW_WANT_TANGENT_EXACT, trial_A_);
+    const auto found = evaluate_
+                           ? evaluate_(F_, trial_P_, trial_A_)
+                           : set_.evaluate(F_, trial_P_, GRAINLAW_WANT_TANGENT_EXACT, trial_A_);
     if (found) {
       P_.swap(trial_P_);
       A_.swap(trial_A_);
@@ -241,9 +245,15 @@ class Points {
   }
 
  private:
+  friend class Lending<dim>;
   friend class Refinement<dim>;
   static constexpr std::size_t square = dim * dim;
 
+  void share() {
+    if (::dealii::Utilities::MPI::n_mpi_processes(comm_) > 1)
+      set_.share(static_cast<int>(::dealii::Utilities::MPI::this_mpi_process(comm_)), reduce,
+                 &comm_);
+  }
   // Gives the set as many points as this rank's cells have now; new ones have new states.
   void fit() {
     std::size_t cells = 0;
@@ -344,6 +354,10 @@ class Points {
   std::vector<double> F_, P_, A_;          // P, A: of the last success
   std::vector<double> trial_P_, trial_A_;  // being evaluated
   std::vector<double> committed_P_, committed_A_;
+  // In place of the set's own evaluation, where points are lent.
+  std::function<PointsEvaluation(std::span<const double> F, std::span<double> P,
+                                 std::span<double> A)>
+      evaluate_;
 };
 
 }  // namespace grainlaw::dealii
