@@ -64,9 +64,9 @@ class Ground:
     surface   height of the ground [m]
     order     of the displacements, 1 or 2
     rehearse  whether all layers are elastic
+    lend      whether ranks lend each other points, as of Points
     water     in the pores: densities are those of the grains less that of water
     degree    of the quadrature, by default 1 of linear displacements and 2 of quadratic ones
-    lend      whether ranks lend each other points, as of Points
     march     options of March, as tolerance=1e-9: |force on the unknowns| / |nodal forces of P| [-]
 
     What is wrong with layers raises ValueError, or Error for a file."""
@@ -86,8 +86,9 @@ class Ground:
         self.domain, self.comm, self.dimension = domain, domain.comm, domain.topology.dim
         self.layers, self.gravity, self._options = list(layers), gravity, {"tolerance": 1e-9, **march}
         self._tops = [surface] + [layer.bottom for layer in layers[:-1]]
-        self._up, self._lend, self.water = self.dimension - 1, lend, water   #: in the pores, or None
+        self._up, self.water = self.dimension - 1, water   #: in the pores, or None
         self._degree = degree or (1 if order == 1 and water is None else 2)
+        self._lend = lend
         self._sand_on_top = not isinstance(layers[0].material, Elastic)
         laws: list[Any] = [layer.material if isinstance(layer.material, Elastic) else
                            read_material(self.comm, layer.material) for layer in layers]
