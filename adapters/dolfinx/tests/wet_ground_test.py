@@ -117,7 +117,8 @@ class Stages(unittest.TestCase):
         def answers(ground):
             flow = ground._flow
             return [np.array(f.x.array) for f in (ground.u, ground.points.P, ground.points.A, ground._load,
-                                                  ground._ramp, flow.former)] + [ground.points.values(flow.solid)]
+                                                  ground._ramp, flow.former)] + [
+                                                      ground.points.values(flow.solid)]
 
         def on(ground):
             ground.step_time = 10
