@@ -32,7 +32,7 @@ def arguments():
     how.add_argument("-surcharge", type=float, default=20e3, help="[Pa]")
     how.add_argument("-settlement", type=float, default=0.1, help="over the width")
     how.add_argument("-steps", type=int, default=50)
-    how.add_argument("-fine", type=int, default=1, help="of the mesh: half of the footing has twice so many cells")
+    how.add_argument("-fine", type=int, default=1, help="half of the cells below half of the footing")
     how.add_argument("-rehearse", action="store_true")
     how.add_argument("-output", default="bearing")
     return how.parse_args()
@@ -82,11 +82,11 @@ def main():
         pressure = of.surcharge - ground.force(under, 1) / FOOT
         settled, left = 2 * of.settlement * FOOT * step / of.steps, ground.imbalance()
         core = COMM.allreduce(time.process_time())
-        text += (f"{settled:.15g},{pressure:.15g},{pressure / of.surcharge:.15g},{left:.3g},{solves},{cuts},"
-                 f"{core:.1f}\n")
+        ratio = pressure / of.surcharge
+        text += f"{settled:.15g},{pressure:.15g},{ratio:.15g},{left:.3g},{solves},{cuts},{core:.1f}\n"
         if COMM.rank == 0:
-            print(f"settlement {1e3 * settled:.6g} mm: {pressure / of.surcharge:.6g} surcharges, out of balance "
-                  f"{left:.1e}, {solves} iterations, {cuts} cuts", flush=True)
+            print(f"settlement {1e3 * settled:.6g} mm: {ratio:.6g} surcharges, out of balance {left:.1e}, "
+                  f"{solves} iterations, {cuts} cuts", flush=True)
             write_whole(of.output + ".csv", text)
     write_fields(ground, of.output + ".xdmf")
     if not of.rehearse:

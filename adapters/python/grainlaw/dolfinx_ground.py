@@ -322,7 +322,9 @@ class Ground:
 
     def _make(self) -> None:
         """Points of the layers, and what is assembled over them."""
-        self._tell_pulled((self._load.x.array > 0) & self._of_up(), self._load.x.array)
+        load = self._load.x.array
+        largest = self.comm.allreduce(np.abs(load).max(initial=0.0), MPI.MAX)
+        self._tell_pulled((load > 1e-9 * largest) & self._of_up(), load)
         bottoms = np.array([layer.bottom for layer in self.layers])
         self.points = Points(self.domain, self._laws, self._degree,
                              lambda x: np.asarray(np.sum(x[self._up] < bottoms[:-1, None], axis=0)),
@@ -396,7 +398,7 @@ class Ground:
         """The component of pressures."""
         if self.water is None:
             raise ValueError("the ground has no pore water, expected water=PoreWater(...)")
-        return self.dimension
+        return int(self.dimension)
 
     def _stress_power(self, v: Any, mark: Any = 1) -> Any:
         """The form of the work of grains and water in a test function, of marked points."""
@@ -468,7 +470,8 @@ class Ground:
         """Unknowns of the own cells (n, k)."""
         dofmap, owned = self.V.dofmap, self.domain.topology.index_map(self.dimension).size_local
         blocks = dofmap.list.array.reshape(-1, dofmap.dof_layout.num_dofs)[:owned].astype(np.int64)
-        return (blocks[:, :, None] * dofmap.bs + np.arange(dofmap.bs)).reshape(owned, -1)
+        unknowns: npt.NDArray[np.int64] = blocks[:, :, None] * dofmap.bs + np.arange(dofmap.bs)
+        return unknowns.reshape(owned, -1)
 
     def _left(self) -> npt.NDArray[np.int64]:
         """Unknowns of the own cells that have a point left (n, k)."""
@@ -538,8 +541,8 @@ class Ground:
         return along & self._sand_on_top
 
     def _tell_pulled(self, pulled: npt.NDArray[np.bool_], force: Array) -> None:
-        self._tell(pulled, lambda k: f"the node at {_place(self._places[k])} is pulled up by {force[k]:g} N: the surface "
-                                     "would be in tension")
+        self._tell(pulled, lambda k: f"the node at {_place(self._places[k])} is pulled up by {force[k]:g} N: the "
+                                     "surface would be in tension")
 
     def _tell(self, wrong: npt.NDArray[np.bool_], text: Callable[[int], str]) -> None:
         """Raises ValueError on all ranks with the text of the first unknown that is wrong."""
