@@ -17,8 +17,8 @@ using disc_loops::GroupSum;
 
 // Nodes that a register of so many doubles takes at once.
 template <int D, class Real, std::size_t doubles>
-inline constexpr std::size_t nodes_at_once =
-    std::min(HalfContactColumns<D>::lanes, doubles * sizeof(double) / sizeof(Real));
+inline constexpr std::size_t nodes_at_once = std::min(HalfContactColumns<D>::lanes,
+                                                      doubles * sizeof(double) / sizeof(Real));
 
 template <int D, class Real>
 struct Step {

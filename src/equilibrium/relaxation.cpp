@@ -63,7 +63,8 @@ void Relaxation<D>::refresh() {
       at_rest_ = false;
     }
     refresh_start_ = refresh_max_ = residual_;
-    memory_.half_contacts.step_in_single_precision(residual_ > tuned::single_precision);
+    memory_.half_contacts.step_in_single_precision(memory_.single_precision &&
+                                                   residual_ > tuned::single_precision);
     return increment_.relinearise(memory_.half_contacts);
   }
   increment_.sum_masses();

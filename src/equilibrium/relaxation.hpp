@@ -18,6 +18,9 @@ struct RelaxationMemory {
   std::vector<double> velocity, gain;
   HalfContacts<D> half_contacts;
   SubspaceExtrapolation<D> slow;
+  // Steps above tuned::single_precision may be in it. Where Newton follows, discs keep the digits on
+  // which hosts agree whose F differ by rounding.
+  bool single_precision = D == 3;
 };
 
 // Viscous relaxation. The damping follows the lowest active frequency, and its lower bound adapts

@@ -99,8 +99,9 @@ bool find_equilibrium(const Request<D>& request, Workspace<D>& w, Outcome& outco
   double target = reachable(request, increment);
   double hand_over = hand_over_of<D>(increment.problem().nodes());
   if (has_drag(request)) hand_over = tuned::drag_hand_over;
-  if (whole && solve_tiny(request, target, hand_over, steps, w)) return true;
   const bool coarse = target > tuned::worth_newton * hand_over;
+  w.relaxation.single_precision = D == 3 || coarse;
+  if (whole && solve_tiny(request, target, hand_over, steps, w)) return true;
   if (coarse) hand_over = target;
   bool last = false;
   for (int round = 0; !last && round < rounds; ++round) {
