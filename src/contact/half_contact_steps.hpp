@@ -62,6 +62,8 @@ template <int D, std::size_t width, class Real>
 class NodeSteps {
   using V = Lanes<width, Real>;
   using Nodes = typename HalfContactColumns<D>::template NodesOf<Real>;
+  // Velocities of discs in double precision are differences of displacements as these are rounded.
+  static constexpr bool as_moved = D == 2 && std::is_same_v<Real, double>;
 
  public:
   GRAINLAW_INLINE explicit NodeSteps(const Step<D, Real>& step)
@@ -78,8 +80,9 @@ class NodeSteps {
     const V next =
         keep_ * v + gain_ * force * load<width>((turns ? nodes.gain_spin : nodes.gain) + k);
     next_work_ += next * force;
-    store(velocity, next);
+    const V before = moved;
     moved += next;
+    store(velocity, as_moved ? moved - before : next);
     store(nodes.moved[c] + k, moved);
   }
   // Adds the sums of the nodes from lane k on.

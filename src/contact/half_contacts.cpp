@@ -27,7 +27,8 @@ double power_of_two(double number) { return std::ldexp(1.0, std::ilogb(number));
 template <int D>
 void HalfContacts<D>::arrange(const ContactList<D>& list, const Packing& packing,
                               std::span<const LeastMass<D>> least_masses,
-                              std::span<const ParticleRecord<D>> particles, bool at_rest) {
+                              std::span<const ParticleRecord<D>> particles, bool at_rest,
+                              bool may_be_single) {
   const auto& radius = packing.radius;
   particles_ = packing.size();
   const double sum = std::accumulate(radius.begin(), radius.end(), 0.0);
@@ -41,6 +42,7 @@ void HalfContacts<D>::arrange(const ContactList<D>& list, const Packing& packing
     if (at_rest) moved_ = 0;
     find_near(list, particles);
   }
+  single_precision_ = single_precision_ && may_be_single;
   choose_units(list);
   slots_.sort(std::span(list.i).first(list.size()), std::span(list.j).first(list.size()),
               particles_, packing.order, near_);
@@ -49,17 +51,8 @@ void HalfContacts<D>::arrange(const ContactList<D>& list, const Packing& packing
   bound_masses(least_masses);
   resize_with_capacity(positions_, lanes * groups);
   std::fill(positions_.begin(), positions_.end(), ParticleRecord<D>{});
-  const auto begin = [&]<class Real>(Steps<Real>& steps) {
-    resize_with_capacity(steps.nodes, groups);
-    std::fill(steps.nodes.begin(), steps.nodes.end(), typename Columns::template NodesOf<Real>{});
-    for (auto* records : {&steps.displacements, &steps.last_displacements}) {
-      resize_with_capacity(*records, lanes * groups);
-      std::fill(records->begin(), records->end(), typename Columns::template Displacement<Real>{});
-    }
-    resize_with_capacity(steps.half_contacts, slots_.row_count());
-  };
   begin(steps_);
-  begin(single_);
+  if (may_be_single) begin(single_);
   if (!at_rest) {
     for (std::size_t p = 0; p < particles_; ++p) set_velocity(p, velocity_[p]);
   }
@@ -68,6 +61,20 @@ void HalfContacts<D>::arrange(const ContactList<D>& list, const Packing& packing
     for (auto& record : positions_) record.radius = largest;
   }
   list_half_contacts(list, 2 * largest);
+}
+
+// Takes nodes at rest, and room for half contacts.
+template <int D>
+template <class Real>
+void HalfContacts<D>::begin(Steps<Real>& steps) {
+  const std::size_t groups = slots_.groups().size();
+  resize_with_capacity(steps.nodes, groups);
+  std::fill(steps.nodes.begin(), steps.nodes.end(), typename Columns::template NodesOf<Real>{});
+  for (auto* records : {&steps.displacements, &steps.last_displacements}) {
+    resize_with_capacity(*records, lanes * groups);
+    std::fill(records->begin(), records->end(), Displacement<Real>{});
+  }
+  resize_with_capacity(steps.half_contacts, slots_.row_count());
 }
 
 template <int D>
@@ -267,7 +274,7 @@ void HalfContacts<D>::add_drag(std::span<const ParticleRecord<D>> particles,
   template void HalfContacts<D>::measure_moves();                                                 \
   template void HalfContacts<D>::arrange(const ContactList<D>&, const Packing&,                   \
                                          std::span<const LeastMass<D>>,                           \
-                                         std::span<const ParticleRecord<D>>, bool);               \
+                                         std::span<const ParticleRecord<D>>, bool, bool);         \
   template void HalfContacts<D>::add_drag(std::span<const ParticleRecord<D>>, const NodeDrag<D>&, \
                                           double);
 GRAINLAW_FOR(2)

@@ -108,10 +108,11 @@ class HalfContacts : public HalfContactColumns<D> {
 
   // Lists the half contacts, which have no weights. least_masses: kn of translations [N/m], that of
   // spins, and 1 / R. Particles are at rest, or keep the velocities of the last list. Spheres sort
-  // the contacts that are near at these positions first.
+  // the contacts that are near at these positions first. Room for steps in single precision is taken where they may be.
   void arrange(const ContactList<D>& list, const Packing& packing,
                std::span<const LeastMass<D>> least_masses,
-               std::span<const ParticleRecord<D>> particles, bool at_rest);
+               std::span<const ParticleRecord<D>> particles, bool at_rest,
+               bool may_be_single);
 
   // Sets the precision of the steps from the next relinearise() on.
   void step_in_single_precision(bool single);
@@ -139,6 +140,8 @@ class HalfContacts : public HalfContactColumns<D> {
   void set_velocity(std::size_t particle, const Velocity& velocity);
   void find_near(const ContactList<D>& list, std::span<const ParticleRecord<D>> particles);
   void measure_moves();
+  template <class Real>
+  void begin(Steps<Real>& steps);
   template <class Real>
   void restart(Steps<Real>& steps);
   void choose_units(const ContactList<D>& list);

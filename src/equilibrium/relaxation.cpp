@@ -58,13 +58,14 @@ void Relaxation<D>::refresh() {
   if (by_half_contacts_) {
     if (relisted || !arranged_) {
       memory_.half_contacts.arrange(increment_.contacts(), *problem_.packing,
-                                    increment_.masses().least(), motion_.records(), at_rest_);
+                                    increment_.masses().least(), motion_.records(), at_rest_,
+                                    memory_.single_precision);
       arranged_ = true;
       at_rest_ = false;
     }
-    refresh_start_ = refresh_max_ = residual_;
     memory_.half_contacts.step_in_single_precision(memory_.single_precision &&
                                                    residual_ > tuned::single_precision);
+    refresh_start_ = refresh_max_ = residual_;
     return increment_.relinearise(memory_.half_contacts);
   }
   increment_.sum_masses();
@@ -217,7 +218,7 @@ template <int D>
 bool Relaxation<D>::run(double tolerance, long steps, double least_force) {
   motion_.load_records();
   arranged_ = false;
-  if (by_half_contacts_) {
+  if (by_half_contacts_ && memory_.single_precision) {
     increment_.keep_neighbours();
     increment_.update_forces();
     residual_ = increment_.residual_norm();

@@ -31,7 +31,7 @@ struct Scene {
 
   void arrange(bool at_rest) {
     half_contacts.arrange(contacts, material->packing, increment.masses().least(), records(),
-                          at_rest);
+                          at_rest, true);
   }
 
   ContactTotals relinearise() {
@@ -142,7 +142,7 @@ TEST(half_contacts, give_every_particle_its_force_in_whatever_order_they_lie) {
     reversed.order.push_back(static_cast<std::int32_t>(p - 1));
   }
   scene.half_contacts.arrange(scene.contacts, reversed, scene.increment.masses().least(),
-                              scene.records(), true);
+                              scene.records(), true, false);
   scene.relinearise();
   EXPECT_EQ(largest_difference(scene.step(), expected), 0);
 }

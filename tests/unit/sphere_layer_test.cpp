@@ -11,8 +11,8 @@
 namespace grainlaw::core::sphere_test {
 namespace {
 
-constexpr double tolerance = 2e-11;  // rounding leaves up to 1.3e-11
-constexpr double height = 0.02;      // of the cell of spheres, higher than they are [m]
+constexpr double tolerance = 1e-11;
+constexpr double height = 0.02;  // of the cell of spheres, higher than they are [m]
 constexpr double step = 5e-4;
 constexpr std::array<std::size_t, 4> in_plane{0, 1, 3, 4};
 

@@ -131,12 +131,15 @@ TEST(stress_free, turning_and_shearing_a_loose_packing_costs_nothing) {
   expect_carried(state, before, {1, 0.02 / loose, 0, 1});
 }
 
-// Steps without an equilibrium, of fifty: of 20000 such steps of 400 packings six to eight had none, by
-// the rounding of the build.
+// The default build, of GCC, cuts none.
+#ifdef __clang__
 constexpr int most_cuts = 2;
+#else
+constexpr int most_cuts = 0;
+#endif
 
-// Goes to F in equal steps, and cuts those without an equilibrium as a host does: which these are
-// depends on rounding, which decides between the ways in which loose discs come to bear.
+// Go to F in equal steps, and cut those without an equilibrium as a host does: which these are depends on
+// the compiler, as rounding decides between the ways in which loose discs come to bear.
 int advance_with_cuts(State& state, const Tensor& F, int steps) {
   const auto& f0 = state.committed().deformation;
   const Tensor start{f0[0], f0[1], f0[2], f0[3]};
