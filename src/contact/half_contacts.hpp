@@ -111,8 +111,7 @@ class HalfContacts : public HalfContactColumns<D> {
   // the contacts that are near at these positions first. Room for steps in single precision is taken where they may be.
   void arrange(const ContactList<D>& list, const Packing& packing,
                std::span<const LeastMass<D>> least_masses,
-               std::span<const ParticleRecord<D>> particles, bool at_rest,
-               bool may_be_single);
+               std::span<const ParticleRecord<D>> particles, bool at_rest, bool may_be_single);
 
   // Sets the precision of the steps from the next relinearise() on.
   void step_in_single_precision(bool single);
