@@ -23,7 +23,7 @@ import retaining_wall
 
 BOUND = 1e-10         # of forces, over the largest [-]
 LAST_PLACE = 1.1e-16  # of F, which is near 1 [-]
-NUDGED = 4            # runs
+NUDGED = 2            # runs
 WORLD = MPI.COMM_WORLD
 
 
