@@ -35,6 +35,8 @@ class Observed(Points):
     def _gradient(self, u):
         found = super()._gradient(u)
         if self.given is not None:
+            if len(self.gradients) == len(self.given):
+                raise AssertionError(f"more than the {len(self.given)} gradients of one rank were asked for")
             known = self.given[len(self.gradients)]
             found = np.array([known[place] for place in self._names()]).reshape(found.shape)
         if self.chance is not None:
