@@ -9,7 +9,6 @@ surcharge), run.xdmf (displacement, shear strain, void ratio) and the packing be
 Bounds: strength.py of FreeFEM.
 """
 import argparse
-import time
 
 import numpy as np
 from dolfinx import mesh
@@ -17,8 +16,7 @@ from mpi4py import MPI
 
 from grainlaw.dolfinx import end_together
 from grainlaw.dolfinx_ground import Ground, Layer
-from grainlaw.dolfinx_output import write_fields, write_packing
-from grainlaw.files import write_whole
+from grainlaw.dolfinx_output import write_curve, write_fields, write_packing
 
 WIDTH, DEPTH, FOOT = 7, 4, 1   # m
 RATE = 5e-4                    # strain of a unit of time, viscous_rate of the sand
@@ -74,20 +72,12 @@ def main():
     ground.stage()
     ground.hold(under, 0)
     ground.hold(under, 1, -2 * of.settlement * FOOT)
-    text = "settlement[m],pressure[Pa],ratio[-],residual[-],iterations[-],cuts[-],core_time[s]\n"
-    for step in range(of.steps + 1):
-        solves = cuts = 0
-        for part in ground.to(step / of.steps):
-            solves, cuts = part.solves, part.cuts
+
+    def measured(done):
         pressure = of.surcharge - ground.force(under, 1) / FOOT
-        settled, left = 2 * of.settlement * FOOT * step / of.steps, ground.imbalance()
-        core = COMM.allreduce(time.process_time())
-        ratio = pressure / of.surcharge
-        text += f"{settled:.15g},{pressure:.15g},{ratio:.15g},{left:.3g},{solves},{cuts},{core:.1f}\n"
-        if COMM.rank == 0:
-            print(f"settlement {1e3 * settled:.6g} mm: {ratio:.6g} surcharges, out of balance {left:.1e}, "
-                  f"{solves} iterations, {cuts} cuts", flush=True)
-            write_whole(of.output + ".csv", text)
+        return 2 * of.settlement * FOOT * done, pressure, pressure / of.surcharge
+
+    write_curve(ground, of.steps, ("settlement[m]", "pressure[Pa]", "ratio[-]"), measured, of.output + ".csv")
     write_fields(ground, of.output + ".xdmf")
     if not of.rehearse:
         write_packing(ground, (FOOT, -0.2), of.output + "_edge.vtp")

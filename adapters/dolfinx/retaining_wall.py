@@ -9,7 +9,6 @@ height of the moment), run.xdmf (displacement, shear strain, void ratio), and th
 the wall and of one far from it as run_near.vtp, run_far.vtp.
 """
 import argparse
-import time
 
 import numpy as np
 from dolfinx import mesh
@@ -17,8 +16,7 @@ from mpi4py import MPI
 
 from grainlaw.dolfinx import end_together
 from grainlaw.dolfinx_ground import Ground, Layer
-from grainlaw.dolfinx_output import write_fields, write_packing
-from grainlaw.files import write_whole
+from grainlaw.dolfinx_output import write_curve, write_fields, write_packing
 
 RATE = 5e-4   # strain of a unit of time, viscous_rate of the sand
 COMM = MPI.COMM_WORLD
@@ -68,21 +66,14 @@ def main():
     if of.wall == "rough":
         ground.hold(wall, 1)
     ground.hold(wall, 0, of.move if of.way == "passive" else -of.move)
-    text = "displacement[m],force[N/m],K[-],residual[-],iterations[-],cuts[-],core_time[s]\n"
-    for step in range(of.steps + 1):
-        solves = cuts = 0
-        for part in ground.to(step / of.steps):
-            solves, cuts = part.solves, part.cuts
+
+    def measured(done):
         top = ground.moved(lambda x: wall(x) & np.isclose(x[1], 0), 1)
         height = 1 + COMM.allreduce(top.min(initial=np.inf), MPI.MIN)
-        force, left = ground.force(wall, 0), ground.imbalance()
-        K = force / (ground.unit_weights[0] * height / 2)
-        moved, core = of.move * step / of.steps, COMM.allreduce(time.process_time())
-        text += f"{moved:.15g},{force:.15g},{K:.15g},{left:.3g},{solves},{cuts},{core:.1f}\n"
-        if COMM.rank == 0:
-            print(f"moved {1e3 * moved:.6g} mm: K {K:.6g}, out of balance {left:.1e}, {solves} iterations, "
-                  f"{cuts} cuts", flush=True)
-            write_whole(of.output + ".csv", text)
+        force = ground.force(wall, 0)
+        return of.move * done, force, force / (ground.unit_weights[0] * height / 2)
+
+    write_curve(ground, of.steps, ("displacement[m]", "force[N/m]", "K[-]"), measured, of.output + ".csv")
     write_fields(ground, of.output + ".xdmf")
     if not of.rehearse:
         write_packing(ground, (0.1, -0.6), of.output + "_near.vtp")

@@ -9,7 +9,6 @@ all loads), run.xdmf (displacement, shear strain, void ratio) and the packing be
 Ends with a status that is not 0 where the base does not bear weight, surcharge and footing.
 """
 import argparse
-import time
 
 import numpy as np
 from dolfinx import mesh
@@ -17,8 +16,7 @@ from mpi4py import MPI
 
 from grainlaw.dolfinx import end_together
 from grainlaw.dolfinx_ground import Ground, Layer
-from grainlaw.dolfinx_output import write_fields, write_packing
-from grainlaw.files import write_whole
+from grainlaw.dolfinx_output import write_curve, write_fields, write_packing
 
 WIDTH, DEPTH, FOOT = 2, 1.5, 0.5   # m, of a quarter
 RATE = 5e-4                        # strain of a unit of time, viscous_rate of the sand
@@ -80,22 +78,16 @@ def main():
         ground.hold(lambda x, axis=axis: under(x) & ~np.isclose(x[axis], 0), axis)
     ground.hold(under, 2, -2 * of.settlement * FOOT)
     loads = ground.weight() + of.surcharge * WIDTH**2
-    text = "settlement[m],pressure[Pa],ratio[-],base[-],residual[-],iterations[-],cuts[-],core_time[s]\n"
-    for step in range(of.steps + 1):
-        solves = cuts = 0
-        for part in ground.to(step / of.steps):
-            solves, cuts = part.solves, part.cuts
+
+    def measured(done):
         footing = -ground.force(under, 2)
-        borne, left = ground.force(base, 2) / (loads + footing), ground.imbalance()
-        pressure = of.surcharge + footing / FOOT**2
-        settled, core = 2 * of.settlement * FOOT * step / of.steps, COMM.allreduce(time.process_time())
-        ratio = pressure / of.surcharge
-        text += f"{settled:.15g},{pressure:.15g},{ratio:.15g},{borne:.15g},{left:.3g},{solves},{cuts},{core:.1f}\n"
-        if COMM.rank == 0:
-            print(f"settlement {1e3 * settled:.6g} mm: {ratio:.6g} surcharges, the base bears {borne:.9g} of the "
-                  f"loads, out of balance {left:.1e}, {solves} iterations, {cuts} cuts", flush=True)
-            write_whole(of.output + ".csv", text)
+        borne = ground.force(base, 2) / (loads + footing)
         assert abs(borne - 1) < 1e-6
+        pressure = of.surcharge + footing / FOOT**2
+        return 2 * of.settlement * FOOT * done, pressure, pressure / of.surcharge, borne
+
+    write_curve(ground, of.steps, ("settlement[m]", "pressure[Pa]", "ratio[-]", "base[-]"), measured,
+                of.output + ".csv")
     write_fields(ground, of.output + ".xdmf")
     if not of.rehearse:
         write_packing(ground, (FOOT, FOOT, -0.2), of.output + "_edge.vtp")

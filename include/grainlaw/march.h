@@ -91,8 +91,8 @@ GRAINLAW_API grainlaw_status grainlaw_march_begin(grainlaw_march*, double from, 
 /* What the host does now; part may be NULL. The next call means that it is done. The first SOLVE of an
  * attempt begins at the committed unknowns. After an ACCEPT, the next attempt may be for the same
  * load: of a state beyond a jump, committed out of balance. Where that fails, the state is left so: the
- * BACK counts in part.loose, and the next part or DONE follows. GIVE_UP also for a null or dead handle, a
- * part of unknown size, and before any load step. */
+ * BACK counts in part.loose, and the next part or DONE follows; where its residual was above 1, GIVE_UP.
+ * GIVE_UP also for a null or dead handle, a part of unknown size, and before any load step. */
 GRAINLAW_API grainlaw_action grainlaw_march_next(grainlaw_march*, grainlaw_part* part);
 
 /* The share of a correction to apply, at most 1: its largest change of F (of this rank's points,

@@ -8,40 +8,24 @@ namespace {
 
 using namespace disc_half_contacts;
 
-#define GRAINLAW_HALF_CONTACT_LOOPS(Real)                                                        \
-  GRAINLAW_BY_LANES(Relinearised, relinearise_locked_near, relinearise_loop,                     \
-                    (const Relinearisation<Real>& loop), (loop), false, false)                   \
-  GRAINLAW_BY_LANES(Relinearised, relinearise_locked_far, relinearise_loop,                      \
-                    (const Relinearisation<Real>& loop), (loop), false, true)                    \
-  GRAINLAW_BY_LANES(Relinearised, relinearise_near, relinearise_loop,                            \
-                    (const Relinearisation<Real>& loop), (loop), true, false)                    \
-  GRAINLAW_BY_LANES(Relinearised, relinearise_far, relinearise_loop,                             \
-                    (const Relinearisation<Real>& loop), (loop), true, true)                     \
-  GRAINLAW_BY_LANES(StepMeasures, step_locked, step_loop, (const Step<2, Real>& loop), (loop),   \
-                    false, false)                                                                \
-  GRAINLAW_BY_LANES(StepMeasures, step_locked_dragged, step_loop, (const Step<2, Real>& loop),   \
-                    (loop), false, true)                                                         \
-  GRAINLAW_BY_LANES(StepMeasures, step_rotating, step_loop, (const Step<2, Real>& loop), (loop), \
-                    true, false)                                                                 \
-  GRAINLAW_BY_LANES(StepMeasures, step_rotating_dragged, step_loop, (const Step<2, Real>& loop), \
-                    (loop), true, true)
-GRAINLAW_HALF_CONTACT_LOOPS(double)
-GRAINLAW_HALF_CONTACT_LOOPS(float)
-
-template <class Real>
-StepMeasures take(const Step<2, Real>& step, bool rotating) {
-  if (step.drags == nullptr) return rotating ? step_rotating(step) : step_locked(step);
-  return rotating ? step_rotating_dragged(step) : step_locked_dragged(step);
-}
+#define GRAINLAW_RELINEARISATIONS(Real)                                        \
+  GRAINLAW_BY_LANES(Relinearised, relinearise_locked_near, relinearise_loop,   \
+                    (const Relinearisation<Real>& loop), (loop), false, false) \
+  GRAINLAW_BY_LANES(Relinearised, relinearise_locked_far, relinearise_loop,    \
+                    (const Relinearisation<Real>& loop), (loop), false, true)  \
+  GRAINLAW_BY_LANES(Relinearised, relinearise_near, relinearise_loop,          \
+                    (const Relinearisation<Real>& loop), (loop), true, false)  \
+  GRAINLAW_BY_LANES(Relinearised, relinearise_far, relinearise_loop,           \
+                    (const Relinearisation<Real>& loop), (loop), true, true)
+GRAINLAW_RELINEARISATIONS(double)
+GRAINLAW_RELINEARISATIONS(float)
+GRAINLAW_STEP_LOOPS(2, double)
+GRAINLAW_STEP_LOOPS(2, float)
 
 }  // namespace
 
-StepMeasures half_contact_steps::take_step(const Step<2, double>& step, bool rotating) {
-  return take(step, rotating);
-}
-StepMeasures half_contact_steps::take_step(const Step<2, float>& step, bool rotating) {
-  return take(step, rotating);
-}
+GRAINLAW_TAKE_STEP(2, double)
+GRAINLAW_TAKE_STEP(2, float)
 
 template <>
 ContactTotals HalfContacts<2>::relinearise(std::span<const ParticleRecord<2>> particles,

@@ -38,6 +38,24 @@ StepMeasures take_step(const Step<2, float>& step, bool rotating);
 StepMeasures take_step(const Step<3, double>& step, bool rotating);
 StepMeasures take_step(const Step<3, float>& step, bool rotating);
 
+// Loops step_* of every width, from step_loop.
+#define GRAINLAW_STEP_LOOPS(D, Real)                                                             \
+  GRAINLAW_BY_LANES(StepMeasures, step_locked, step_loop, (const Step<D, Real>& loop), (loop),   \
+                    false, false)                                                                \
+  GRAINLAW_BY_LANES(StepMeasures, step_locked_dragged, step_loop, (const Step<D, Real>& loop),   \
+                    (loop), false, true)                                                         \
+  GRAINLAW_BY_LANES(StepMeasures, step_rotating, step_loop, (const Step<D, Real>& loop), (loop), \
+                    true, false)                                                                 \
+  GRAINLAW_BY_LANES(StepMeasures, step_rotating_dragged, step_loop, (const Step<D, Real>& loop), \
+                    (loop), true, true)
+
+// Takes a step by these loops.
+#define GRAINLAW_TAKE_STEP(D, Real)                                                       \
+  StepMeasures half_contact_steps::take_step(const Step<D, Real>& step, bool rotating) {  \
+    if (step.drags == nullptr) return rotating ? step_rotating(step) : step_locked(step); \
+    return rotating ? step_rotating_dragged(step) : step_locked_dragged(step);            \
+  }
+
 // Stores values in units of the steps; doubles have the unit 1.
 template <class Real, std::size_t width>
 GRAINLAW_INLINE void put_as(const Lanes<width>& value, double per_unit, Real* to) {

@@ -12,38 +12,22 @@ namespace {
 
 using namespace sphere_half_contacts;
 
-#define GRAINLAW_HALF_CONTACT_LOOPS(Real)                                                        \
-  GRAINLAW_BY_LANES(Relinearised, relinearise_locked, relinearise_loop,                          \
-                    (const Relinearisation<Real>& loop), (loop), false)                          \
-  GRAINLAW_BY_LANES(Relinearised, relinearise_rotating, relinearise_loop,                        \
-                    (const Relinearisation<Real>& loop), (loop), true)                           \
-  GRAINLAW_BY_LANES(StepMeasures, step_locked, step_loop, (const Step<3, Real>& loop), (loop),   \
-                    false, false)                                                                \
-  GRAINLAW_BY_LANES(StepMeasures, step_locked_dragged, step_loop, (const Step<3, Real>& loop),   \
-                    (loop), false, true)                                                         \
-  GRAINLAW_BY_LANES(StepMeasures, step_rotating, step_loop, (const Step<3, Real>& loop), (loop), \
-                    true, false)                                                                 \
-  GRAINLAW_BY_LANES(StepMeasures, step_rotating_dragged, step_loop, (const Step<3, Real>& loop), \
-                    (loop), true, true)
-GRAINLAW_HALF_CONTACT_LOOPS(double)
-GRAINLAW_HALF_CONTACT_LOOPS(float)
-
-template <class Real>
-StepMeasures take(const Step<3, Real>& step, bool rotating) {
-  if (step.drags == nullptr) return rotating ? step_rotating(step) : step_locked(step);
-  return rotating ? step_rotating_dragged(step) : step_locked_dragged(step);
-}
+#define GRAINLAW_RELINEARISATIONS(Real)                                   \
+  GRAINLAW_BY_LANES(Relinearised, relinearise_locked, relinearise_loop,   \
+                    (const Relinearisation<Real>& loop), (loop), false)   \
+  GRAINLAW_BY_LANES(Relinearised, relinearise_rotating, relinearise_loop, \
+                    (const Relinearisation<Real>& loop), (loop), true)
+GRAINLAW_RELINEARISATIONS(double)
+GRAINLAW_RELINEARISATIONS(float)
+GRAINLAW_STEP_LOOPS(3, double)
+GRAINLAW_STEP_LOOPS(3, float)
 
 std::size_t at(std::int32_t particle) { return static_cast<std::size_t>(particle); }
 
 }  // namespace
 
-StepMeasures half_contact_steps::take_step(const Step<3, double>& step, bool rotating) {
-  return take(step, rotating);
-}
-StepMeasures half_contact_steps::take_step(const Step<3, float>& step, bool rotating) {
-  return take(step, rotating);
-}
+GRAINLAW_TAKE_STEP(3, double)
+GRAINLAW_TAKE_STEP(3, float)
 
 // Finds the contacts that touch or that a move as large as an overlap may close.
 template <>

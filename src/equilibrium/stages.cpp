@@ -217,6 +217,7 @@ bool solve_parts(const Request<D>& request, int parts, Workspace<D>& w, Outcome&
       increment.continue_history();
     }
   }
+  if (may_be_free(request) && !loaded(increment)) outcome.sensitivities = false;
   return true;
 }
 

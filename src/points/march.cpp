@@ -151,6 +151,8 @@ void March::end_without_convergence(double residual) {
 void March::judge_crossing(const Told& told) {
   if (!told.found) return fail(stepping::largest_cut, told.reason);
   const bool beyond = crossings_ < options_.max_crossings;
+  beyond_ = told.residual;
+  if (!beyond && too_loose()) return give_up_beyond("");
   if (beyond) {
     ++crossings_;
     ++part_.crossed;
@@ -169,6 +171,7 @@ void March::accept(bool ends_part) {
 // Cuts the part. Not that of a state beyond a jump, which would go back: that state stays as it is.
 void March::fail(double ratio, const char* reason) {
   ends_part_ = crossings_ > 0;
+  if (ends_part_ && too_loose()) return give_up_beyond(reason);
   if (ends_part_) {
     ++part_.loose;
     write(part_, "%s", reason);
@@ -181,6 +184,17 @@ void March::fail(double ratio, const char* reason) {
   length_ = length;
   write(part_, "%s", reason);
   decide(GRAINLAW_BACK);
+}
+
+bool March::too_loose() const { return !(beyond_ <= stepping::largest_loose); }
+
+void March::give_up_beyond(const char* reason) {
+  grainlaw_part text;
+  write(text,
+        "beyond a jump the forces are out of balance by %.1e of them, expected at most %g "
+        "[-]%s%.150s",
+        beyond_, stepping::largest_loose, *reason == '\0' ? "" : "; ", reason);
+  give_up(text.message);
 }
 
 void March::give_up(const char* reason) {

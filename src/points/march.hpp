@@ -14,6 +14,7 @@ inline constexpr double growth = 2;       // of parts that succeed after a cut [
 inline constexpr double rounding = 1e-9;  // rest of a load step that is rounding, over the step [-]
 inline constexpr double progress = 0.5;   // reduction of the residual that counts as progress [-]
 inline constexpr double noise = 1e-12;    // relative residual that may be rounding alone [-]
+inline constexpr double largest_loose = 1;  // relative residual of a loose part [-]
 }  // namespace stepping
 
 // The default options. Newton alternates across a jump of P, which a smaller step usually avoids, but
@@ -66,6 +67,9 @@ class March {
   void fail(double ratio, const char* reason);
   void accept(bool ends_part);
   void give_up(const char* reason);
+  // Whether what lies beyond the last jump is too far from balance to go on from.
+  [[nodiscard]] bool too_loose() const;
+  void give_up_beyond(const char* reason);
   void decide(grainlaw_action action);
   // A length along the step; steps may go down.
   [[nodiscard]] double along(double length) const { return to_ < from_ ? -length : length; }
@@ -79,6 +83,7 @@ class March {
   bool returned_ = false;   // by next()
   bool ends_part_ = false;  // the action: the next part follows
   int crossings_ = 0;       // of this part; the last is committed
+  double beyond_ = 0;       // residual where the last crossing led
   int iteration_ = 0;       // solves told in this attempt
   bool whole_ = true;       // the correction told next is applied whole
   bool loaded_ = false;     // one of this attempt was

@@ -261,6 +261,36 @@ TEST(march, a_step_may_end_beyond_a_jump_out_of_balance) {
   EXPECT_EQ(host.part().loose, 1);
 }
 
+// What carries nothing of its load is no state to go on from.
+TEST(march, a_step_does_not_go_on_beyond_a_jump_where_forces_are_lost) {
+  Scripted host;
+  cut_to_a_sixteenth(host);
+  for (int crossing = 0; crossing < 9; ++crossing) {
+    host.stalls();
+    host.expect(GRAINLAW_CROSS);
+    host.march().tell(GRAINLAW_OK, 1e6);
+    if (crossing < 8) host.expect(GRAINLAW_ACCEPT);
+  }
+  host.expect(GRAINLAW_GIVE_UP);
+  EXPECT_NE(
+      std::strstr(host.part().message, "out of balance by 1.0e+06 of them, expected at most 1"),
+      nullptr)
+      << host.part().message;
+  EXPECT_EQ(host.part().loose, 0);
+}
+
+TEST(march, what_is_refused_beyond_such_a_jump_ends_the_step) {
+  Scripted host;
+  cut_to_a_sixteenth(host);
+  host.stalls();
+  host.expect(GRAINLAW_CROSS);
+  host.march().tell(GRAINLAW_OK, 1.5);
+  host.expect(GRAINLAW_ACCEPT);
+  host.is_refused(0.5);
+  host.expect(GRAINLAW_GIVE_UP);
+  EXPECT_NE(std::strstr(host.part().message, "the stretch"), nullptr) << host.part().message;
+}
+
 // No part is cut for it, no jump is sought: rounding is the same in all.
 TEST(march, a_tolerance_below_rounding_is_told_at_once) {
   auto options = grainlaw_march_options_default();

@@ -5,6 +5,7 @@
 #include "state/serialise.hpp"
 
 #include <numbers>
+#include <thread>
 
 namespace grainlaw::core::test {
 namespace {
@@ -15,14 +16,17 @@ MaterialDescription stress_free(MaterialDescription description) {
 }
 
 // Discs of 1 mm that touch and do not press.
-std::shared_ptr<const Material> touching_lattice(GeneratorKind kind, const ContactLaw& law) {
+std::shared_ptr<const Material> touching_lattice(GeneratorKind kind, const ContactLaw& law,
+                                                 Start start = Start::committed) {
   GeneratorOptions options;
   options.kind = kind;
   options.columns = 4;
   options.rows = 6;
   options.radius_max = 1e-3;
   options.overlap = 0;
-  return make_material(stress_free(describe(consolidate(options, law), law)));
+  MaterialDescription description = stress_free(describe(consolidate(options, law), law));
+  description.solver.start = start;
+  return make_material(std::move(description));
 }
 
 // The perturbed tangent sees what lies beside F too.
@@ -158,6 +162,16 @@ int advance_with_cuts(State& state, const Tensor& F, int steps) {
     advance(state, at(++k));
   }
   return cuts;
+}
+
+// A thread of its own, whose memory has no derivatives of another increment.
+TEST(stress_free, trial_is_no_derivative_to_go_on_from) {
+  const auto material = touching_lattice(GeneratorKind::square, rough_law(), Start::trial);
+  std::thread([&] {
+    State state(material);
+    expect_free(state, {1 + 1e-6, 0, 0, 1});
+    expect_free(state, {1 + 1e-3, 0, 0, 1});
+  }).join();
 }
 
 TEST(stress_free, packing_bears_again_when_it_comes_back) {

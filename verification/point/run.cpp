@@ -129,6 +129,18 @@ void run_path(const PointScene& scene, const std::filesystem::path& stem, PointE
     usual = false;
     tell(fmt::format("{}: unusual from step {} on: {}\n", scene.name, record.step, text));
   };
+  // Tells of the first step that left parts out of balance, where nobody asked for that.
+  bool balanced = scene.options.loose_tolerance == 0;
+  const auto watch_balance = [&](const RecordOf<D>& record) {
+    if (!balanced || record.effort.loose == 0) return;
+    balanced = false;
+    tell(fmt::format(
+        "{}: step {} left {} out of balance, across jumps of the stress: prescribed "
+        "stresses are not met there (loose_parts in the table); try more steps, "
+        "solver.viscous_number = 1e-3, or strain in place of stress\n",
+        scene.name, record.step,
+        record.effort.loose == 1 ? "a part" : fmt::format("{} parts", record.effort.loose)));
+  };
   const auto observe = [&](const PointStepOf<D>& step) {
     end.cpu += cpu_seconds() - start;
     const RecordOf<D>& record = step.record;
@@ -136,6 +148,7 @@ void run_path(const PointScene& scene, const std::filesystem::path& stem, PointE
     history.add(record);
     observer.see(step.state.get(), record);
     watch_stiffness(record);
+    watch_balance(record);
     progress->update(std::min(1.0, static_cast<double>(record.step) / end.steps_wanted),
                      fmt::format("sigma{0}{0} {1:.1f} kPa, F{0}{0} {2:.4f}, F12 {3:.4f}", D,
                                  record.cauchy(D - 1, D - 1) / 1e3,

@@ -10,6 +10,7 @@ from mpi4py import MPI
 import grainlaw
 from grainlaw.dolfinx import _elastic_answer
 from grainlaw.dolfinx_ground import Elastic, Ground, Layer
+from told import Told
 
 COMM = MPI.COMM_WORLD
 UPPER, LOWER, SPHERES = sys.argv[1:4]
@@ -180,13 +181,8 @@ class Stages(unittest.TestCase):
         self.assertLess(np.abs(forces(COMM) / COMM.bcast(alone) - 1).max(), 1e-10)
 
 
-class Mistakes(unittest.TestCase):
+class Mistakes(Told):
     """What a script does wrong is told before a point of grains is made."""
-
-    def told(self, words, action):
-        with self.assertRaises((ValueError, grainlaw.Error)) as caught:
-            action()
-        self.assertIn(words, str(caught.exception))
 
     def test_of_layers(self):
         sand = Layer(-4, UPPER, 2650)

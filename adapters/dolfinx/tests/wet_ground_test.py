@@ -11,9 +11,9 @@ from dolfinx import mesh
 from mpi4py import MPI
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
-import grainlaw  # pylint: disable=wrong-import-position
-from grainlaw.dolfinx_ground import Elastic, Ground, Layer
+from grainlaw.dolfinx_ground import Elastic, Ground, Layer  # pylint: disable=wrong-import-position
 from grainlaw.dolfinx_water import PoreWater
+from told import Told
 import wet_pit
 
 COMM = MPI.COMM_WORLD
@@ -159,13 +159,8 @@ class Stages(unittest.TestCase):
         self.assertLess(np.abs(answer(COMM) / COMM.bcast(alone) - 1).max(), 1e-10)
 
 
-class Mistakes(unittest.TestCase):
+class Mistakes(Told):
     """What a script does wrong is told before a point of grains is made."""
-
-    def told(self, words, action):
-        with self.assertRaises((ValueError, grainlaw.Error)) as caught:
-            action()
-        self.assertIn(words, str(caught.exception))
 
     def test_before_any_point(self):
         self.told("the permeability is 0 m2/(Pa s), expected above 0", lambda: PoreWater(0))

@@ -39,6 +39,7 @@ from petsc4py import PETSc
 from .abi import Error
 from .arrays import Array
 from .dolfinx import Elastic, Points, assembled, direct_solver
+from .dolfinx_checks import Parts, check_layers, check_pores, place, tell_first
 from .dolfinx_water import PoreFlow, PoreWater, check_time, water_space
 from .march import March
 from .material import AnyPath
@@ -80,9 +81,9 @@ class Ground:
     def __init__(self, domain: Any, surface: float, layers: Sequence[Layer], gravity: float = 9.81,
                  order: int = 1, rehearse: bool = False, water: PoreWater | None = None,
                  degree: int | None = None, lend: bool = False, **march: float) -> None:
-        _check(domain, surface, layers, gravity)
+        check_layers(domain, surface, layers, gravity)
         if water is not None and not rehearse:
-            _check_pores(layers)
+            check_pores(layers)
         self.domain, self.comm, self.dimension = domain, domain.comm, domain.topology.dim
         self.layers, self.gravity, self._options = list(layers), gravity, {"tolerance": 1e-9, **march}
         self._tops = [surface] + [layer.bottom for layer in layers[:-1]]
@@ -213,8 +214,8 @@ class Ground:
         alone = self._left_around(points.gone | going) == 0
         after = self._load.x.array - body
         largest = self.comm.allreduce(np.abs(self._load.x.array).max(initial=0), MPI.MAX)
-        self._tell(alone & (np.abs(after) > 1e-9 * max(largest, 1e-300)),
-                   lambda k: f"the part that is excavated carries a load at {_place(self._places[k])}, "
+        tell_first(self.comm, alone & (np.abs(after) > 1e-9 * max(largest, 1e-300)),
+                   lambda k: f"the part that is excavated carries a load at {place(self._places[k])}, "
                              f"component {self._component[k]}")
         points.remove(going)
         self._gone.x.array[:] = points.scalars(points.gone).x.array
@@ -501,26 +502,13 @@ class Ground:
         firm = held & (component == self.dimension) & flows   # determines the pressure around
         if self.water is not None:
             firm |= ~held & self._changes_volume()[:own]
-        everywhere = self.comm.allgather((numbers[self._left()], firm, held, component, self._places[:own]))
-        cells, firm, held, component, places = (np.concatenate([part[k] for part in everywhere])
-                                                for k in range(5))
-        part = np.arange(len(held))
-        while True:   # the smallest number of an unknown of each part
-            smallest, former = part[cells].min(axis=1), part.copy()
-            np.minimum.at(part, cells.ravel(), np.repeat(smallest, cells.shape[1]))
-            if np.array_equal(part, former):
-                break
-        there = np.unique(part[cells])
+        parts = Parts(self.comm, numbers[self._left()], self._places[:own])
         for k in range(self.dimension):
-            loose = np.setdiff1d(there, part[held & (component == k)])
-            if loose.size:
-                raise ValueError(f"nothing holds component {k} of what is around {_place(places[loose[0]])}")
+            parts.check(held & (component == k), f"nothing holds component {k} of what is around {{}}")
         if self.water is not None and math.isinf(self.water.bulk_modulus):
-            loose = np.setdiff1d(there, part[firm])
-            if loose.size:
-                raise ValueError("nothing determines the pore pressure around "
-                                 f"{_place(places[loose[0]])}: no side is drained, water is incompressible and "
-                                 "no displacement changes the volume; expected drain(), and step_time above 0")
+            parts.check(firm, "nothing determines the pore pressure around {}: no side is drained, water is "
+                        "incompressible and no displacement changes the volume; expected drain(), and "
+                        "step_time above 0")
 
     def _changes_volume(self) -> npt.NDArray[np.bool_]:
         """Which unknowns change the volume of what is left."""
@@ -541,15 +529,9 @@ class Ground:
         return along & self._sand_on_top
 
     def _tell_pulled(self, pulled: npt.NDArray[np.bool_], force: Array) -> None:
-        self._tell(pulled, lambda k: f"the node at {_place(self._places[k])} is pulled up by {force[k]:g} N: the "
-                                     "surface would be in tension")
-
-    def _tell(self, wrong: npt.NDArray[np.bool_], text: Callable[[int], str]) -> None:
-        """Raises ValueError on all ranks with the text of the first unknown that is wrong."""
-        own = np.flatnonzero(wrong)
-        texts = [told for told in self.comm.allgather(text(int(own[0])) if own.size else "") if told]
-        if texts:
-            raise ValueError(texts[0])
+        tell_first(self.comm, pulled,
+                   lambda k: f"the node at {place(self._places[k])} is pulled up by {force[k]:g} N: the surface "
+                             "would be in tension")
 
 
 def _unknowns(V: Any, dimension: int, water: bool) -> tuple[Array, npt.NDArray[np.int64]]:
@@ -573,37 +555,3 @@ def _alike(values: Array) -> Array:
     digits = 10.0**(11 - np.floor(np.log10(np.abs(np.where(values == 0, 1, values)))))
     rounded: Array = np.round(values * digits) / digits
     return rounded
-
-
-def _place(x: Array) -> str:
-    return "(" + ", ".join(f"{round(value, 12) + 0:g}" for value in x) + ") m"
-
-
-def _check_pores(layers: Sequence[Layer]) -> None:
-    for number, layer in enumerate(layers):
-        if isinstance(layer.material, Elastic):
-            raise ValueError(f"layer {number}, in closed form, has no pores: with water it may not be")
-
-
-def _check(domain: Any, surface: float, layers: Sequence[Layer], gravity: float) -> None:
-    """What is wrong with layers."""
-    tops = [surface] + [layer.bottom for layer in layers[:-1]]
-    for number, (top, layer) in enumerate(zip(tops, layers)):
-        if not layer.bottom < top:
-            raise ValueError(f"layer {number} from {top} m down to {layer.bottom} m, expected a depth above 0")
-        if not layer.solid > 0:
-            raise ValueError(f"layer {number}: the density is {layer.solid} kg/m3, expected above 0")
-        if not layer.material:
-            raise ValueError(f"layer {number} has no material")
-        if isinstance(layer.material, Elastic) and not (
-                layer.material.young > 0 and -1 < layer.material.poisson < 0.5):
-            raise ValueError(f"layer {number} of modulus {layer.material.young} Pa and Poisson ratio "
-                             f"{layer.material.poisson}, expected above 0, and between -1 and 0.5")
-    heights = domain.geometry.x[:, domain.topology.dim - 1]
-    low, high = (domain.comm.allreduce(bound, op) for bound, op in (
-        (heights.min(initial=np.inf), MPI.MIN), (heights.max(initial=-np.inf), MPI.MAX)))
-    if low < layers[-1].bottom - 1e-9 or high > surface + 1e-9:
-        raise ValueError(f"the mesh reaches from {low} to {high} m, expected within {layers[-1].bottom} and "
-                         f"{surface} m: no material")
-    if not gravity > 0:
-        raise ValueError(f"gravity is {gravity} m/s2, expected above 0")

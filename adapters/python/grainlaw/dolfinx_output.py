@@ -1,6 +1,8 @@
 # mypy: allow-untyped-calls
-"""What a ground of grainlaw.dolfinx_ground writes: fields for ParaView, and packings.
+"""What a ground of grainlaw.dolfinx_ground writes: curves, fields for ParaView, and packings.
 
+    write_curve(ground, 50, ("settlement[m]", "force[N/m]"), lambda done: (0.1 * done, ground.force(foot, 1)),
+                "run.csv")                     # goes through the stage
     write_fields(ground, "run.xdmf")           # displacement, shear strain, void ratio, with water its pressure
     write_packing(ground, (0.1, -0.6), "near.vtp")
 
@@ -8,7 +10,8 @@ All functions are calls of all ranks together, and raise on all.
 """
 from __future__ import annotations
 
-from collections.abc import Sequence
+import time
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,13 +21,14 @@ from mpi4py import MPI
 
 from .arrays import Array
 from .dolfinx_ground import Ground
+from .files import write_whole
 from .material import AnyPath
 from .names import Measure
 from .ranks import together
 
 _io: Any = io
 
-__all__ = ["cell_means", "shear_strain", "write_fields", "write_packing"]
+__all__ = ["cell_means", "shear_strain", "write_curve", "write_fields", "write_packing"]
 
 
 def shear_strain(ground: Ground) -> Array:
@@ -45,6 +49,26 @@ def cell_means(ground: Ground, values: Array, name: str) -> Any:
     function.x.array[:owned] = values.reshape(owned, -1).mean(axis=1) if owned else 0
     function.x.scatter_forward()
     return function
+
+
+def write_curve(ground: Ground, steps: int, columns: Sequence[str],
+                measure: Callable[[float], Sequence[float]], path: AnyPath) -> None:
+    """Go through a stage in equal steps. The CSV file has, whole after each, a row of the start and of every
+    step: what measure(fraction of the stage) gives, under its columns "name[unit]", the imbalance, iterations
+    and cuts, and the processor time of all ranks so far. Rank 0 prints the same."""
+    text = ",".join([*columns, "residual[-],iterations[-],cuts[-],core_time[s]"]) + "\n"
+    for step in range(steps + 1):
+        solves = cuts = 0
+        for part in ground.to(step / steps):
+            solves, cuts = part.solves, part.cuts
+        values, left = measure(step / steps), ground.imbalance()
+        core = ground.comm.allreduce(time.process_time())
+        row = ",".join(f"{value:.15g}" for value in values)
+        text += f"{row},{left:.3g},{solves},{cuts},{core:.1f}\n"
+        if ground.comm.rank == 0:
+            told = ", ".join(f"{column.split('[')[0]} {value:.9g}" for column, value in zip(columns, values))
+            print(f"{told}, out of balance {left:.1e}, {solves} iterations, {cuts} cuts", flush=True)
+            write_whole(path, text)
 
 
 def write_fields(ground: Ground, path: AnyPath) -> None:

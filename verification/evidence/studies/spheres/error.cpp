@@ -1,4 +1,4 @@
-// Stress error against CPU time of increments of YADE's spheres, beside YADE.
+// Stress error against CPU time of increments of spheres, beside YADE.
 #include "evidence/studies/spheres/spheres.hpp"
 
 #include "evidence/studies/statistics.hpp"
@@ -18,6 +18,7 @@
 namespace verification::spheres {
 namespace {
 
+constexpr int particles = 500;
 constexpr int increments = 20;
 constexpr double exactly = 1e-11;  // tolerance of what errors are measured against [-]
 
@@ -153,15 +154,20 @@ double time_at(const std::vector<Measured>& by_tolerance, const Peer& peer) {
 
 }  // namespace
 
-void measure_error(const StudyOptions& options, double yade_step, int finer_parts) {
+void measure_error(const StudyOptions& options, int seed, double yade_step, int finer_parts) {
   constexpr std::array<double, 10> tolerances{1e-2, 3e-3, 2e-3, 1e-3, 5e-4,
                                               3e-4, 2e-4, 1e-4, 1e-6, 1e-8};
   constexpr std::array<double, 2> numbers{0, 1e-3};
+  const auto spheres = [&](double tolerance, double number) {
+    return seed == 0 ? reference(options, tolerance, number)
+                     : packed(particles, number, tolerance, seed);
+  };
   Table table(
-      fmt::format("increments of 0.1 % of 500 spheres of YADE's, {} of each path, from "
+      fmt::format("increments of 0.1 % of 500 spheres{}, {} of each path, from "
                   "states solved to {:g}; stress errors against equilibrium at the same F "
                   "from the same start (with drag from equilibrium on the whole path), and "
                   "against a path of equilibria in increments {} times finer",
+                  seed == 0 ? " of YADE's" : fmt::format(" compacted with seed {}", seed),
                   increments, exactly, finer_parts),
       {"path", "viscous_number[-]", "tolerance[-]", "error[-]", "off_finer_path[-]",
        "cpu_median[ms]", "cpu_mean[ms]", "with_tangent_median[ms]", "with_tangent_mean[ms]"});
@@ -170,16 +176,15 @@ void measure_error(const StudyOptions& options, double yade_step, int finer_part
   Progress progress("spheres, error");
   double done = 0;
   for (std::size_t p = 0; p < paths.size(); ++p) {
-    const auto exact = reference(options, exactly, 0);
+    const auto exact = spheres(exactly, 0);
     const Lead equilibrium = lead_along(exact, paths[p], 1);
     const Lead finer = finer_parts > 0 ? lead_along(exact, paths[p], finer_parts) : Lead{};
     for (const double number : numbers) {
-      const Lead own =
-          number > 0 ? lead_along(reference(options, exactly, number), paths[p], 1) : equilibrium;
+      const Lead own = number > 0 ? lead_along(spheres(exactly, number), paths[p], 1) : equilibrium;
       for (std::size_t t = 0; t < tolerances.size(); ++t) {
         progress.update(done++ / (paths.size() * numbers.size() * tolerances.size()),
                         paths[p].name);
-        const auto material = reference(options, tolerances[t], number);
+        const auto material = spheres(tolerances[t], number);
         const Measured measured = measure(material, paths[p], own, equilibrium, finer);
         table.row({paths[p].name, fmt::format("{:g}", number), fmt::format("{:g}", tolerances[t]),
                    median(measured.error), median(measured.off_path), median(measured.cpu),
@@ -190,13 +195,14 @@ void measure_error(const StudyOptions& options, double yade_step, int finer_part
       }
     }
   }
-  table.write(std::filesystem::path(options.output) / "study_spheres_error.csv");
+  const std::string of = seed == 0 ? "" : fmt::format("_{}", seed);
+  table.write(std::filesystem::path(options.output) / fmt::format("study_spheres_error{}.csv", of));
   table.print();
 
-  constexpr double particles = 500;
   Table verdict(
       fmt::format("YADE's time over ours at an error against equilibrium as small, "
-                  "medians; a step of YADE takes {:.0f} ns a sphere",
+                  "medians; a step of YADE takes {:.0f} ns a sphere, and it takes as many as on "
+                  "its own packing",
                   yade_step),
       {"path", "yade_setting", "error[-]", "yade[ms]", "our_cpu[ms]", "ratio[-]", "bar[-]", "met"});
   for (std::size_t p = 0; p < equilibria.size(); ++p) {
@@ -210,7 +216,8 @@ void measure_error(const StudyOptions& options, double yade_step, int finer_part
                    ratio >= bar ? "yes" : "no"});
     }
   }
-  verdict.write(std::filesystem::path(options.output) / "study_spheres_yade.csv");
+  verdict.write(std::filesystem::path(options.output) /
+                fmt::format("study_spheres_yade{}.csv", of));
   verdict.print();
 }
 

@@ -20,13 +20,13 @@ constexpr double lateral_share = 0.4;  // of the axial strain, near constant str
 
 }  // namespace
 
-grainlaw::Material packed(int count, double viscous_number, double tolerance) {
+grainlaw::Material packed(int count, double viscous_number, double tolerance, int seed) {
   return grainlaw::Material::parse(fmt::format(R"(dimension = 3
 [packing]
 generator = "compaction"
 count = {}
 radii = [3e-3, 6e-3]
-seed = 1
+seed = {}
 pressure = 1e5
 [contact]
 law = "frictional"
@@ -37,7 +37,7 @@ friction = 0.5463
 tolerance = {}
 viscous_number = {}
 )",
-                                               count, tolerance, viscous_number),
+                                               count, seed, tolerance, viscous_number),
                                    ".");
 }
 
@@ -59,6 +59,7 @@ void add_spheres_study(CLI::App& study, const std::shared_ptr<StudyOptions>& opt
     std::string only;
     double yade_step = 900;  // of a Zen 3 without AVX-512
     int finer = 30;
+    int seed = 0;
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
@@ -81,13 +82,17 @@ void add_spheres_study(CLI::App& study, const std::shared_ptr<StudyOptions>& opt
           "--finer", arguments->finer,
           "parts of an increment on the path that errors are also measured against; 0: not")
       ->capture_default_str();
+  command
+      ->add_option("--seed", arguments->seed,
+                   "errors of 500 spheres compacted here with this seed; 0: of YADE's")
+      ->capture_default_str();
   command->callback([arguments, options] {
     const auto wanted = [&](std::string_view part) {
       return arguments->only.empty() || arguments->only == part;
     };
     if (wanted("tangents")) spheres::check_tangents(*options, arguments->states);
     if (wanted("error")) {
-      spheres::measure_error(*options, arguments->yade_step, arguments->finer);
+      spheres::measure_error(*options, arguments->seed, arguments->yade_step, arguments->finer);
     }
     if (wanted("cost")) {
       spheres::measure_cost(*options, arguments->counts, arguments->increments);
