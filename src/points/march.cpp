@@ -152,7 +152,7 @@ void March::judge_crossing(const Told& told) {
   if (!told.found) return fail(stepping::largest_cut, told.reason);
   const bool beyond = crossings_ < options_.max_crossings;
   beyond_ = told.residual;
-  if (!beyond && too_loose()) return give_up_beyond("");
+  if (!beyond && too_loose()) return give_up_beyond("too many jumps in one part");
   if (beyond) {
     ++crossings_;
     ++part_.crossed;
@@ -191,9 +191,9 @@ bool March::too_loose() const { return !(beyond_ <= stepping::largest_loose); }
 void March::give_up_beyond(const char* reason) {
   grainlaw_part text;
   write(text,
-        "beyond a jump the forces are out of balance by %.1e of them, expected at most %g "
-        "[-]%s%.150s",
-        beyond_, stepping::largest_loose, *reason == '\0' ? "" : "; ", reason);
+        "beyond a jump the forces are out of balance by %.1e of them, expected at most %g [-]: "
+        "%.150s",
+        beyond_, stepping::largest_loose, reason);
   give_up(text.message);
 }
 

@@ -4,7 +4,9 @@ where both become a verdict.
 
   statements.py page                            writes report/statements.md
   statements.py tests BUILD OUTPUT [FACT ...]   runs the tests that statements name; their failures are facts, in OUTPUT
-  statements.py collect OUTPUT                  keeps the facts of a run, *_facts.csv in OUTPUT, in the folder facts
+  statements.py collect OUTPUT                  keeps the facts of a run, *_facts.csv in OUTPUT, in the folder facts, and the core
+                                                times in its everything.csv
+  statements.py core_time [EVERYTHING.csv]      core time of all measurements, with those of which none is recorded
 """
 import collections
 import csv
@@ -16,6 +18,9 @@ import sys
 import tomllib
 
 sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import core_time
+
 HERE = pathlib.Path(__file__).resolve().parent
 TABLES = ("papers/statements.toml", "ladder/ladder.toml")
 PAGE = HERE / "report/statements.md"
@@ -193,7 +198,7 @@ def page_text():
     for letter, paper in papers.items():
         counts = counts_of(of_paper(rows, letter), facts)
         lines.append(line_of([paper["name"], *map(str, [*counts, sum(counts)])]))
-    lines += ["", line_of(["commit", "machine", "facts"]), "|---|---|---|", *runs_of(facts), "",
+    lines += ["", line_of(["commit", "machine", "facts"]), "|---|---|---|", *runs_of(facts), "", *core_time.section(facts), "",
               "## What differs, worst first", "",
               "How far: the number here over the end of the bound that it misses, or the end over the number, whichever is above 1.",
               "So 1 is the bound itself, and 2 is twice too much or half of it. It is infinite where one of the two is zero.", "",
@@ -271,6 +276,8 @@ def collect(output, kept=HERE / "facts"):
             writer.writeheader()
             writer.writerows(found.values())
         print("kept", path.name)
+    if (output / "everything.csv").exists():
+        core_time.keep(output / "everything.csv", machine_of(output)[1])
 
 
 def main(command, *arguments):
@@ -281,6 +288,8 @@ def main(command, *arguments):
         run_tests(arguments[0], pathlib.Path(arguments[1]), *arguments[2:])
     elif command == "collect":
         collect(pathlib.Path(arguments[0]))
+    elif command == "core_time":
+        print("\n".join(core_time.section(read_facts(), *arguments)))
     else:
         raise SystemExit(__doc__)
 

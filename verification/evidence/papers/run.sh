@@ -69,6 +69,7 @@ liu2019_biaxial() {
     timed "$scene" "$grainlaw" $kind "$scenes/liu2019_biaxial/$scene.toml" --output "$output" || failed+=("$scene")
   done
   "$evidence" --scenes "$scenes" --output "$output" liu2019_biaxial
+  with_python "$root/verification/evidence/papers/liu2019_biaxial/by_cells" "$output"
   "$root/verification/evidence/report/make_liu2019_biaxial_page" "$output"
   ((${#failed[@]} == 0)) || echo "ended early: ${failed[*]}"
 }
