@@ -1,8 +1,9 @@
-"""Checks of a ground of grainlaw.dolfinx_ground. What is wrong raises ValueError, on all ranks of a mesh."""
+"""Layers of a ground of grainlaw.dolfinx_ground, and its checks. What is wrong raises ValueError, on all ranks
+of a mesh."""
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -10,9 +11,13 @@ from mpi4py import MPI
 
 from .arrays import Array
 from .dolfinx import Elastic
+from .material import AnyPath
 
-if TYPE_CHECKING:
-    from .dolfinx_ground import Layer
+
+class Layer(NamedTuple):
+    bottom: float              #: height of its lower side [m]
+    material: AnyPath | Elastic   #: a file, or a closed form, whose density is that of the whole
+    solid: float               #: density of the grains [kg/m3]
 
 
 def check_layers(domain: Any, surface: float, layers: Sequence[Layer], gravity: float) -> None:

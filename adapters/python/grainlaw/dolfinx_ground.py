@@ -27,7 +27,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -39,7 +39,7 @@ from petsc4py import PETSc
 from .abi import Error
 from .arrays import Array
 from .dolfinx import Elastic, Points, assembled, direct_solver
-from .dolfinx_checks import Parts, check_layers, check_pores, place, tell_first
+from .dolfinx_checks import Layer, Parts, check_layers, check_pores, place, tell_first
 from .dolfinx_water import PoreFlow, PoreWater, check_time, water_space
 from .march import March
 from .material import AnyPath
@@ -51,12 +51,6 @@ _REHEARSAL = Elastic(1e8, 0.3)
 Region = Callable[[Array], npt.NDArray[np.bool_]]
 
 __all__ = ["Elastic", "Ground", "Layer"]
-
-
-class Layer(NamedTuple):
-    bottom: float              #: height of its lower side [m]
-    material: AnyPath | Elastic   #: a file, or a closed form, whose density is that of the whole
-    solid: float               #: density of the grains [kg/m3]
 
 
 class Ground:
