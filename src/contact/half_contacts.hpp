@@ -108,7 +108,8 @@ class HalfContacts : public HalfContactColumns<D> {
 
   // Lists the half contacts, which have no weights. least_masses: kn of translations [N/m], that of
   // spins, and 1 / R. Particles are at rest, or keep the velocities of the last list. Spheres sort
-  // the contacts that are near at these positions first. Room for steps in single precision is taken where they may be.
+  // the contacts that are near at these positions first. Room for steps in single precision is
+  // taken where they may be.
   void arrange(const ContactList<D>& list, const Packing& packing,
                std::span<const LeastMass<D>> least_masses,
                std::span<const ParticleRecord<D>> particles, bool at_rest, bool may_be_single);
