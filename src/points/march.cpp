@@ -190,9 +190,7 @@ bool March::too_loose() const { return !(beyond_ <= stepping::largest_loose); }
 
 void March::give_up_beyond(const char* reason) {
   grainlaw_part text;
-  write(text,
-        "beyond a jump the forces are out of balance by %.1e of them, expected at most %g [-]: "
-        "%.150s",
+  write(text, "beyond a jump the relative residual is %.1e, expected at most %g [-]: %.150s",
         beyond_, stepping::largest_loose, reason);
   give_up(text.message);
 }
