@@ -1,4 +1,5 @@
 // Pictures as a reader sees them: cycles told apart, q with its sign, maps that stay small files.
+#include "app/figure.hpp"
 #include "app/history.hpp"
 #include "app/packing_map.hpp"
 #include "app/stresses.hpp"
@@ -75,6 +76,12 @@ TEST_F(picture, breaks_an_ordinate_that_is_longer_than_its_panel) {
   ASSERT_TRUE(draw_history(cyclic(1), axial_abscissa, directory_ / "one"));
   EXPECT_EQ(text("one").find("volumetric strain, dilation"), std::string::npos);
   EXPECT_NE(text("one").find("dilation + [%]"), std::string::npos);
+}
+
+TEST_F(picture, of_a_stress_that_rounding_alone_moves_is_drawn) {
+  const Curve path{"", {100.00001774226, 100.00001774226 + 1e-13}, {100, 300}};
+  ASSERT_TRUE(draw({"", "lateral stress [kPa]", {{"axial stress [kPa]", {path}}}}, directory_ / "x"));
+  EXPECT_NE(text("x").find("lateral stress [kPa]"), std::string::npos);
 }
 
 // A cell of particles on a grid, each with three contacts.

@@ -81,6 +81,11 @@ std::string log_commands(const Figure& figure, const Panel& panel) {
                             : std::string("unset logscale y\nset format y '% h'\n"));
 }
 
+// Numbers that an axis labelled with six digits does not tell apart.
+bool alike(double low, double high) {
+  return high - low <= 1e-6 * std::max(std::abs(low), std::abs(high));
+}
+
 // Abscissae of all panels; logarithmic ones with room for the markers at the ends.
 std::string common_range(const Figure& figure) {
   constexpr double room = 1.25;
@@ -92,7 +97,7 @@ std::string common_range(const Figure& figure) {
         low = std::min(low, x);
         high = std::max(high, x);
       }
-  if (low == high && !figure.logarithmic) {  // gnuplot would complain of it
+  if (alike(low, high) && !figure.logarithmic) {  // gnuplot would complain of it
     const double around = low != 0 ? 0.1 * std::abs(low) : 1;
     low -= around;
     high += around;
@@ -122,7 +127,7 @@ std::string range_command(const Panel& panel) {
       low = std::min(low, y);
       high = std::max(high, y);
     }
-  if (high - low > 1e-9 * std::max(std::abs(low), std::abs(high))) return "set yrange [*:*]\n";
+  if (!alike(low, high)) return "set yrange [*:*]\n";
   return fmt::format("set yrange [{}:{}]\n", low - 1, high + 1);
 }
 
