@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <initializer_list>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace verification {
 
@@ -68,23 +71,26 @@ MaterialSource read_material_source(SceneTable& scene) {
   MaterialSource source;
   source.scene = scene.file();
   source.base = directory;
+  std::optional<std::string> file;
   if (node != nullptr && node->is_string()) {
-    source.file = directory / *node->value<std::string>();
+    file = node->value<std::string>();
   } else if (node != nullptr && node->is_table()) {
     source.changes = *node->as_table();
-    if (const auto file = source.changes["file"].value<std::string>()) {
-      source.file = directory / *file;
-      source.changes.erase("file");
-    }
+    file = source.changes["file"].value<std::string>();
+    if (file) source.changes.erase("file");
   } else {
     scene.fail("material", node == nullptr ? "nothing" : "another type",
                "the path of a material file, or a table");
   }
-  if (!source.file.empty()) {
-    source.base = source.file.parent_path();
-    if (!std::filesystem::is_regular_file(source.file))
-      scene.fail("material", source.file.string(), "a file that is there");
-  }
+  if (!file) return source;
+  source.file = directory / *file;
+  source.base = source.file.parent_path();
+  std::error_code error;
+  const auto kind = std::filesystem::status(source.file, error).type();
+  if (file->empty() || kind != std::filesystem::file_type::regular)
+    scene.fail("material", file->empty() ? "\"\"" : source.file.string(),
+               kind == std::filesystem::file_type::none ? "a file that may be read"
+                                                        : "a file that is there");
   return source;
 }
 

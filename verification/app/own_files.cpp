@@ -115,6 +115,9 @@ class List {
     learn(name, mark);
     std::error_code error;
     fs::create_directory(directory_, error);
+    if (error)
+      throw ComputationError(
+          fmt::format("{}: cannot be made: {}", directory_.string(), error.message()));
     const DirectoryLock lock(directory_);
     const auto size = fs::file_size(path_, error);
     const bool old = !error && size > 0;

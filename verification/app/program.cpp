@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <vector>
 
 namespace verification {
 
@@ -39,6 +40,10 @@ int run_program(CLI::App& app, int argc, char** argv) {
   };
   try {
     app.parse(argc, argv);
+  } catch (const CLI::RequiredError& error) {
+    // A misspelt word is told before what is missing for it.
+    const std::vector<std::string> unknown = app.remaining(true);
+    return unknown.empty() ? app.exit(error) : app.exit(CLI::ExtrasError(unknown)), 2;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   } catch (const Interrupted& interrupted) {

@@ -161,8 +161,6 @@ SceneFile::SceneFile(std::filesystem::path path_, toml::table content_)
     : path(std::move(path_)), content(std::move(content_)) {}
 
 SceneFile::SceneFile(const std::filesystem::path& path_) : path(path_) {
-  if (!std::filesystem::is_regular_file(path))
-    throw InputError(fmt::format("{}: there is no such file", path.string()));
   content = as<InputError>([&] {
     return grainlaw::core::parse_toml(grainlaw::core::read_text(path.string()), path.string());
   });

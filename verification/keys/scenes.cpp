@@ -134,7 +134,9 @@ Examples examples_of(std::string_view command) {
     return {[](const SceneFile& file) { static_cast<void>(read_wave_scene(file)); },
             {with(discs, pulse)}};
   throw InputError(
-      fmt::format("keys: found {}, expected material, point, solve, dns or wave", command));
+      fmt::format("keys: found {}, expected one of material, point, solve, dns, wave, columns, "
+                  "balance, measures, statuses",
+                  command));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "point/scene.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
@@ -75,6 +76,16 @@ std::vector<std::filesystem::path> inputs_of(const SceneFile& file,
   return inputs;
 }
 
+// Cases as the scene names them.
+std::vector<std::string> names_of(const std::vector<PointScene>& scenes,
+                                  const std::string& prefix) {
+  std::vector<std::string> names;
+  for (const PointScene& scene : scenes)
+    if (scene.name != prefix) names.push_back(scene.name.substr(prefix.size() + 1));
+  if (names.empty()) names.emplace_back("none: it has no cases");
+  return names;
+}
+
 // Requested cases of the scene, all by default. A case with seeds may be requested without them.
 std::vector<PointScene> chosen(std::vector<PointScene> scenes, const std::string& prefix,
                                const std::vector<Ensemble>& ensembles,
@@ -99,7 +110,8 @@ std::vector<PointScene> chosen(std::vector<PointScene> scenes, const std::string
       return scene.name == prefix + "_" + name;
     });
     if (found == scenes.end())
-      throw InputError(fmt::format("--case {}: the scene has no such case", name));
+      throw InputError(fmt::format("--case {}: the scene has no such case, expected one of {}",
+                                   name, fmt::join(names_of(scenes, prefix), ", ")));
     add(*found);
   }
   return result;

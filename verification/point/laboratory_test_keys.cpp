@@ -63,6 +63,8 @@ void read_cycles(SceneTable& table, ElementTest& test) {
       table.fail("amplitude", "a table", "one beside cycles, how many loops");
     return;
   }
+  if (!table.has("amplitude"))
+    table.fail("amplitude", "nothing", "a table, as { strain = 5e-3 } or { q = 30e3 }");
   SceneTable amplitude = table.table("amplitude");
   test.amplitude_of_q = amplitude.has("q");
   if (test.amplitude_of_q && amplitude.has("strain"))

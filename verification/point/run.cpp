@@ -65,6 +65,9 @@ class Observer {
   }
 
   void draw() const {
+    if (panels_.size() < scene_.pictures.size())
+      tell(fmt::format("{}: pictures: the path reaches {} of {} values of {}\n", scene_.name,
+                       panels_.size(), scene_.pictures.size(), scene_.abscissa));
     if (!panels_.empty() &&
         draw_snapshots(panels_, scene_.picture_force, "", stem_.string() + "_packing"))
       written_.add("_packing.svg");

@@ -136,8 +136,10 @@ class Reader {
 }  // namespace
 
 Mesh read_gmsh_mesh(const std::filesystem::path& path) {
-  if (!std::filesystem::is_regular_file(path))
-    throw InputError(fmt::format("{}: there is no such file", path.string()));
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    throw InputError(fmt::format("{}: cannot be read: {}", path.string(),
+                                 error ? error.message() : "it is no file"));
   return Reader(path).mesh();
 }
 

@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""Mistakes that users make with words, paths and scenes: what is wrong, where, and what was expected."""
+import os
+import unittest
+
+from command import MATERIAL, POINT, Place
+
+SEGMENT = POINT.format(steps=2, stretch=0.9999)
+SCENE = "figure = false\n" + SEGMENT + MATERIAL
+
+
+class Mistakes(unittest.TestCase):
+    def setUp(self):
+        self.place = Place()
+        self.addCleanup(self.place.temporary.cleanup)
+        self.place.write("scene.toml", SCENE)
+
+    def told(self, *arguments, status=2):
+        found, _, err = self.place.run(*arguments)
+        self.assertEqual(found, status, err)
+        return err
+
+    def test_a_misspelt_word_is_named(self):
+        for words in (["pointt"], ["pointt", "scene.toml"], ["point", "--jbos"], ["pack", "--sed", "3"]):
+            with self.subTest(words=words):
+                wrong = next(word for word in words if word not in ("point", "pack"))
+                self.assertIn(wrong, self.told(*words))
+        self.assertIn("SCENE is required", self.told("point"))
+
+    def test_the_names_that_keys_takes_are_those_that_are_told(self):
+        names = self.told("keys", "words").split("one of ")[1].strip().split(", ")
+        self.assertIn("columns", names)
+        for name in names:
+            self.assertEqual(self.place.run("keys", name)[0], 0, name)
+
+    def test_a_path_that_is_no_file_is_told_with_the_cause(self):
+        (self.place.path / "folder").mkdir()
+        os.mkfifo(self.place.path / "pipe")
+        for path, cause in (("nix.toml", "No such file"), ("folder", "Is a directory"), ("pipe", "found a pipe"),
+                            ("a" * 300, "File name too long"), ("scene.toml/x", "Not a directory")):
+            for command in ("point", "import", "export"):
+                with self.subTest(command=command, path=path):
+                    self.assertIn(f"{path}: cannot be read: {cause}",
+                                  self.told(command, path, *(["--format", "yade"] if command == "export" else [])))
+
+    def test_a_material_that_is_no_file_is_told_at_its_key(self):
+        (self.place.path / "folder").mkdir()
+        for text in ('""', '"folder"', '"nix.toml"', '{ file = "" }', f'"{"a" * 300}"'):
+            self.place.write("m.toml", f"material = {text}\n" + SEGMENT)
+            self.assertIn("m.toml:1: material: found ", self.told("point", "m.toml"), text)
+
+    def test_a_list_of_own_files_that_cannot_be_made_is_told_with_the_cause(self):
+        (self.place.path / "out").mkdir()
+        (self.place.path / "out" / ".grainlaw").write_text("")
+        self.assertIn("out/.grainlaw: cannot be made: ", self.told("point", "scene.toml", "--output", "out", status=1))
+
+    def test_cycles_without_an_amplitude_are_told_what_one_is(self):
+        self.place.write("cycles.toml", MATERIAL
+                         + '[[segment]]\ntest = "undrained"\ncycles = 2\n')
+        self.assertIn("{ strain = 5e-3 }", self.told("point", "cycles.toml"))
+
+    def test_a_case_that_is_not_there_is_told_with_those_that_are(self):
+        self.place.write("cases.toml", SCENE + '[[case]]\nname = "dense"\n[[case]]\nname = "loose"\n')
+        self.assertIn("expected one of dense, loose", self.told("point", "cases.toml", "--case", "lose"))
+
+    def test_pictures_that_the_path_does_not_reach_are_told(self):
+        self.place.write("far.toml", "pictures = [5e-5, 0.5]\n" + SCENE)
+        self.assertIn("reaches 1 of 2", self.told("point", "far.toml", status=0))
+
+
+if __name__ == "__main__":
+    unittest.main()
