@@ -103,15 +103,6 @@ void check_stresses(const api::SomePoints& some, const double* sigma, std::size_
   }
 }
 
-std::string fault_of_numbers(const grainlaw_points& set, std::size_t n, const std::size_t* which) {
-  const std::size_t size = set.points.size();
-  if (which == nullptr)
-    return fmt::format("{} points, expected at most the {} of the set", n, size);
-  for (std::size_t k = 0; k < n; ++k)
-    if (which[k] >= size) return fmt::format("point {}, expected numbers below {}", which[k], size);
-  return n > size ? fmt::format("{} points of a set of {}", n, size) : "a point comes twice";
-}
-
 }  // namespace
 
 grainlaw_consolidation grainlaw_consolidation_default(void) {
@@ -145,7 +136,8 @@ grainlaw_status grainlaw_points_consolidate(grainlaw_points* handle, size_t n, c
       [&] {
         if (!known) return refuse(GRAINLAW_BAD_REPORT, {});
         if (n > 0 && sigma == nullptr) return refuse(GRAINLAW_NULL_POINTER, {});
-        if (!some.known) return refuse(GRAINLAW_BAD_ARGUMENT, fault_of_numbers(*handle, n, which));
+        if (!some.known)
+          return refuse(GRAINLAW_BAD_ARGUMENT, api::fault_of_numbers(*handle, n, which));
         if (const std::string fault = fault_of(given); !fault.empty())
           return refuse(GRAINLAW_BAD_ARGUMENT, fault);
         const Consolidation route = read(given, handle->dimension());

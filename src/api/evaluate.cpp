@@ -4,6 +4,7 @@
 #include "api/guard.hpp"
 #include "api/handle.hpp"
 #include "api/report.hpp"
+#include "base/error.hpp"
 
 #include <grainlaw/grainlaw.h>
 
@@ -46,9 +47,12 @@ grainlaw_status grainlaw_evaluate(grainlaw_state* handle, const double* F, unsig
   if (const auto status = api::check_owned(handle); status != GRAINLAW_OK) return status;
   if (F == nullptr) return GRAINLAW_NULL_POINTER;
   if (const auto status = api::Reports(report).check(1); status != GRAINLAW_OK) return status;
-  if (!api::known_want(want)) return GRAINLAW_BAD_ARGUMENT;
-  grainlaw_report full;
-  const grainlaw_status status = api::evaluate_point(handle->point, F, want, P, A, full);
+  grainlaw_report full = grainlaw_report_default();
+  const grainlaw_status status =
+      api::known_want(want)
+          ? api::evaluate_point(handle->point, F, want, P, A, full)
+          : api::guarded([&] { throw Error(GRAINLAW_BAD_ARGUMENT, api::fault_of_want(want)); },
+                         {full.message, sizeof full.message});
   if (report != nullptr) api::copy_out(full, report);
   return status;
 }

@@ -2,6 +2,8 @@
 
 #include "api/guard.hpp"
 
+#include <fmt/format.h>
+
 namespace grainlaw::core::api {
 
 TangentKind tangent_kind(unsigned want) {
@@ -20,6 +22,13 @@ TangentKind tangent_kind(unsigned want) {
 bool known_want(unsigned want) {
   return want == 0 || want == GRAINLAW_WANT_TANGENT_EXACT ||
          want == GRAINLAW_WANT_TANGENT_ELASTIC || want == GRAINLAW_WANT_TANGENT_PERTURBED;
+}
+
+std::string fault_of_want(unsigned want) {
+  return fmt::format("want is {}, expected 0 or one of GRAINLAW_WANT_TANGENT_*: {}, {} or {}", want,
+                     static_cast<int>(GRAINLAW_WANT_TANGENT_EXACT),
+                     static_cast<int>(GRAINLAW_WANT_TANGENT_ELASTIC),
+                     static_cast<int>(GRAINLAW_WANT_TANGENT_PERTURBED));
 }
 
 grainlaw_status evaluate_point(IntegrationPoint& point, const double* F, unsigned want, double* P,

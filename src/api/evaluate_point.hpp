@@ -5,10 +5,14 @@
 
 #include <grainlaw/grainlaw.h>
 
+#include <string>
+
 namespace grainlaw::core::api {
 
 // Whether `want` is zero or one known bit of GRAINLAW_WANT_*.
 [[nodiscard]] bool known_want(unsigned want);
+// What is wrong with an unknown one.
+[[nodiscard]] std::string fault_of_want(unsigned want);
 
 // The tangent of a known `want`.
 [[nodiscard]] TangentKind tangent_kind(unsigned want);

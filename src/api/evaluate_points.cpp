@@ -3,20 +3,47 @@
 #include "api/evaluate_point.hpp"
 #include "api/guard.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+
 namespace grainlaw::core::api {
+
+namespace {
+
+struct NamedStride {
+  const char* name;
+  std::size_t stride, least;
+  [[nodiscard]] bool fits() const { return stride == 0 || stride >= least; }
+};
+
+std::array<NamedStride, 3> named(const Strides& strides, int dimension) {
+  const auto square = static_cast<std::size_t>(dimension * dimension);
+  return {{{"F_stride", strides.F, square},
+           {"P_stride", strides.P, square},
+           {"A_stride", strides.A, square * square}}};
+}
+
+}  // namespace
 
 grainlaw_status check(const PointArrays& arrays, std::size_t n, int dimension) {
   if (n == 0) return GRAINLAW_OK;
   if (arrays.F == nullptr) return GRAINLAW_NULL_POINTER;
   if (const auto found = arrays.reports.check(n); found != GRAINLAW_OK) return found;
-  const auto square = static_cast<std::size_t>(dimension * dimension);
-  const auto fits = [](std::size_t stride, std::size_t size) {
-    return stride == 0 || stride >= size;
-  };
-  const Strides& strides = arrays.strides;
-  const bool all_fit = fits(strides.F, square) && fits(strides.P, square) &&
-                       fits(strides.A, square * square) && known_want(arrays.want);
-  return all_fit ? GRAINLAW_OK : GRAINLAW_BAD_ARGUMENT;
+  const auto strides = named(arrays.strides, dimension);
+  const bool fit = std::all_of(strides.begin(), strides.end(), std::mem_fn(&NamedStride::fits));
+  return fit && known_want(arrays.want) ? GRAINLAW_OK : GRAINLAW_BAD_ARGUMENT;
+}
+
+std::string fault_of(const PointArrays& arrays, int dimension) {
+  if (arrays.F == nullptr) return "F is null";
+  for (const NamedStride& one : named(arrays.strides, dimension))
+    if (!one.fits())
+      return fmt::format("{} is {}, expected 0 or at least {} doubles", one.name, one.stride,
+                         one.least);
+  return known_want(arrays.want) ? "" : fault_of_want(arrays.want);
 }
 
 Summary evaluate_points(PointSpan points, std::span<std::size_t> order, const PointArrays& arrays,

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 
 namespace grainlaw::core::api {
 
@@ -29,6 +30,9 @@ struct PointArrays {
 
 // Returns OK, NULL_POINTER, BAD_REPORT or BAD_ARGUMENT, for n points of this dimension.
 [[nodiscard]] grainlaw_status check(const PointArrays& arrays, std::size_t n, int dimension);
+
+// What is wrong with arrays that check refuses.
+[[nodiscard]] std::string fault_of(const PointArrays& arrays, int dimension);
 
 // Evaluates points of one dimension from checked arrays. `order` is a workspace with one number per
 // point.

@@ -13,24 +13,30 @@
 #include <cstddef>
 #include <cstring>
 #include <span>
+#include <string>
 
 using namespace grainlaw::core;
 
 namespace {
 
-// Evaluates points of a set unless they are refused, with the outcome of all ranks. evaluate(points,
-// order) returns the summary of points numbered as in the call.
-template <class Evaluate>
+// Evaluates points of a set unless they are refused, with the outcome of all ranks. call(points, order)
+// returns the summary of points numbered as in the call; why() says what is wrong with one refused.
+template <class Why, class Call>
 grainlaw_status evaluate(grainlaw_points& set, api::SomePoints some, grainlaw_status checked,
-                         grainlaw_status* status, grainlaw_summary* summary, Evaluate&& call) {
+                         const Why& why, grainlaw_status* status, grainlaw_summary* summary,
+                         Call&& call) {
   const bool unknown = summary != nullptr && !api::known_summary_size(api::claimed_size(summary));
   if (unknown) checked = GRAINLAW_BAD_REPORT;
   Summary found = api::refusal(checked);
   if (checked == GRAINLAW_OK) {
     found = call(some.points, std::span(set.order.data(), some.points.size()));
     found.first_failed = some.number(found.first_failed);
-  } else if (status != nullptr && !unknown) {
-    std::fill_n(status, some.asked, checked);
+  } else if (!unknown) {
+    if (status != nullptr) std::fill_n(status, some.asked, checked);
+    api::guarded([&] {
+      if (const std::string text = why(); !text.empty())
+        found = api::refusal(checked, text.c_str());
+    });
   }
   const int rank = api::agree(set.ranks, found);
   if (!unknown) api::write(found, rank, summary);
@@ -68,7 +74,11 @@ grainlaw_status grainlaw_points_evaluate_some(grainlaw_points* handle, size_t n,
       F, want, P, A, status, api::Reports(reports), {F_stride, P_stride, A_stride}};
   const grainlaw_status checked =
       some.known ? api::check(arrays, n, handle->dimension()) : GRAINLAW_BAD_ARGUMENT;
-  return evaluate(*handle, some, checked, status, summary,
+  const auto why = [&] {
+    return some.known ? api::fault_of(arrays, handle->dimension())
+                      : api::fault_of_numbers(*handle, n, which);
+  };
+  return evaluate(*handle, some, checked, why, status, summary,
                   [&](PointSpan points, std::span<std::size_t> order) {
                     return api::evaluate_points(points, order, arrays, threads);
                   });
@@ -81,20 +91,22 @@ grainlaw_status grainlaw_points_answer(grainlaw_points* handle, unsigned want, d
   const TangentKind kind = A == nullptr ? TangentKind::none : api::tangent_kind(want);
   const api::SomePoints all = api::distinct_points(*handle, handle->points.size(), nullptr);
   const auto checked = api::known_want(want) ? GRAINLAW_OK : GRAINLAW_BAD_ARGUMENT;
-  return evaluate(
-      *handle, all, checked, nullptr, summary, [&](PointSpan points, std::span<std::size_t> order) {
-        const api::CancellationOff cancellation;
-        const auto answer = [&](std::size_t k, grainlaw_report& report) {
-          report = grainlaw_report_default();
-          return api::guarded(
-              [&] {
-                return points[k]->answer(kind, P == nullptr ? nullptr : P + k * square,
-                                         A == nullptr ? nullptr : A + k * square * square, report);
-              },
-              {report.message, sizeof report.message});
-        };
-        return evaluate_all(points, order, std::ref(answer), threads);
-      });
+  const auto why = [want] { return api::fault_of_want(want); };
+  return evaluate(*handle, all, checked, why, nullptr, summary,
+                  [&](PointSpan points, std::span<std::size_t> order) {
+                    const api::CancellationOff cancellation;
+                    const auto answer = [&](std::size_t k, grainlaw_report& report) {
+                      report = grainlaw_report_default();
+                      return api::guarded(
+                          [&] {
+                            return points[k]->answer(
+                                kind, P == nullptr ? nullptr : P + k * square,
+                                A == nullptr ? nullptr : A + k * square * square, report);
+                          },
+                          {report.message, sizeof report.message});
+                    };
+                    return evaluate_all(points, order, std::ref(answer), threads);
+                  });
 }
 
 grainlaw_status grainlaw_points_share(grainlaw_points* handle, int rank, grainlaw_reduce reduce,

@@ -2,9 +2,12 @@
 #include "api/some_points.hpp"
 
 #include "api/guard.hpp"
+#include "base/error.hpp"
 #include "points/serialise_points.hpp"
 
 #include <grainlaw/grainlaw.h>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -35,6 +38,15 @@ SomePoints distinct_points(grainlaw_points& set, std::size_t n, const std::size_
   }
   some.known = true;
   return some;
+}
+
+std::string fault_of_numbers(const grainlaw_points& set, std::size_t n, const std::size_t* which) {
+  const std::size_t size = set.points.size();
+  if (which == nullptr)
+    return fmt::format("{} points, expected at most the {} of the set", n, size);
+  for (std::size_t k = 0; k < n; ++k)
+    if (which[k] >= size) return fmt::format("point {}, expected numbers below {}", which[k], size);
+  return n > size ? fmt::format("{} points of a set of {}", n, size) : "a point comes twice";
 }
 
 bool all_in(const grainlaw_points& set, std::size_t n, const std::size_t* which) {
@@ -77,7 +89,9 @@ grainlaw_status load_each(grainlaw_points* handle, std::size_t n, const std::siz
   if (const auto status = check_handle(handle); status != GRAINLAW_OK) return refused(status);
   if (n > 0 && (bytes == nullptr || offsets == nullptr)) return refused(GRAINLAW_NULL_POINTER);
   const SomePoints some = distinct_points(*handle, n, which);
-  if (!some.known) return refused(GRAINLAW_BAD_ARGUMENT);
+  if (!some.known)
+    return guarded([&] { throw Error(GRAINLAW_BAD_ARGUMENT, fault_of_numbers(*handle, n, which)); },
+                   text);
   for (std::size_t k = 0; k < n; ++k)
     if (offsets[k + 1] < offsets[k]) return refused(GRAINLAW_BAD_ARGUMENT);
   return guarded(

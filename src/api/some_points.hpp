@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <string>
 
 namespace grainlaw::core::api {
 
@@ -24,6 +25,9 @@ struct SomePoints {
 // Finds n points by number, each at most once; which may be null: 0 to n - 1. Uses the set's
 // workspaces; does not allocate.
 SomePoints distinct_points(grainlaw_points& set, std::size_t n, const std::size_t* which);
+
+// What is wrong with numbers that are not known.
+std::string fault_of_numbers(const grainlaw_points& set, std::size_t n, const std::size_t* which);
 
 // Whether n numbers are all of points of the set; which may be null.
 [[nodiscard]] bool all_in(const grainlaw_points& set, std::size_t n, const std::size_t* which);

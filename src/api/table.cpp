@@ -10,6 +10,8 @@
 
 #include <grainlaw/grainlaw.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -79,11 +81,13 @@ grainlaw_status grainlaw_table_evaluate(grainlaw_table* handle, long long elemen
                                         grainlaw_report* report) {
   if (const auto status = api::check_handle(handle); status != GRAINLAW_OK) return status;
   if (const auto status = api::Reports(report).check(1); status != GRAINLAW_OK) return status;
-  const bool fits = api::known_want(want) && time_step >= 0 && std::isfinite(time_step);
-  if (!fits) return GRAINLAW_BAD_ARGUMENT;
   grainlaw_report full = grainlaw_report_default();
   const grainlaw_status status = api::guarded(
       [&] {
+        if (!api::known_want(want)) throw Error(GRAINLAW_BAD_ARGUMENT, api::fault_of_want(want));
+        if (!(time_step >= 0 && std::isfinite(time_step)))
+          throw Error(GRAINLAW_BAD_ARGUMENT,
+                      fmt::format("time_step is {}, expected a finite number >= 0", time_step));
         const PointKey key{element, point};
         const std::shared_ptr<TablePoint> at = handle->table.find_or_make(key);
         const std::unique_lock lock(at->in_use, std::try_to_lock);

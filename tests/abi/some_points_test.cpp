@@ -11,6 +11,8 @@
 namespace grainlaw::test {
 namespace {
 
+using namespace std::string_literals;
+
 using Numbers = std::vector<std::size_t>;
 
 Points committed_set() {
@@ -241,7 +243,12 @@ class bad_some_points : public testing::Test {
 
 TEST_F(bad_some_points, numbers_outside_or_twice_are_refused) {
   const auto F = deformations();
-  for (const Numbers& which : {Numbers{0, points}, Numbers{SIZE_MAX, 1}, Numbers{2, 2}}) {
+  const std::string size = std::to_string(points);
+  const std::vector<std::pair<Numbers, std::string>> wrong{
+      {{0, points}, "point " + size + ", expected numbers below " + size},
+      {{SIZE_MAX, 1}, "point " + std::to_string(SIZE_MAX) + ", expected numbers below " + size},
+      {{2, 2}, "a point comes twice"}};
+  for (const auto& [which, fault] : wrong) {
     std::vector<double> P(8, 7);
     std::array<grainlaw_status, 2> status{};
     grainlaw_summary summary = grainlaw_summary_default();
@@ -250,12 +257,14 @@ TEST_F(bad_some_points, numbers_outside_or_twice_are_refused) {
                                       nullptr, 0, status.data(), nullptr, 1, &summary),
         GRAINLAW_BAD_ARGUMENT, "evaluate");
     EXPECT_EQ(status[1], GRAINLAW_BAD_ARGUMENT);
-    EXPECT_STREQ(summary.message, grainlaw_status_text(GRAINLAW_BAD_ARGUMENT));
+    EXPECT_EQ(summary.message, fault);
     EXPECT_EQ(P, std::vector<double>(8, 7));
     const auto good = set_.save_some(Numbers{0, 1});
+    std::array<char, 256> message{};
     expect_refused(grainlaw_points_load_some(set_.get(), 2, which.data(), good.bytes.data(),
-                                             good.offsets.data(), nullptr, 0),
+                                             good.offsets.data(), message.data(), message.size()),
                    GRAINLAW_BAD_ARGUMENT, "load");
+    EXPECT_EQ(message.data(), fault);
     const Numbers source{0, 1};
     expect_refused(
         grainlaw_points_clone_some(set_.get(), 2, which.data(), set_.get(), source.data()),
@@ -275,11 +284,15 @@ TEST_F(bad_some_points, numbers_outside_or_twice_are_refused) {
 TEST_F(bad_some_points, strides_that_overlap_are_refused) {
   const auto F = deformations();
   std::vector<double> P(4 * points), A(16 * points);
+  grainlaw_summary summary = grainlaw_summary_default();
   for (const auto& [f, p, a] : {std::array<std::size_t, 3>{3, 0, 0}, {0, 3, 0}, {0, 0, 15}}) {
     expect_refused(grainlaw_points_evaluate_some(set_.get(), points, nullptr, F.data(), f,
                                                  GRAINLAW_WANT_TANGENT_EXACT, P.data(), p, A.data(),
-                                                 a, nullptr, nullptr, 1, nullptr),
+                                                 a, nullptr, nullptr, 1, &summary),
                    GRAINLAW_BAD_ARGUMENT, "stride");
+    EXPECT_EQ(summary.message, f == 3   ? "F_stride is 3, expected 0 or at least 4 doubles"s
+                               : p == 3 ? "P_stride is 3, expected 0 or at least 4 doubles"
+                                        : "A_stride is 15, expected 0 or at least 16 doubles");
   }
 }
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 import numbers
 import operator
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
@@ -40,6 +40,13 @@ def number(what: str, value: Any, refuse: Refusal = ValueError, finite: bool = T
     if not real or (finite and not math.isfinite(found)):
         raise refuse(f"{what} {value!r}: expected a {'finite ' if finite else ''}number")
     return found
+
+
+def several(what: str, values: Any, expected: str) -> list[Any]:
+    """A list, tuple, array or the like; not a text."""
+    if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
+        raise TypeError(f"{what} {values!r}: expected {expected}")
+    return list(values)
 
 
 def masked(values: Any) -> bool:

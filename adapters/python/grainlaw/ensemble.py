@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import plots
+from .arguments import several
 from .arrays import Array
 from .result import Result
 
@@ -27,7 +28,10 @@ class Ensemble:
     deviation: dict[str, Array]   #: (n,) standard deviation, of the draws; 0 of one result
 
     def __init__(self, results: Iterable[Result]) -> None:
-        self.results = list(results)
+        self.results = several("results", results, "several results of a test")
+        for one in self.results:
+            if not isinstance(one, Result):
+                raise TypeError(f"results hold {one!r}: expected results of a test")
         tables = [one.columns() for one in self.results]
         if len(tables) < 2 or any(table.keys() != tables[0].keys() for table in tables):
             raise ValueError(f"{len(tables)} results: expected two or more, all of discs or all of "

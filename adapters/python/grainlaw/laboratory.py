@@ -443,8 +443,8 @@ def _strained(name: str, start: Start, strain: float, step: float,
     if not 0 < abs(strain) < 0.5:
         raise ValueError(f"expected a strain between -0.5 and 0.5, 0.05 for 5 % of compression, "
                          f"got {strain!r}")
-    if not 0 < step < 0.1:
-        raise ValueError(f"expected a strain of one step, above 0 and below 0.1, got {step!r}")
+    if not 0 < step <= 0.1:
+        raise ValueError(f"expected a strain of one step, above 0 and up to 0.1, got {step!r}")
     if loops is not None and not isinstance(loops, Loops):
         raise TypeError(f"expected loops as Loops(2, strain=0.005) or None, got {loops!r}")
     way = abs(strain) if loops is None or loops.strain is None else float(loops.strain)

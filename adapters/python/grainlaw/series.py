@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import plots
-from .arguments import number
+from .arguments import number, several
 from .arrays import Array
 from .course import Loops
 from .material import Material
@@ -54,7 +54,8 @@ def _closed_loop(result: Result, amplitude: float, steps: int) -> tuple[float, f
 
 def amplitudes(strains: Sequence[float]) -> list[float]:
     """Checked strains of loops."""
-    found = [number("strain", strain) for strain in strains]
+    found = [number("strain", strain)
+             for strain in several("strains", strains, "several amplitudes, as (1e-6, 1e-4)")]
     if not found or not all(0 < strain < 0.1 for strain in found):
         raise ValueError(f"strains {strains!r}: expected amplitudes above 0 and below 0.1, as 1e-5")
     return found
@@ -85,7 +86,10 @@ class Batch:
 
     def __init__(self, test: Callable[..., Result], materials: Mapping[str, Material],
                  pressures: Sequence[float], **how: Any) -> None:
-        if not materials or not len(pressures):
+        if not isinstance(materials, Mapping):
+            raise TypeError(f"materials {materials!r}: expected them by name, as {{'dense': sand}}")
+        pressures = several("pressures", pressures, "several, as [50e3, 100e3]")
+        if not materials or not pressures:
             raise ValueError(f"{len(materials)} packings and {len(pressures)} pressures: expected "
                              "one or more of each")
         self.results = {(name, float(pressure)): test(material, consolidation=pressure, **how)

@@ -396,6 +396,8 @@ class Elements(Case):
         self.assertIn("sd_sigma12", table)
         for bad in ([], results[:1], [results[0], tests.drained(material(SPHERES), 0.001)]):
             self.assertRaisesRegex(ValueError, "expected two or more", Ensemble, bad)
+        for bad in (results[0], [material(), material()]):
+            self.assertRaisesRegex(TypeError, "expected (several )?results of a test", Ensemble, bad)
 
     def test_an_unknown_column_is_told(self):
         with self.assertRaisesRegex(AttributeError, "help"):

@@ -157,6 +157,10 @@ class Series(Case):
         self.assertEqual(len(batch), 4)
         self.assertAlmostEqual(batch["other", 120e3].mean_pressure[0], 120e3, delta=1)
         self.assertRaises(ValueError, Batch, laboratory.drained, {}, [1e5])
+        self.assertRaisesRegex(TypeError, "by name, as", Batch, laboratory.drained, [sand()], [1e5])
+        self.assertRaisesRegex(TypeError, "pressures 100000.0: expected several", Batch, laboratory.drained,
+                               {"one": sand()}, 1e5)
+        self.assertRaisesRegex(TypeError, "strains 0.0001: expected several", laboratory.stiffness, sand(), 1e-4)
         try:
             import matplotlib  # pylint: disable=import-outside-toplevel,unused-import
         except ImportError:
