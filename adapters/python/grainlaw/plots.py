@@ -1,7 +1,7 @@
 """Pictures by matplotlib, where it is installed."""
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -88,6 +88,8 @@ def _history(columns: Columns, shear: bool, spread: Columns) -> Any:
     stress.set_ylabel("stress [kPa]")
     stress.legend()
     _curve(volume, over, columns, "void_ratio", spread)
+    if "void_ratio" not in spread:
+        _room(columns["void_ratio"], volume.set_ylim)
     volume.set_ylabel("void ratio [-]")
     _curve(contacts, over, columns, "coordination_no_rattlers", spread)
     contacts.set_ylabel("coordination, no rattlers [-]")
@@ -117,12 +119,19 @@ def _path(kind: str, columns: Columns, shear: bool, members: Sequence[Columns]) 
     x = KILO * columns[over]
     axes.plot(x, scale * columns[name])
     axes.plot(x[:1], scale * columns[name][:1], "o", label="start")
-    if np.ptp(x) < SAME * abs(x).max():   # held, to the tolerance
-        axes.set_xlim(0.9 * x.min(), 1.1 * x.max())
+    _room(x, axes.set_xlim)
+    _room(scale * columns[name], axes.set_ylim)
     axes.set_xlabel(below)
     axes.set_ylabel(beside)
     axes.legend()
     return figure
+
+
+def _room(values: Array, set_limits: Callable[[float, float], Any]) -> None:
+    """Around what a test holds to the tolerance: a scale of rounding errors tells nothing."""
+    size = float(abs(values).max())
+    if np.ptp(values) < SAME * size:
+        set_limits(values.min() - 0.1 * size, values.max() + 0.1 * size)
 
 
 def _plain_numbers(axis: Any) -> None:

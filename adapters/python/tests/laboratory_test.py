@@ -19,7 +19,7 @@ from unittest import mock
 import numpy as np
 
 import grainlaw
-from grainlaw import Measure, Status
+from grainlaw import Measure, Status, plots
 from grainlaw import laboratory as tests
 from grainlaw.laboratory import Ensemble, Loops, Stop
 from grainlaw.lead import Options
@@ -448,6 +448,10 @@ class Elements(Case):
                 self.assertEqual(len(axes.lines[0].get_xdata()), len(one))
         held = result.plot(kind="stress-path").axes[0].get_xlim()
         self.assertGreater(held[1] - held[0], 10)   # kPa, not what the tolerance leaves
+        columns = sheared.columns()
+        columns["void_ratio"] = 0.2 + 1e-13 * np.arange(len(sheared))   # what rounding leaves
+        for kind, panel in (("history", 1), ("e-log-p", 0)):
+            self.assertGreater(np.ptp(plots.draw(kind, columns, True).axes[panel].get_ylim()), 0.01)
         bands = Ensemble([result, result]).plot().axes[0].collections
         self.assertEqual(len(bands), 3)
         self.assertRaisesRegex(ValueError, "p-q, e-log-p", result.plot, kind="pq")
