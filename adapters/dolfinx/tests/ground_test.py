@@ -196,7 +196,11 @@ class Mistakes(Told):
                 (0, [Layer(-2, UPPER, 2650), Layer(-4, "", 2650)], 9.81, "layer 1 has no material"),
                 (0, [Layer(-2, UPPER, 2650), Layer(-4, Elastic(2e7, 0.5), 2000)], 9.81,
                  "layer 1 of modulus 20000000.0 Pa and Poisson ratio 0.5"),
-                (0, [BELOW], 9.81, "every layer is elastic")):
+                (0, [BELOW], 9.81, "every layer is elastic"),
+                (0, [], 9.81, "expected a list of one Layer"), (0, sand, 9.81, "expected a list of one Layer"),
+                (0, [(-4, UPPER, 2650)], 9.81, "expected a list of one Layer"),
+                (0, [Layer(-4, UPPER, "2650")], 9.81, "layer 0: density '2650': expected a finite number"),
+                (0, [Layer(-4, 3, 2650)], 9.81, "layer 0: material 3, expected a file")):
             self.told(words, lambda: Ground(block(), surface, layers, gravity))
         self.told("every material is elastic", lambda: grainlaw.dolfinx.Points(block(), [BELOW.material], 1))
 
@@ -208,6 +212,13 @@ class Mistakes(Told):
         self.told("the surface would be in tension", lambda: ground.traction(top, 1, SURFACE))
         self.told("traction: no side lies there", lambda: ground.traction(above(1), 1, -SURFACE))
         self.told("hold: no node lies there", lambda: ground.hold(above(1), 0))
+        self.told("component 2: expected a whole number from 0 to 1", lambda: ground.hold(top, 2))
+        self.told("hold: value nan: expected a finite number", lambda: ground.hold(top, 0, np.nan))
+        self.told("traction: value nan: expected a finite number", lambda: ground.traction(top, 1, np.nan))
+        for early in (lambda: list(ground.to(1)), ground.stage, lambda: ground.excavate(above(-1)),
+                      lambda: ground.save("run.cells"), ground.weight, ground.out_of_balance):
+            with self.assertRaisesRegex(AttributeError, r"geostatic\(\) or load\(\) has to come before"):
+                early()
         self.assertFalse(ground._made)
         sliding = Ground(block(), 0, sand)
         sliding.hold(at(-4), 1)
@@ -232,6 +243,9 @@ class Mistakes(Told):
         self.told("nothing holds component 1", lambda: ground.release(at(-4), 1))
         ground = rehearsed()
         self.told("nothing holds component 1", lambda: ground.excavate(lambda x: (x[1] < -2) & (x[1] > -3)))
+        self.told("the ground has its weight already", ground.geostatic)
+        for fraction in (-0.5, 2, np.nan):
+            self.told(f"to: fraction {fraction!r}: expected", lambda: list(ground.to(fraction)))
         ground = rehearsed()   # and without a mistake
         ground.traction(top, 1, SURFACE)
         list(ground.to(1))

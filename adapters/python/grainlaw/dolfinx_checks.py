@@ -2,6 +2,7 @@
 of a mesh."""
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
@@ -9,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 from mpi4py import MPI
 
+from .arguments import number as real
 from .arrays import Array
 from .dolfinx import Elastic
 from .material import AnyPath
@@ -22,14 +24,18 @@ class Layer(NamedTuple):
 
 def check_layers(domain: Any, surface: float, layers: Sequence[Layer], gravity: float) -> None:
     """What is wrong with layers."""
+    if isinstance(layers, Layer) or not layers or not all(isinstance(layer, Layer) for layer in layers):
+        raise ValueError(f"layers {layers!r}: expected a list of one Layer(bottom, material, solid) or more")
     tops = [surface] + [layer.bottom for layer in layers[:-1]]
     for number, (top, layer) in enumerate(zip(tops, layers)):
-        if not layer.bottom < top:
+        if not real(f"layer {number}: bottom", layer.bottom) < top:
             raise ValueError(f"layer {number} from {top} m down to {layer.bottom} m, expected a depth above 0")
-        if not layer.solid > 0:
+        if not real(f"layer {number}: density", layer.solid) > 0:
             raise ValueError(f"layer {number}: the density is {layer.solid} kg/m3, expected above 0")
         if not layer.material:
             raise ValueError(f"layer {number} has no material")
+        if not isinstance(layer.material, (str, bytes, os.PathLike, Elastic)):
+            raise ValueError(f"layer {number}: material {layer.material!r}, expected a file or an Elastic")
         if isinstance(layer.material, Elastic) and not (
                 layer.material.young > 0 and -1 < layer.material.poisson < 0.5):
             raise ValueError(f"layer {number} of modulus {layer.material.young} Pa and Poisson ratio "

@@ -37,6 +37,7 @@ from mpi4py import MPI
 from petsc4py import PETSc
 
 from .abi import Error
+from .arguments import number, whole
 from .arrays import Array
 from .dolfinx import Elastic, Points, assembled, direct_solver
 from .dolfinx_checks import Layer, Parts, check_layers, check_pores, place, tell_first
@@ -48,6 +49,7 @@ from .ranks import read_material, together
 
 _petsc: Any = fem.petsc
 _REHEARSAL = Elastic(1e8, 0.3)
+_LATER = ("points", "march", "unit_weights", "_unit", "_internal")   # once the points are made
 Region = Callable[[Array], npt.NDArray[np.bool_]]
 
 __all__ = ["Elastic", "Ground", "Layer"]
@@ -106,15 +108,20 @@ class Ground:
         self.fraction, self._made = 0.0, False
         self._checked: bool | None = None   # whether water flowed when what is held was checked
 
+    def __getattr__(self, name: str) -> Any:
+        """Of what is not there."""
+        later = ", geostatic() or load() has to come before" if name in _LATER else ""
+        raise AttributeError(f"a Ground has no {name}{later}")
+
     def hold(self, where: Region, component: int, value: float = 0.0) -> None:
         """Nodes of a region are held, or moved by so much over the run [m]."""
-        dofs = self._nodes(where, component, "hold")
-        self._held.x.array[dofs], self._target.x.array[dofs] = 1, value
+        dofs = self._nodes(where, self._axis(component), "hold")
+        self._held.x.array[dofs], self._target.x.array[dofs] = 1, number("hold: value", value)
         self._checked = None
 
     def release(self, where: Region, component: int) -> None:
         """Of a stage: what holds the nodes of a region goes, and its force fades over the run."""
-        dofs = self._nodes(where, component, "release")
+        dofs = self._nodes(where, self._axis(component), "release")
         dofs = dofs[self._held.x.array[dofs] > 0]
         if self.comm.allreduce(len(dofs)) == 0:
             raise ValueError("release: nothing is held there")
@@ -129,7 +136,7 @@ class Ground:
         an excavation lays a side bare, nothing flows out."""
         dofs = self._nodes(where, self._pore(), "drain")
         self._held.x.array[dofs] = 1
-        self._target.x.array[dofs] = value - self.u.x.array[dofs]
+        self._target.x.array[dofs] = number("drain: value", value) - self.u.x.array[dofs]
         self._checked = None
         if self._sand_on_top:
             lift = self._lift()
@@ -155,8 +162,8 @@ class Ground:
         tags = mesh.meshtags(self.domain, self._up, np.sort(facets), np.ones(len(facets), np.int32))
         ds = ufl.Measure("ds", self.domain, subdomain_data=tags)(1)
         v, normal = ufl.TestFunction(self.V), ufl.FacetNormal(self.domain)
-        traction = fem.Constant(self.domain, float(value))
-        force = self._function(fem.form(traction * v[component] * ds))
+        traction = fem.Constant(self.domain, number("traction: value", value))
+        force = self._function(fem.form(traction * v[self._axis(component)] * ds))
         if component == self._up and self._sand_on_top:
             up = self._function(fem.form(
                 ufl.max_value(traction * normal[self._up], 0.0) * v[component] * ds)).x.array
@@ -173,6 +180,8 @@ class Ground:
                              "tension")
         if not overconsolidation >= 1:
             raise ValueError(f"overconsolidation is {overconsolidation}, expected at least 1")
+        if self._made:
+            raise ValueError("geostatic: the ground has its weight already, expected this call once")
         self._check_held()
         self._make()
         weights = self._weigh()
@@ -190,9 +199,10 @@ class Ground:
 
     def stage(self) -> None:
         """A new run begins here: loads so far stay, and what is prescribed from now on counts from here."""
+        self.march.reached = 0.0
         self._load.x.array[:] += self.fraction * self._ramp.x.array
         self._ramp.x.array[:] = self._target.x.array[:] = 0
-        self.fraction = self.march.reached = 0.0
+        self.fraction = 0.0
 
     def excavate(self, where: Region) -> None:
         """Of a stage: points of a region leave. Their forces and their weight fade over the run. A node that
@@ -225,6 +235,8 @@ class Ground:
         from 0 to 0 loads come to act. Yields the march at the end of each part. Raises StepError where the
         smallest part fails too."""
         check_time(self.step_time)
+        if not 0 <= number("to: fraction", fraction) <= 1:
+            raise ValueError(f"to: fraction {fraction!r}: expected a share of the run, from 0 to 1")
         flows = bool(self.step_time > 0 and fraction != self.fraction)
         if self._checked is not flows:   # held is what was since, or water flows from now on
             self._check_held(flows)
@@ -388,6 +400,10 @@ class Ground:
         if self._flow is not None:
             self._flow.weigh()
             self._flow.measure()
+
+    def _axis(self, component: int) -> int:
+        """A component of displacements."""
+        return whole("component", component, 0, self._up)
 
     def _pore(self) -> int:
         """The component of pressures."""
