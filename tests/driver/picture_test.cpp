@@ -80,7 +80,8 @@ TEST_F(picture, breaks_an_ordinate_that_is_longer_than_its_panel) {
 
 TEST_F(picture, of_a_stress_that_rounding_alone_moves_is_drawn) {
   const Curve path{"", {100.00001774226, 100.00001774226 + 1e-13}, {100, 300}};
-  ASSERT_TRUE(draw({"", "lateral stress [kPa]", {{"axial stress [kPa]", {path}}}}, directory_ / "x"));
+  ASSERT_TRUE(
+      draw({"", "lateral stress [kPa]", {{"axial stress [kPa]", {path}}}}, directory_ / "x"));
   EXPECT_NE(text("x").find("lateral stress [kPa]"), std::string::npos);
 }
 
