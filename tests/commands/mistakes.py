@@ -3,7 +3,7 @@
 import os
 import unittest
 
-from command import MATERIAL, POINT, Place
+from command import MATERIAL, POINT, SOLVE, Place
 
 SEGMENT = POINT.format(steps=2, stretch=0.9999)
 SCENE = "figure = false\n" + SEGMENT + MATERIAL
@@ -62,6 +62,11 @@ class Mistakes(unittest.TestCase):
     def test_a_case_that_is_not_there_is_told_with_those_that_are(self):
         self.place.write("cases.toml", SCENE + '[[case]]\nname = "dense"\n[[case]]\nname = "loose"\n')
         self.assertIn("expected one of dense, loose", self.told("point", "cases.toml", "--case", "lose"))
+
+    def test_a_number_of_cells_is_told_its_bounds(self):
+        self.place.write("mesh.toml", "steps = 1\n" + MATERIAL
+                         + SOLVE.format(value=-1e-4).replace("divisions = [1, 1]", "divisions = [1, 10001]"))
+        self.assertIn("each an integer from 1 to 10000", self.told("solve", "mesh.toml"))
 
     def test_pictures_that_the_path_does_not_reach_are_told(self):
         self.place.write("far.toml", "pictures = [5e-5, 0.5]\n" + SCENE)

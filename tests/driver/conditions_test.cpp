@@ -128,7 +128,9 @@ TEST(conditions, a_load_on_a_side_that_is_prescribed_in_its_direction_is_refused
 TEST(conditions, a_displacement_that_is_not_zero_at_the_start_is_refused) {
   expect_refusal(held_bottom + "[[displacement]]\non = 'top'\ncomponent = 'y'\nvalue = -2e-4\n" +
                      "start = -1e-4",
-                 {"not 0 at time 0"});
+                 {"scene.toml:11: displacement[3]", "not 0 at time 0"});
+  expect_refusal("[[periodic]]\nsides = ['left', 'right']\njump_y = { value = 0.0, start = 1e-4 }",
+                 {"scene.toml:2: periodic[1]", "not 0 at time 0"});
 }
 
 TEST(conditions, a_component_prescribed_twice_is_refused) {

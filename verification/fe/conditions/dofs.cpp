@@ -159,6 +159,16 @@ class Linker {
   std::size_t next_program_ = 0;
 };
 
+// Place in the scene of the first condition that is not 0 at time 0.
+std::string moved_at_start(const Model& model) {
+  for (const PrescribedDisplacement& displacement : model.displacements)
+    if (displacement.value.at(0) != 0) return displacement.place;
+  for (const Periodic& periodic : model.periodics)
+    for (const std::optional<Program>& jump : periodic.jump)
+      if (jump && jump->at(0) != 0) return periodic.place;
+  return {};
+}
+
 }  // namespace
 
 Dofs number_dofs(const Model& model) {
@@ -183,8 +193,10 @@ Dofs number_dofs(const Model& model) {
   }
   if (dofs.prescribed_at(0).any())
     throw InputError(
-        "found a displacement or jump that is not 0 at time 0, expected 0 there: a run starts at "
-        "F = I");
+        fmt::format("{}: found a displacement or jump that is not 0 at time 0, expected 0 there: a "
+                    "run starts at "
+                    "F = I",
+                    moved_at_start(model)));
   return dofs;
 }
 

@@ -23,7 +23,7 @@ ElementKind read_element_kind(SceneTable& table, int dimension) {
 Mesh read_box(SceneTable& table, int dimension) {
   const auto axes = static_cast<std::size_t>(dimension);
   const Range counts{1, dimension == 2 ? 1e4 : 100, false,
-                     dimension == 2 ? "an integer >= 1" : "an integer from 1 to 100"};
+                     dimension == 2 ? "an integer from 1 to 10000" : "an integer from 1 to 100"};
   const std::vector<double> size = table.numbers("size", axes, positive);
   std::vector<int> divisions;
   for (const double value : table.numbers("divisions", axes, counts)) {
