@@ -126,9 +126,8 @@ void check_spheres(const TomlTable& top, const MaterialDescription& description)
 
 MaterialDescription read_description(TomlTable& top, const std::filesystem::path& directory) {
   MaterialDescription description;
-  const long dimension = top.required("dimension", integer_between(1));
-  if (dimension != 2 && dimension != 3)
-    top.fail("dimension", fmt::format("{}", dimension), "2 (discs) or 3 (spheres)");
+  const Expectation<long> two_or_three{"2 (discs) or 3 (spheres)", integer_between(2, 3).read};
+  const long dimension = top.required("dimension", two_or_three);
   const auto thickness = top.optional("thickness", number_above(0));
   if (dimension == 3 && thickness)
     top.fail("thickness", "a number", "none with dimension = 3: spheres have their own");

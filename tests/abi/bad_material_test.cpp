@@ -212,7 +212,8 @@ TEST(bad_material, a_file_that_cannot_be_read_is_told) {
 }
 
 TEST(bad_material, a_message_is_truncated_to_its_buffer) {
-  const std::string expected = "here:1: dimension: found nothing, expected an integer >= 1";
+  const std::string expected =
+      "here:1: dimension: found nothing, expected 2 (discs) or 3 (spheres)";
   for (std::size_t size = 0; size < 80; ++size) {
     std::string buffer(100, 'x');
     grainlaw_material* made = nullptr;

@@ -371,7 +371,7 @@ TEST(texts, keys_of_material_files_are_listed_with_expectation_and_default) {
   ASSERT_EQ(grainlaw_material_keys(text.data(), &size), GRAINLAW_OK);
   ASSERT_EQ(size, text.size());
   EXPECT_EQ(text.back(), '\0');
-  EXPECT_EQ(text.find("dimension\tan integer >= 1\trequired\n"), 0U);
+  EXPECT_EQ(text.find("dimension\t2 (discs) or 3 (spheres)\trequired\n"), 0U);
   EXPECT_NE(text.find("\ncontact.friction\ta number >= 0\t"), std::string::npos);
 }
 

@@ -4,7 +4,7 @@ namespace verification {
 namespace {
 
 constexpr KeyText texts[] = {
-    {"dimension", "-", "2: discs; 3: spheres"},
+    {"dimension", "-", "of the packing"},
     {"thickness", "m",
      "of discs; may be left to the cell file, with which it has to agree; not with spheres"},
 
