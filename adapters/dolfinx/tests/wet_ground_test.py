@@ -164,7 +164,11 @@ class Mistakes(Told):
 
     def test_before_any_point(self):
         self.told("the permeability is 0 m2/(Pa s), expected above 0", lambda: PoreWater(0))
+        self.told("permeability '1e-9': expected a number", lambda: PoreWater("1e-9"))
         domain = mesh.create_unit_square(COMM, 1, 1)
+        self.told("water 1e-09: expected PoreWater(permeability)",
+                  lambda: Ground(domain, 1, [Layer(0, SAND, BUOYANT)], water=1e-9))
+        self.told("order 3: expected a whole number from 1 to 2", lambda: Ground(domain, 1, [Layer(0, SAND, 2650)], order=3))
         layers = [Layer(-1, SAND, BUOYANT), Layer(-3, Elastic(1e8, 0.3), 1000)]
         self.told("layer 1, in closed form, has no pores", lambda: Ground(domain, 1, layers, water=WATER))
         self.told("layer 0 from 0 m down to 1 m, expected a depth above 0",
@@ -173,6 +177,7 @@ class Mistakes(Told):
         self.told("the ground has no pore water", lambda: dry.drain(top))
         ground = column()
         self.told("drain: no node lies there", lambda: ground.drain(lambda x: x[1] > 1))
+        self.told("drain: value nan: expected a finite number", lambda: ground.drain(top, float("nan")))
         self.told("seal: nothing is drained there", lambda: ground.seal(top))
         self.told("the surface would be in tension", lambda: ground.drain(top, 2e3))
         self.assertFalse(ground._made)

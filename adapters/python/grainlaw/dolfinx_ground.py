@@ -78,6 +78,9 @@ class Ground:
                  order: int = 1, rehearse: bool = False, water: PoreWater | None = None,
                  degree: int | None = None, lend: bool = False, **march: float) -> None:
         check_layers(domain, surface, layers, gravity)
+        whole("order", order, 1, 2)
+        if not isinstance(water, PoreWater | None):
+            raise ValueError(f"water {water!r}: expected PoreWater(permeability) or None")
         if water is not None and not rehearse:
             check_pores(layers)
         self.domain, self.comm, self.dimension = domain, domain.comm, domain.topology.dim
@@ -135,8 +138,8 @@ class Ground:
         """The pore pressure at nodes of a region comes to a value over the run [Pa]; elsewhere, also where
         an excavation lays a side bare, nothing flows out."""
         dofs = self._nodes(where, self._pore(), "drain")
-        self._held.x.array[dofs] = 1
         self._target.x.array[dofs] = number("drain: value", value) - self.u.x.array[dofs]
+        self._held.x.array[dofs] = 1
         self._checked = None
         if self._sand_on_top:
             lift = self._lift()
@@ -470,6 +473,7 @@ class Ground:
 
     def _nodes(self, where: Region, component: int, what: str) -> npt.NDArray[np.int64]:
         """Unknowns of this rank, ghosts too, of a component in a region."""
+        whole(f"{what}: component", component, 0, self._up + (self.water is not None))
         with together(self.comm):
             inside = np.asarray(where(self._places.T), bool)
         dofs = np.flatnonzero(inside & (self._component == component))

@@ -30,6 +30,7 @@ from dolfinx import fem
 from mpi4py import MPI
 
 from .abi import Error
+from .arguments import number
 from .arrays import Array
 from .dolfinx import Newton, Points, assembled
 from .march import March
@@ -50,10 +51,10 @@ class PoreWater:
     kozeny_carman: bool = False     #: permeability by void ratio e: k e^3 / (1 + e), over that at F = I
 
     def __post_init__(self) -> None:
-        if not 0 < self.permeability < math.inf:
+        if not 0 < number("permeability", self.permeability, finite=False) < math.inf:
             raise Error(Status.BAD_ARGUMENT, f"the permeability is {self.permeability} m2/(Pa s), expected "
                         "above 0; a step_time of 0 is undrained")
-        if not self.bulk_modulus > 0:
+        if not number("bulk modulus", self.bulk_modulus, finite=False) > 0:
             raise Error(Status.BAD_ARGUMENT,
                         f"the bulk modulus of water is {self.bulk_modulus} Pa, expected above 0")
 
@@ -167,7 +168,7 @@ class WaterNewton(Newton):
 
 def check_time(step_time: float) -> None:
     """Raises Error for a time that does not pass."""
-    if not 0 <= step_time < math.inf:
+    if not 0 <= number("step_time", step_time, finite=False) < math.inf:
         raise Error(Status.BAD_ARGUMENT, f"step_time is {step_time} s, expected at least 0")
 
 
