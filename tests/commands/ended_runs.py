@@ -159,6 +159,12 @@ class EndedRuns(unittest.TestCase):
         good = self.place.write("good.csv", TABLE)
         for text, words in ((TABLE.split("\n", 1)[0] + "\n", "found no row below the header"),
                             (TABLE.replace("0.02,3,", "0.02,nan,"), "axial_stress: found nan in row 2"),
+                            (TABLE.replace("0.02,3,", "0.02,3 kPa,"), "axial_stress: found nan in row 2"),
+                            (TABLE.replace("0.02,3,", "0.02,,"), "axial_stress: found nan in row 2"),
+                            (TABLE.replace("axial_stress", "axial_stress[kPa]", 1),
+                             "axial_stress: found the unit [kPa], expected [Pa]"),
+                            (TABLE.replace("axial_strain", "axial_strain[%]", 1),
+                             "axial_strain: found the unit [%], expected [-]"),
                             (TABLE.replace(",3,1,", ",3,inf,"), "lateral_stress: found inf in row 2"),
                             ("x\n1\n", "found columns x, expected axial_strain too")):
             bad = self.place.write("bad.csv", text)

@@ -57,17 +57,19 @@ std::vector<double> scaled(const std::vector<double>& values, double factor) {
 // scenes/reference, which tables of spheres have too.
 Curves read_curves(const std::string& name, const std::filesystem::path& path) {
   const CsvTable table = read_csv(path);
-  const auto has = [&](const char* column) {
-    return std::find(table.names.begin(), table.names.end(), column) != table.names.end();
-  };
   if (table.rows() == 0)
     throw InputError(
         fmt::format("{}: found no row below the header, expected some", path.string()));
-  const auto column = [&](const char* wanted) {
-    if (!has(wanted))
+  const auto column = [&](const char* wanted, std::string_view unit = "-") {
+    if (!table.has(wanted))
       throw InputError(fmt::format("{}: found columns {}, expected {} too", path.string(),
                                    fmt::join(table.names, ","), wanted));
     const std::vector<double>& values = table[wanted];
+    const std::string& found =
+        table.units[static_cast<std::size_t>(&values - table.columns.data())];
+    if (!found.empty() && found != unit)
+      throw InputError(fmt::format("{}: {}: found the unit [{}], expected [{}]", path.string(),
+                                   wanted, found, unit));
     for (std::size_t k = 0; k < values.size(); ++k)
       if (!std::isfinite(values[k]))
         throw InputError(
@@ -75,16 +77,18 @@ Curves read_curves(const std::string& name, const std::filesystem::path& path) {
                         path.string(), wanted, values[k], k + 1));
     return values;
   };
-  const bool own = has("sigma22") && !has("axial_stress");
+  const std::vector<double> strain = column("axial_strain");
+  const bool own = table.has("sigma22") && !table.has("axial_stress");
+  const std::vector<double> axial = own ? column("sigma22", "Pa") : column("axial_stress", "Pa");
   Curves curves{name,
-                has("sigma33"),
-                scaled(column("axial_strain"), percent),
-                own ? scaled(column("sigma22"), -1e-3) : scaled(column("axial_stress"), 1e-3),
-                own ? column("stress_ratio") : column("axial_stress"),
+                table.has("sigma33"),
+                scaled(strain, percent),
+                scaled(axial, own ? -1e-3 : 1e-3),
+                own ? column("stress_ratio") : axial,
                 scaled(column("volumetric_strain"), percent),
                 column("coordination")};
   if (own) return curves;
-  const std::vector<double> lateral = column("lateral_stress");
+  const std::vector<double> lateral = column("lateral_stress", "Pa");
   for (std::size_t k = 0; k < table.rows(); ++k) curves.ratio[k] /= lateral[k];
   return curves;
 }

@@ -27,6 +27,20 @@ std::string without_unit(const std::string& column) {
   return column.ends_with(']') ? column.substr(0, column.rfind('[')) : column;
 }
 
+// "unit" of "name[unit]".
+std::string unit_of(const std::string& column) {
+  const std::size_t length = without_unit(column).size();
+  return length == column.size() ? "" : column.substr(length + 1, column.size() - length - 2);
+}
+
+double number_of(const std::string& field) {
+  char* end = nullptr;
+  const double value = std::strtod(field.c_str(), &end);
+  const bool whole = end != field.c_str() &&
+                     field.find_first_not_of(" \t", end - field.c_str()) == std::string::npos;
+  return whole ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
 // Returns the length if the table there can be continued from it.
 std::uintmax_t checked(const std::filesystem::path& path, const std::vector<std::string>& columns,
                        std::uintmax_t length) {
@@ -82,14 +96,17 @@ CsvTable read_csv(const std::filesystem::path& path) {
   CsvTable table;
   std::vector<std::string> fields;
   if (!records.next(fields)) throw InputError(fmt::format("{}: cannot be read", path.string()));
-  for (const std::string& field : fields) table.names.push_back(without_unit(field));
+  for (const std::string& field : fields) {
+    table.names.push_back(without_unit(field));
+    table.units.push_back(unit_of(field));
+  }
   table.columns.resize(table.names.size());
   while (records.next(fields)) {
     if (fields.size() != table.names.size())
       throw InputError(fmt::format("{}:{}: found {} fields, expected {}", path.string(),
                                    records.line(), fields.size(), table.names.size()));
     for (std::size_t k = 0; k < fields.size(); ++k)
-      table.columns[k].push_back(std::strtod(fields[k].c_str(), nullptr));
+      table.columns[k].push_back(number_of(fields[k]));
   }
   return table;
 }

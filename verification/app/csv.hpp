@@ -40,7 +40,8 @@ void write_csv(const std::filesystem::path& path, const std::vector<std::string>
 
 struct CsvTable {
   std::vector<std::string> names;            // without the unit
-  std::vector<std::vector<double>> columns;  // [names.size()][rows]
+  std::vector<std::vector<double>> columns;  // [names.size()][rows]; NaN: no number
+  std::vector<std::string> units{};          // of the header, "" for a column that has none
 
   [[nodiscard]] std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
   [[nodiscard]] bool has(std::string_view name) const;
