@@ -171,6 +171,8 @@ class EndedRuns(unittest.TestCase):
             status, out, err = self.place.run("compare", f"a={bad}", f"b={good}", "--output", "out")
             self.assertEqual((status, out), (2, ""), text + err)
             self.assertIn(f"{bad}: {words}", err)
+        blanks = self.place.write("blanks.csv", TABLE.replace(",", ", ", 4).replace("axial_stress", "axial_stress [Pa]", 1))
+        self.assertEqual(self.place.run("compare", f"a={blanks}", f"b={good}", "--output", "blanks")[0], 0)
         status, out, err = self.place.run("compare", f"a={good}", f"a={good}", "--output", "out")
         self.assertEqual((status, out), (2, ""), err)
         self.assertIn("found the NAME a twice", err)

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <utility>
 
 namespace verification {
 
@@ -22,15 +23,19 @@ std::string line(const std::vector<double>& values, std::size_t columns) {
   return fmt::format("{:.12g}\n", fmt::join(values, ","));
 }
 
-// "name" of "name[unit]"; a name may contain brackets.
-std::string without_unit(const std::string& column) {
-  return column.ends_with(']') ? column.substr(0, column.rfind('[')) : column;
-}
+struct Heading {
+  std::string name, unit;
+};
 
-// "unit" of "name[unit]".
-std::string unit_of(const std::string& column) {
-  const std::size_t length = without_unit(column).size();
-  return length == column.size() ? "" : column.substr(length + 1, column.size() - length - 2);
+// Of "name[unit]", with blanks around the name; a name may contain brackets.
+Heading heading_of(const std::string& column) {
+  const auto bracket = column.ends_with(']') ? column.rfind('[') : std::string::npos;
+  const std::string name = column.substr(0, bracket);
+  const auto first = std::min(name.find_first_not_of(' '), name.size());
+  Heading heading{name.substr(first, name.find_last_not_of(' ') + 1 - first), ""};
+  if (bracket != std::string::npos)
+    heading.unit = column.substr(bracket + 1, column.size() - bracket - 2);
+  return heading;
 }
 
 double number_of(const std::string& field) {
@@ -97,8 +102,9 @@ CsvTable read_csv(const std::filesystem::path& path) {
   std::vector<std::string> fields;
   if (!records.next(fields)) throw InputError(fmt::format("{}: cannot be read", path.string()));
   for (const std::string& field : fields) {
-    table.names.push_back(without_unit(field));
-    table.units.push_back(unit_of(field));
+    Heading heading = heading_of(field);
+    table.names.push_back(std::move(heading.name));
+    table.units.push_back(std::move(heading.unit));
   }
   table.columns.resize(table.names.size());
   while (records.next(fields)) {
