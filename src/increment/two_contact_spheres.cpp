@@ -175,8 +175,8 @@ void TwoContactSpheres::stop(const ForceBalance<3>& balance) {
     arbitrary_ = arbitrary_ || count_[neighbour] < two;
   }
   arbitrary_ = arbitrary_ || std::ranges::any_of(spheres_, [this](const TwoContactSphere& sphere) {
-    return sphere.stopped() && stopped_by(sphere.third_neighbour) == sphere.third;
-  });
+                 return sphere.stopped() && stopped_by(sphere.third_neighbour) == sphere.third;
+               });
 }
 
 // The contact that stops this node, if it is a two-contact sphere that is stopped.

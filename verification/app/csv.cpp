@@ -27,7 +27,7 @@ struct Heading {
   std::string name, unit;
 };
 
-// Of "name[unit]", with blanks around the name; a name may contain brackets.
+// Parts of "name[unit]", with blanks around the name; a name may contain brackets.
 Heading heading_of(const std::string& column) {
   const auto bracket = column.ends_with(']') ? column.rfind('[') : std::string::npos;
   const std::string name = column.substr(0, bracket);
