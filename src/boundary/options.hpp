@@ -14,6 +14,8 @@ enum class ContactWeight { copies, one };
 // 2.3). d: no fluctuation; p: the fluctuation of the opposite side; t: free under a uniform stress.
 enum class SideRule { d, p, t };
 enum class SideRotation { fixed, periodic, free };
+// Whether the particles within a frame turn (Liu, Bosco & Suiker 2019, section 4.3.2).
+enum class InnerRotation { free, fixed };
 // Kind of row along a side. discs: separate particles. rigid: one body that follows F as a straight
 // line, without contacts within it. A jagged row of prescribed discs is an elastic skeleton under
 // F12, which dominates the stress at low pressure.
@@ -53,7 +55,8 @@ struct BoundaryOptions {
   BoundaryMethod method = BoundaryMethod::direct;
   ContactWeight weight = ContactWeight::copies;  // of contacts on a side
   Sides sides;                                   // rules of a mixed boundary
-  std::array<std::optional<double>, 4> stress;   // components of P that are prescribed there [Pa]
+  InnerRotation inner_rotation = InnerRotation::free;
+  std::array<std::optional<double>, 4> stress;  // components of P that are prescribed there [Pa]
   ServoOptions servo;
 };
 

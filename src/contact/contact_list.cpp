@@ -76,6 +76,7 @@ void build_contacts(std::span<const NeighbourPair<D>> pairs, std::span<const dou
   const double* rotation = law.rotating() ? x + D * n : nullptr;
   const double ratio = law.tangential() ? law.ratio : 0;
   const bool bonds = law.bonds();
+  const ContactLaw of_bonds = law.of_bonds();
   const bool moments = law.moments();
   list.resize(pairs.size(), !pair_weights.empty(), radius.empty() ? 1 : radius[0], law);
   std::size_t h = 0;
@@ -116,6 +117,10 @@ void build_contacts(std::span<const NeighbourPair<D>> pairs, std::span<const dou
     if (law.plain()) continue;
 
     const bool bonded = bonds && known && start.contacts[h].bonded;
+    if (bonded) {
+      list.normal_stiffness[c] = weight * of_bonds.coefficient(radius[p], radius[q]);
+      list.tangential_stiffness[c] = of_bonds.ratio * list.normal_stiffness[c];
+    }
     if (bonds) {
       list.bond_capacity[c] = bonded ? ContactList<D>::unbreakable : 0;
       list.rest[c] = list.reach[c] + (bonded && !start.gaps.empty() ? start.gaps[h] : 0);

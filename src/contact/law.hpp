@@ -1,6 +1,7 @@
 // Contact law of a material: stiffness, friction, bonds, rolling, and whether particles rotate.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace grainlaw::core {
@@ -22,17 +23,19 @@ struct RollingResistance {
   double twisting_friction = 0;  // [-]
 };
 
-// Bond with the contact's kn and kt, in tension too, and a bending spring; between spheres also a
-// torsion spring about the branch. It breaks when the sum of its loads over their strengths reaches
-// 1, fn positive in tension. @formula bond
+// Bond with springs of its own or the contact's kn and kt, in tension too, and a bending spring;
+// between spheres also a torsion spring about the branch. It breaks when the sum of its loads over
+// their strengths reaches 1, fn positive in tension. @formula bond
 struct Bond {
-  double normal_strength = 0;      // [N]
-  double tangential_strength = 0;  // [N]
-  double bending_strength = 0;     // [N m], 0: bonds do not bend
-  double bending_stiffness = 0;    // [N m / rad]
-  double torsion_strength = 0;     // [N m], 0: bonds do not twist
-  double torsion_stiffness = 0;    // [N m / rad]
-  double gap = 0;                  // discs within this distance at F = I are bonded [m]
+  double normal_stiffness = 0;      // 0, both: kn and kt of the contact [N/m]
+  double tangential_stiffness = 0;  // [N/m]
+  double normal_strength = 0;       // [N]
+  double tangential_strength = 0;   // [N]
+  double bending_strength = 0;      // [N m], 0: bonds do not bend
+  double bending_stiffness = 0;     // [N m / rad]
+  double torsion_strength = 0;      // [N m], 0: bonds do not twist
+  double torsion_stiffness = 0;     // [N m / rad]
+  double gap = 0;                   // discs within this distance at F = I are bonded [m]
 };
 
 struct ContactLaw {
@@ -50,6 +53,16 @@ struct ContactLaw {
   // that of the packing at F = I [-].
   double typical_overlap = 1e-3;
 
+  // The law by which bonds that hold bear; this one, where bonds have no springs of their own.
+  [[nodiscard]] ContactLaw of_bonds() const {
+    ContactLaw law = *this;
+    if (bond.normal_stiffness == 0) return law;
+    law.young = 0;
+    law.normal_stiffness = bond.normal_stiffness;
+    law.ratio = bond.tangential_stiffness / bond.normal_stiffness;
+    return law;
+  }
+
   // Common radius 2 a b / (a + b) [m].
   [[nodiscard]] static double common_radius(double a, double b) { return 2 * a * b / (a + b); }
 
@@ -57,6 +70,10 @@ struct ContactLaw {
   [[nodiscard]] double stiffness(double a, double b) const {
     if (hertzian()) return coefficient(a, b) * std::sqrt(typical_overlap * common_radius(a, b));
     return young > 0 ? young * 2 * a * b / (a + b) : normal_stiffness;
+  }
+  // Normal stiffness of the stiffer of a contact and a bond [N/m].
+  [[nodiscard]] double largest_stiffness(double a, double b) const {
+    return std::max(stiffness(a, b), of_bonds().stiffness(a, b));
   }
   // Coefficient of listed contacts: kn [N/m], or for Hertz-Mindlin kn / sqrt(overlap) = G / (1 -
   // poisson) sqrt(2 r) [N/m^1.5]. @formula hertz
@@ -71,7 +88,7 @@ struct ContactLaw {
     return (hertzian() ? 2.0 / 3 : 1) * coefficient(a, b) * root * overlap;
   }
   // Energy of the contact's springs [J], from the squares of tangential force and of moments across
-  // and along the branch. `bonded`: with the stiffness of a bond.
+  // and along the branch. `bonded`: with a bond's springs of bending and torsion.
   [[nodiscard]] double energy(double a, double b, double overlap, double tangential_square,
                               double moment_square, double twisting_square, bool bonded) const {
     const double kn =

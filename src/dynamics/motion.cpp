@@ -151,12 +151,14 @@ void WaveMotion::break_bonds() {
   const std::vector<double> z = coordinates();
   const double before = stored_energy(list_, z, particles_.size(), law_);
   for (const std::size_t c : broken) {
+    const double r_i = specimen_->radius[static_cast<std::size_t>(list_.i[c])];
+    const double r_j = specimen_->radius[static_cast<std::size_t>(list_.j[c])];
     list_.bond_capacity[c] = 0;
     list_.rest[c] = list_.reach[c];
+    list_.normal_stiffness[c] = list_.weight_of(c) * law_.coefficient(r_i, r_j);
+    list_.tangential_stiffness[c] = law_.ratio * list_.normal_stiffness[c];
     if (law_.moments()) {
-      const auto i = static_cast<std::size_t>(list_.i[c]), j = static_cast<std::size_t>(list_.j[c]);
-      list_.bending_stiffness[c] = list_.tangential_stiffness[c] *
-                                   law_.rolling_ratio(specimen_->radius[i], specimen_->radius[j]);
+      list_.bending_stiffness[c] = list_.tangential_stiffness[c] * law_.rolling_ratio(r_i, r_j);
       if (list_.bending_stiffness[c] == 0) list_.start_moment[0][c] = 0;
     }
   }
@@ -261,12 +263,17 @@ int WaveMotion::touching() const {
   return count;
 }
 
-// Stiffness of all listed contacts, touching or not.
+// Stiffness of all listed contacts, touching or not, with their bond or without.
 void WaveMotion::find_largest_time_step() {
   const std::size_t n = velocity_.size();
   std::vector<double> translation(n, 0), rotation(n, 0);
   for (std::size_t c = 0; c < list_.size(); ++c) {
-    const double kn = list_.normal_stiffness[c], kt = list_.tangential_stiffness[c];
+    const auto i = static_cast<std::size_t>(list_.i[c]), j = static_cast<std::size_t>(list_.j[c]);
+    const double without_bond =
+        list_.weight_of(c) * law_.coefficient(specimen_->radius[i], specimen_->radius[j]);
+    const double kn = std::max(list_.normal_stiffness[c], without_bond);
+    const double kt =
+        std::max(list_.tangential_stiffness[c], law_.tangential() ? law_.ratio * without_bond : 0);
     const double kr = list_.bending_stiffness.empty() ? 0 : list_.bending_stiffness[c];
     // A row of |K|: twice the normal and tangential stiffness for a node and its neighbour, kt for
     // both rotations R theta.

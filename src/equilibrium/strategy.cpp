@@ -37,7 +37,7 @@ double hardness(const Request<D>& request) {
   if (request.problem->law->bonds()) {
     line = std::max(line, request.problem->law->bond.normal_strength / radius);
   }
-  return line > 0 ? strain * request.problem->law->stiffness(radius, radius) / line : 0;
+  return line > 0 ? strain * request.problem->law->largest_stiffness(radius, radius) / line : 0;
 }
 
 // Number of sub-increments that the size of the increment requires.

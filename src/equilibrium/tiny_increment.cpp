@@ -19,7 +19,7 @@ double change_of_forces(const Request<D>& request, const Increment<D>& increment
   const double strain = largest_singular_value<D>(change);
   if (strain < tuned::least_strain) return 0;
   const double branch = increment.motion().mean_branch();
-  return strain * branch * request.problem->law->stiffness(branch / 2, branch / 2) /
+  return strain * branch * request.problem->law->largest_stiffness(branch / 2, branch / 2) /
          increment.scale().relative();
 }
 

@@ -157,6 +157,10 @@ class Builder {
       fix(fixed_bit(1), fixes_y);
       fix(fixed_rotation<2>, [](const Side& s) { return s.rotation == SideRotation::fixed; });
     }
+    if (space_.options.inner_rotation == InnerRotation::fixed) {
+      for (std::size_t q = 0; q < space_.nodes; ++q)
+        if (space_.boundary[q] == 0) space_.fixed[q] |= fixed_rotation<2>;
+    }
     // Nodes periodic in both directions translate freely; the published servo prescribes the
     // corners.
     for (int direction = 0; direction < 2; ++direction) {

@@ -100,13 +100,15 @@ template <int D>
 double elastic_energy(const Problem<D>& problem, const std::vector<ContactView<D>>& contacts) {
   double energy = 0;
   const auto& radius = problem.packing->radius;
+  const ContactLaw &law = *problem.law, of_bonds = law.of_bonds();
   for (const auto& c : contacts) {
     const double along = moment_along(c);
     energy +=
-        c.weight * problem.law->energy(
-                       radius[static_cast<std::size_t>(c.i)], radius[static_cast<std::size_t>(c.j)],
-                       load_bearing_overlap(c), sum_of_squares(c.tangential_force),
-                       sum_of_squares(c.moment) - along * along, along * along, c.bonded);
+        c.weight * (c.bonded ? of_bonds : law)
+                       .energy(radius[static_cast<std::size_t>(c.i)],
+                               radius[static_cast<std::size_t>(c.j)], load_bearing_overlap(c),
+                               sum_of_squares(c.tangential_force),
+                               sum_of_squares(c.moment) - along * along, along * along, c.bonded);
   }
   return energy;
 }
@@ -145,6 +147,7 @@ std::vector<ContactView<D>> contact_views(const Problem<D>& problem, const Confi
   if constexpr (D == 2) {
     if (packing.frame) weigh_copies(*problem.space, packing, pairs, weights);
   }
+  const ContactLaw &law = *problem.law, of_bonds = law.of_bonds();
   std::vector<ContactView<D>> views;
   views.reserve(at.contacts.size());
   for (std::size_t k = 0; k < at.contacts.size(); ++k) {
@@ -164,7 +167,8 @@ std::vector<ContactView<D>> contact_views(const Problem<D>& problem, const Confi
       view.moment[s] = at.moments.empty() ? 0 : at.moments[view.moment.size() * k + s];
     }
     view.normal_force =
-        problem.law->normal_force(packing.radius[i], packing.radius[j], load_bearing_overlap(view));
+        (view.bonded ? of_bonds : law)
+            .normal_force(packing.radius[i], packing.radius[j], load_bearing_overlap(view));
     view.tangential_force = c.tangential_force;
     view.weight = weights[k];
     views.push_back(view);

@@ -27,7 +27,7 @@ class ForceScale {
     floor_ = problem.force_floor;
     tolerance_ = problem.tolerance;
     rounding_ = tuned::contacts_of_a_particle * std::numeric_limits<double>::epsilon() * extent *
-                problem.law->stiffness(largest, largest);
+                problem.law->largest_stiffness(largest, largest);
   }
   void take(const ContactTotals& totals) {
     touching_ = totals.touching;

@@ -110,6 +110,10 @@ BoundaryOptions read_boundary(TomlTable table) {
       "contact_weight",
       one_of<ContactWeight>({{"copies", ContactWeight::copies}, {"one", ContactWeight::one}}),
       boundary.weight);
+  table.optional(
+      "inner_rotation",
+      one_of<InnerRotation>({{"free", InnerRotation::free}, {"fixed", InnerRotation::fixed}}),
+      boundary.inner_rotation);
   boundary.servo = read_servo(table.optional_table("servo"));
   if (boundary.type == BoundaryType::mixed) read_sides(table, boundary);
   table.finish();
@@ -117,6 +121,10 @@ BoundaryOptions read_boundary(TomlTable table) {
     table.fail("servo", "a table", "none with method = \"direct\"");
   if (boundary.method == BoundaryMethod::servo && boundary.type == BoundaryType::periodic_cell)
     table.fail("method", "\"servo\" on a periodic cell", "a frame or mixed type with it");
+  if (boundary.inner_rotation == InnerRotation::fixed &&
+      boundary.type == BoundaryType::periodic_cell)
+    table.fail("inner_rotation", "\"fixed\" in a periodic cell",
+               "a frame or mixed type with it, or contact.rotation = false");
   return boundary;
 }
 

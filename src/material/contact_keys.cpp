@@ -18,6 +18,16 @@ void read_hertz(TomlTable& table, ContactLaw& law) {
   law.ratio = 2 * (1 - law.poisson) / (2 - law.poisson);
 }
 
+// Reads two numbers that come together or not at all.
+void read_both(TomlTable& table, const std::string& one, double& of_one, const std::string& other,
+               double& of_other) {
+  table.optional(one, number_above(0), of_one);
+  table.optional(other, number_above(0), of_other);
+  if (table.has(one) != table.has(other))
+    table.fail(table.has(one) ? other : one, "nothing",
+               "both of " + one + " and " + other + ", or neither");
+}
+
 // Reads rolling resistance, which needs particles that rotate, and tangential forces that rotate
 // them.
 void read_rolling(TomlTable& contact, ContactLaw& law, long dimension) {
@@ -26,11 +36,8 @@ void read_rolling(TomlTable& contact, ContactLaw& law, long dimension) {
   law.rolling.ratio = table.required("ratio", number_above(0));
   law.rolling.friction = table.required("friction", number_above(0));
   if (dimension == 3) {
-    table.optional("twisting_ratio", number_above(0), law.rolling.twisting_ratio);
-    table.optional("twisting_friction", number_above(0), law.rolling.twisting_friction);
-    if (table.has("twisting_ratio") != table.has("twisting_friction"))
-      table.fail(table.has("twisting_ratio") ? "twisting_friction" : "twisting_ratio", "nothing",
-                 "both of twisting_ratio and twisting_friction, or neither");
+    read_both(table, "twisting_ratio", law.rolling.twisting_ratio, "twisting_friction",
+              law.rolling.twisting_friction);
   }
   table.finish();
   if (!law.rotation) contact.fail("rotation", "false", "true with [contact.rolling]");
@@ -58,6 +65,8 @@ void read_bond(TomlTable& contact, ContactLaw& law, long dimension) {
   Bond& bond = law.bond;
   bond.normal_strength = table.required("normal_strength", number_above(0));
   bond.tangential_strength = table.required("tangential_strength", number_above(0));
+  read_both(table, "normal_stiffness", bond.normal_stiffness, "tangential_stiffness",
+            bond.tangential_stiffness);
   read_stiff_part(table, law, "bending", bond.bending_stiffness, bond.bending_strength);
   if (dimension == 3) {
     read_stiff_part(table, law, "torsion", bond.torsion_stiffness, bond.torsion_strength);

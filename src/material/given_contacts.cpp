@@ -99,7 +99,7 @@ double mean_overlap(const Material<D>& material) {
 template <int D>
 double unloaded_force_scale(const Material<D>& material) {
   const double r = mean_radius(material.packing.radius);
-  return 1e-3 * r * material.law.stiffness(r, r);
+  return 1e-3 * r * material.law.of_bonds().stiffness(r, r);
 }
 
 #define GRAINLAW_FOR(D)                                                       \

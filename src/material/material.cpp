@@ -56,21 +56,24 @@ template <int D>
 void check_given_forces(const Material<D>& material) {
   constexpr double tolerance = 0.01;
   const auto& packing = material.packing;
-  const double most_shear = std::max(100.0, material.law.friction);  // relative to the normal
-                                                                     // forces
+  const ContactLaw &law = material.law, of_bonds = law.of_bonds();
+  const double most_shear = std::max(100.0, law.friction);  // relative to the normal
+                                                            // forces
   double given = 0, found = 0, shear = 0;
   for (const auto& contact : packing.contacts) {
     const auto i = static_cast<std::size_t>(contact.i);
     const auto j = static_cast<std::size_t>(contact.j);
     const double overlap = given_overlap<D>(packing, contact);
-    const bool pulls = contact.bonded && material.law.bonds();
+    const bool pulls = contact.bonded && law.bonds();
+    const bool bonded = law.bonds() && (contact.bonded || !packing.names_bonds);
     const auto carried = [&](double value) {
       return pulls ? std::abs(value) : std::max(value, 0.0);
     };
     given += carried(contact.normal_force);
     if (!pulls) shear += length<3>(contact.tangential_force);
-    found += material.law.normal_force(packing.radius[i], packing.radius[j],
-                                       carried(overlap + contact.bond_gap));
+    found += (bonded ? of_bonds : law)
+                 .normal_force(packing.radius[i], packing.radius[j],
+                               carried(overlap + contact.bond_gap));
   }
   if (given > 0 && std::abs(found - given) > tolerance * given) {
     throw Error(
@@ -133,6 +136,10 @@ std::uint64_t fingerprint_of(const Material<D>& material) {
                               of.bond.torsion_strength, of.bond.torsion_stiffness};
     add(moments, sizeof moments);
   }
+  if (of.bond.normal_stiffness > 0) {
+    const double springs[] = {of.bond.normal_stiffness, of.bond.tangential_stiffness};
+    add(springs, sizeof springs);
+  }
   add(boundary, sizeof boundary);
   if (material.space.options.type == BoundaryType::mixed) {
     for (const Side& side : material.space.options.sides) {
@@ -141,6 +148,7 @@ std::uint64_t fingerprint_of(const Material<D>& material) {
       add(rules, sizeof rules);
     }
   }
+  if (material.space.options.inner_rotation == InnerRotation::fixed) add("inner", 5);
   if (material.solver.viscosity.number > 0) add("drag", 4);  // drag saves velocities
   add(material.packing.cell.data(), sizeof material.packing.cell);
   add_all(material.packing.radius);
@@ -177,7 +185,7 @@ void check_bond_gap(const ContactLaw& law, const Packing& packing) {
 template <int D>
 std::shared_ptr<const Material<D>> make_material(MaterialDescription description) {
   if (description.generator) {
-    description.packing = consolidate<D>(*description.generator, description.law);
+    description.packing = consolidate<D>(*description.generator, description.law.of_bonds());
   }
   auto material = std::make_shared<Material<D>>();
   material->packing = std::move(description.packing);

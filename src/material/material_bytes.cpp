@@ -15,7 +15,7 @@ namespace grainlaw::core {
 
 namespace {
 
-constexpr SavedKind saved_material{"saved material", {'G', 'R', 'A', 'I', 'N', 'M', 'A', 'T'}, 1};
+constexpr SavedKind saved_material{"saved material", {'G', 'R', 'A', 'I', 'N', 'M', 'A', 'T'}, 2};
 
 }  // namespace
 
@@ -39,8 +39,8 @@ void members(auto& words, Of<RollingResistance> auto& r) {
   each(words, r.ratio, r.friction, r.twisting_ratio, r.twisting_friction);
 }
 void members(auto& words, Of<Bond> auto& b) {
-  each(words, b.normal_strength, b.tangential_strength, b.bending_strength, b.bending_stiffness,
-       b.torsion_strength, b.torsion_stiffness, b.gap);
+  each(words, b.normal_stiffness, b.tangential_stiffness, b.normal_strength, b.tangential_strength,
+       b.bending_strength, b.bending_stiffness, b.torsion_strength, b.torsion_stiffness, b.gap);
 }
 void members(auto& words, Of<ContactLaw> auto& l) {
   each(words, l.kind, l.young, l.normal_stiffness, l.ratio, l.friction, l.rotation, l.shear_modulus,
@@ -52,7 +52,7 @@ void members(auto& words, Of<ServoOptions> auto& s) {
        s.tolerance_deformation, s.max_corrections);
 }
 void members(auto& words, Of<BoundaryOptions> auto& b) {
-  each(words, b.type, b.method, b.weight, b.sides, b.stress, b.servo);
+  each(words, b.type, b.method, b.weight, b.sides, b.inner_rotation, b.stress, b.servo);
 }
 void members(auto& words, Of<Viscosity> auto& v) { each(words, v.number, v.rate, v.steps); }
 void members(auto& words, Of<PublishedOptions> auto& p) {
@@ -82,7 +82,7 @@ void members(auto& words, AnyOfMaterial auto& m) {
 
 #if defined(__x86_64__) && defined(__GLIBCXX__)
 static_assert(sizeof(InitialContact) == 96 && sizeof(Frame) == 224 && sizeof(Packing) == 432);
-static_assert(sizeof(ContactLaw) == 160 && sizeof(BoundaryOptions) == 200);
+static_assert(sizeof(ContactLaw) == 176 && sizeof(BoundaryOptions) == 200);
 static_assert(sizeof(SolverOptions) == 104 && sizeof(Configuration<3>) == 352);
 #endif
 

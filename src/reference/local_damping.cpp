@@ -45,7 +45,7 @@ double critical_step(const Increment<D>& increment) {
   double smallest = 1e300;
   for (const double r : packing.radius) {
     const double own = particle_mass<D>(packing.density, r, packing.thickness);
-    smallest = std::min(smallest, own / increment.problem().law->stiffness(r, r));
+    smallest = std::min(smallest, own / increment.problem().law->largest_stiffness(r, r));
   }
   return std::sqrt(smallest);
 }

@@ -29,7 +29,7 @@ class Servo {
       if (space_.boundary[q]) smallest_ = std::min(smallest_, motion_.node_radius()[q]);
     }
     dt_ = options.time_step_ratio *
-          std::sqrt(mass_of(smallest_) / problem_.law->stiffness(smallest_, smallest_));
+          std::sqrt(mass_of(smallest_) / problem_.law->largest_stiffness(smallest_, smallest_));
     // The relaxation leaves translations of boundary nodes in place, and rotations that are not
     // free.
     memory.servo.frozen.assign(nodes_, 0);
@@ -88,7 +88,8 @@ class Servo {
 
   // Displacement per force; gains scale with 1/M.
   [[nodiscard]] double compliance(double radius) const {
-    return smallest_ * smallest_ / (radius * radius) / problem_.law->stiffness(radius, radius);
+    return smallest_ * smallest_ / (radius * radius) /
+           problem_.law->largest_stiffness(radius, radius);
   }
 
   [[nodiscard]] const double* reference() const {

@@ -104,6 +104,10 @@ TEST(bad_boundary, keys_are_told_with_file_and_line) {
         ":16: boundary.stress: found all four components, expected at most three");
   wrong(header + "type = \"frame-t\"\nservo.gain_deformation = 2\n",
         ":12: boundary.servo.gain_deformation: found 2");
+  wrong(
+      header + "inner_rotation = \"fixed\"\n",
+      ":11: boundary.inner_rotation: found \"fixed\" in a periodic cell, expected a frame or mixed "
+      "type with it, or contact.rotation = false");
 }
 
 TEST(bad_boundary, frames_are_told) {

@@ -106,7 +106,7 @@ TEST_F(bad_material_bytes, that_are_damaged_or_of_another_length_are_told) {
   }
   refused(State(material()).save(), GRAINLAW_BAD_BYTES, "of a state");
   Bytes other = saved_;
-  other[8] = std::byte{2};
+  other[8] ^= std::byte{1};
   seal(other);
   refused(other, GRAINLAW_WRONG_VERSION, "another version");
 }

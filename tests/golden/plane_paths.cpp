@@ -123,6 +123,12 @@ void lead_plane_paths(const On& on) {
   on("cell/hertz/locked", made_discs + hertz + "rotation = false\n",
      [](Path& p) { biaxial(p, 3, 1e-4); });
   on("cell/bonded", made_discs + bonded, [](Path& p) { biaxial(p, 8, 1e-3, 1.0); });
+  on("cell/bonded/springs",
+     made_discs +
+         "[contact]\nlaw = \"bonded\"\nyoung = 6e8\nratio = 0.8\nfriction = 0.5\n"
+         "bond = { normal_strength = 400, tangential_strength = 400, normal_stiffness = 4e6, "
+         "tangential_stiffness = 1.5e6 }\n",
+     [](Path& p) { biaxial(p, 4, 1e-3, 1.0); });
   on("cell/bonded/locked",
      made_discs +
          "[contact]\nlaw = \"bonded\"\nyoung = 6e8\nratio = 0.8\nfriction = 0.5\nrotation = false\n"
@@ -140,6 +146,9 @@ void lead_plane_paths(const On& on) {
      [](Path& p) { biaxial(p, 4, 1e-3); });
   on("frame-p/bonded", made_discs + bonded + boundary("type = \"frame-p\""),
      [](Path& p) { biaxial(p, 3, 1e-3, 1.0); });
+  on("frame-p/locked_inside",
+     made_discs + sand + boundary("type = \"frame-p\"\ninner_rotation = \"fixed\""),
+     [](Path& p) { biaxial(p, 4, 1e-3); });
   on("frame-t", firm_packing + sand + boundary("type = \"frame-t\""),
      [](Path& p) { biaxial(p, 4, 1e-3); });
   on("frame-p/servo",

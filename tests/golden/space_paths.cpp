@@ -153,6 +153,12 @@ void lead_space_paths(const On& on) {
          "}\n",
      [](Path& p) { isochoric_cycle(p, 2, 1e-4); });
   on("spheres/bonded", made_spheres + bonded, [](Path& p) { triaxial(p, 8, 1e-3, 0.8); });
+  on("spheres/bonded/springs",
+     made_spheres +
+         "[contact]\nlaw = \"bonded\"\nyoung = 1e8\nratio = 0.8\nfriction = 0.5\n"
+         "bond = { normal_strength = 20, tangential_strength = 20, normal_stiffness = 7e5, "
+         "tangential_stiffness = 3e5 }\n",
+     [](Path& p) { triaxial(p, 4, 1e-3, 0.8); });
   on("spheres/bonded/locked",
      made_spheres +
          "[contact]\nlaw = \"bonded\"\nyoung = 1e8\nratio = 0.8\nfriction = 0.5\nrotation = false\n"

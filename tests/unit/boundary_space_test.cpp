@@ -5,6 +5,7 @@
 #include "material/material_file.hpp"
 
 #include <random>
+#include <set>
 
 namespace grainlaw::core::test {
 namespace {
@@ -101,6 +102,28 @@ TEST(boundary_space, periodic_fluctuations_leave_the_corners_in_their_affine_pla
                     expect_affine_place(state, corner);
                   }
                 });
+}
+
+// Liu, Bosco & Suiker (2019), section 4.3.2. Corners turn as one.
+TEST(locked_inside, discs_turn_with_the_frame_and_those_of_the_boundary_in_pairs) {
+  auto description = describe(small_packing(), rough_law(), BoundaryType::frame_p);
+  description.boundary.inner_rotation = InnerRotation::fixed;
+  at_equilibria(description, [](const State& state) {
+    const auto& packing = state.material().packing;
+    const auto& frame = *packing.frame;
+    const auto* turn = state.current().coordinates.data() + 2 * packing.size();
+    const std::set<int> boundary(frame.boundary.begin(), frame.boundary.end());
+    std::set<double> inner, outer;
+    for (std::size_t p = 0; p < packing.size(); ++p)
+      (boundary.count(static_cast<int>(p)) > 0 ? outer : inner).insert(turn[p]);
+    EXPECT_EQ(inner.size(), 1U);
+    EXPECT_GT(outer.size(), 3U);
+    for (std::size_t q = 0; q < frame.boundary.size(); ++q) {
+      if (frame.partner[q] < 0) continue;
+      EXPECT_EQ(turn[frame.boundary[q]], turn[frame.partner[q]]);
+    }
+    for (const int corner : frame.corner) EXPECT_EQ(turn[corner], turn[frame.corner[0]]);
+  });
 }
 
 TEST(boundary_space, moments_on_the_boundary_make_the_stress_asymmetric) {

@@ -64,6 +64,9 @@ inline Spaces all_spaces(const Packing& packing) {
   biaxial.boundary.sides.fill({SideRule::d, SideRule::d, SideRotation::fixed});
   biaxial.boundary.stress[0] = 1.1 * pressure;
   all.emplace_back("biaxial", biaxial);
+  auto inside = describe(packing, rough_law(), BoundaryType::frame_p);
+  inside.boundary.inner_rotation = InnerRotation::fixed;
+  all.emplace_back("frame-p, locked inside", inside);
   return all;
 }
 

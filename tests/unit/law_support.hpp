@@ -70,6 +70,14 @@ inline ContactLaw rolling_bonded_law(double strength) {
   return law;
 }
 
+// The normal springs of its bonds are stiffer than those of its contacts, the tangential ones softer.
+inline ContactLaw springy_bonded_law(double strength) {
+  ContactLaw law = bonded_law(strength);
+  law.bond.normal_stiffness = 4e6;
+  law.bond.tangential_stiffness = 1.5e6;
+  return law;
+}
+
 struct NamedLaw {
   const char* name;
   ContactLaw law;
@@ -83,15 +91,16 @@ inline std::vector<NamedLaw> composite_laws() {
           {"bonds that hold", bonded_law(100)},
           {"bonds that break", bonded_law(1)},
           {"bonds, locked", locked_bonded_law(1)},
-          {"bonds, then rolling", rolling_bonded_law(1)}};
+          {"bonds, then rolling", rolling_bonded_law(1)},
+          {"bonds with springs of their own", springy_bonded_law(1)}};
 }
 
-// The forces that come with a packing are those of linear springs.
+// The forces that come with a packing are those of the springs of linear contacts.
 inline MaterialDescription describe_law(const Packing& packing, const ContactLaw& law,
                                         BoundaryType boundary = BoundaryType::periodic_cell,
                                         double tolerance = 1e-10) {
   MaterialDescription description = describe(packing, law, boundary, tolerance);
-  if (law.hertzian()) description.packing.contacts.clear();
+  if (law.hertzian() || law.bond.normal_stiffness > 0) description.packing.contacts.clear();
   return description;
 }
 
