@@ -174,6 +174,14 @@ void TwoContactSpheres::stop(const ForceBalance<3>& balance) {
     sphere.third_neighbour = neighbour;
     arbitrary_ = arbitrary_ || count_[neighbour] < two;
   }
+  arbitrary_ = arbitrary_ || std::ranges::any_of(spheres_, [this](const TwoContactSphere& sphere) {
+    return sphere.stopped() && stopped_by(sphere.third_neighbour) == sphere.third;
+  });
+}
+
+// The contact that stops this node, if it is a two-contact sphere that is stopped.
+std::size_t TwoContactSpheres::stopped_by(std::size_t node) const {
+  return index_[node] == none ? none : spheres_[index_[node]].third;
 }
 
 void TwoContactSpheres::add_to(std::size_t nodes, std::span<double> residual) const {

@@ -62,7 +62,8 @@ class TwoContactSpheres {
   void add_to(std::size_t nodes, std::span<double> residual) const;
 
   [[nodiscard]] std::span<const TwoContactSphere> spheres() const { return spheres_; }
-  // True if some stop at an unsupported sphere, whose position depends on the relaxation.
+  // True if some stop at an unsupported sphere, or two at each other: where they are depends on the
+  // relaxation.
   [[nodiscard]] bool arbitrary() const { return arbitrary_; }
 
  private:
@@ -77,6 +78,7 @@ class TwoContactSpheres {
   void limit_by_third(const ForceBalance<3>& balance, std::size_t contact, std::size_t node,
                       double side);
   void stop(const ForceBalance<3>& balance);
+  [[nodiscard]] std::size_t stopped_by(std::size_t node) const;
 
   std::vector<TwoContactSphere> spheres_;
   std::vector<unsigned char> count_;  // contacts of a node, at most three

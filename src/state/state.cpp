@@ -100,8 +100,8 @@ Tensor4<D> tangent_of(const Workspace<D>& w, const Outcome& outcome, TangentKind
     report.tangent_exact = outcome.history_advanced || w.sensitivity.arbitrary() ? 0 : 1;
     if (w.sensitivity.arbitrary()) {
       describe(report,
-               "a sphere of two contacts rests against one that nothing holds: where that is "
-               "has no derivative, and the tangent takes it as fixed");
+               "a sphere of two contacts rests against one that nothing holds, or two against each "
+               "other: where they are has no derivative, and the tangent takes that as fixed");
     }
     return condensed_tangent(w.increment, w.sensitivity);
   }

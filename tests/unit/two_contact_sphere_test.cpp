@@ -12,12 +12,13 @@
 namespace grainlaw::core::sphere_test {
 namespace {
 
-std::shared_ptr<const Material<3>> hundred_spheres(double tolerance, double increment_limit = 0) {
+std::shared_ptr<const Material<3>> hundred_spheres(double tolerance, double increment_limit = 0,
+                                                   unsigned seed = 1) {
   MaterialDescription description = describe(tolerance);
   if (increment_limit > 0) description.solver.increment_limit = increment_limit;
   GeneratorOptions options;
   options.count = 100;
-  options.seed = 1;
+  options.seed = seed;
   description.packing = consolidate<3>(options, description.law);
   return make_material<3>(description);
 }
@@ -26,6 +27,8 @@ Deformation sheared_triaxially(int increments) {
   const double strain = 1e-3 * increments;
   return {1 + 0.4 * strain, 0.1 * strain, 0, 0, 1 + 0.4 * strain, 0, 0, 0, 1 - strain};
 }
+
+Deformation sheared(int increments) { return {1, 0, 1e-3 * increments, 0, 1, 0, 0, 0, 1}; }
 
 std::size_t two_contact_spheres() {
   return workspace<3>().increment.two_contact_spheres().spheres().size();
@@ -55,6 +58,23 @@ TEST(two_contact_spheres, leave_the_tangent_exact_or_the_report_says_so) {
   }
   EXPECT_GE(most_free, 2U);
   EXPECT_GE(exact, 6);
+}
+
+// The two touch without a force at the end of this path, and neither knows where the other stops.
+TEST(two_contact_spheres, that_rest_against_each_other_are_told) {
+  State<3> state(hundred_spheres(1e-11, 0, 4));
+  for (int k = 1; k <= 10; ++k) {
+    evaluate(state, sheared(k));
+    state.commit();
+  }
+  const Deformation F = sheared(11);
+  const Found found = evaluate(state, F, TangentKind::exact);
+  double error = std::numeric_limits<double>::infinity();
+  for (const double step : {1e-6, 1e-7, 1e-8}) {
+    error =
+        std::min(error, relative_difference(found.tangent, central_differences(state, F, step)));
+  }
+  EXPECT_TRUE(found.report.tangent_exact == 0 || error < 1e-6) << error;
 }
 
 TEST(two_contact_spheres, leave_it_exact_through_parts) {

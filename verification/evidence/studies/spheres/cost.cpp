@@ -67,29 +67,35 @@ Cost cost_of(const grainlaw::Material& material, int increments) {
 }  // namespace
 
 void measure_cost(const StudyOptions& options, const std::vector<int>& counts, int increments) {
-  constexpr std::array<double, 2> numbers{0, 1e-3};
+  struct Setting {
+    double viscous_number, tolerance;
+    double plain = 0, exact = 0;  // of the fewest spheres [ms]
+  };
+  std::array<Setting, 3> settings{{{0, 1e-3}, {0, 1e-8}, {1e-3, 1e-8}}};
   Table table(fmt::format("one evaluation of a 0.1 % increment, the first {} of triaxial "
-                          "compression, tolerance 1e-08 [-], one thread; power: of the number, "
-                          "against the fewest",
+                          "compression, one thread; powers: of the number, against the fewest",
                           increments),
-              {"spheres", "viscous_number[-]", "cpu[ms]", "cpu_with_tangent[ms]", "power[-]",
-               "relaxation_steps[-]", "newton_steps[-]", "failed[-]", "state[B/sphere]"});
+              {"spheres", "viscous_number[-]", "tolerance[-]", "cpu[ms]", "power[-]",
+               "cpu_with_tangent[ms]", "power_with_tangent[-]", "relaxation_steps[-]",
+               "newton_steps[-]", "failed[-]", "state[B/sphere]"});
   Progress progress("spheres");
-  std::array<double, numbers.size()> least{};  // of the fewest [ms]
-  for (std::size_t c = 0; c < counts.size(); ++c) {
-    for (std::size_t t = 0; t < numbers.size(); ++t) {
-      progress.update(static_cast<double>(numbers.size() * c + t) /
-                          static_cast<double>(numbers.size() * counts.size()),
-                      fmt::format("{} spheres", counts[c]));
-      const Cost cost = cost_of(packed(counts[c], numbers[t], 1e-8), increments);
-      const double exact = average(cost.exact);
-      if (c == 0) least[t] = exact;
-      const double power = c == 0 ? 0
-                                  : std::log(exact / least[t]) /
-                                        std::log(static_cast<double>(counts[c]) / counts[0]);
-      table.row({fmt::format("{}", counts[c]), fmt::format("{:g}", numbers[t]), average(cost.plain),
-                 exact, power, average(cost.steps), average(cost.factorisations),
-                 static_cast<double>(cost.failed), cost.state / counts[c]});
+  double done = 0;
+  for (const int count : counts) {
+    const double more = static_cast<double>(count) / counts[0];
+    const auto power = [&](double time, double least) {
+      return count == counts[0] ? 0 : std::log(time / least) / std::log(more);
+    };
+    for (Setting& setting : settings) {
+      progress.update(done++ / static_cast<double>(settings.size() * counts.size()),
+                      fmt::format("{} spheres", count));
+      const Cost cost =
+          cost_of(packed(count, setting.viscous_number, setting.tolerance), increments);
+      const double plain = average(cost.plain), exact = average(cost.exact);
+      if (count == counts[0]) setting.plain = plain, setting.exact = exact;
+      table.row({fmt::format("{}", count), fmt::format("{:g}", setting.viscous_number),
+                 fmt::format("{:g}", setting.tolerance), plain, power(plain, setting.plain), exact,
+                 power(exact, setting.exact), average(cost.steps), average(cost.factorisations),
+                 static_cast<double>(cost.failed), cost.state / count});
     }
   }
   table.write(std::filesystem::path(options.output) / "study_spheres.csv");
