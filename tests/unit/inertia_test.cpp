@@ -8,6 +8,8 @@
 
 #include "base/error.hpp"
 #include "increment/particle_masses.hpp"
+#include "io/text_file.hpp"
+#include "material/material_file.hpp"
 #include "packing/geometry.hpp"
 
 #include <cmath>
@@ -298,6 +300,29 @@ TEST(inertia, long_steps_are_stable) {
       last = energy();
     }
     EXPECT_LT(last, start);
+  }
+}
+
+TEST(inertia, refuses_what_contradicts_it) {
+  const auto message = [](const std::string& boundary, const std::string& solver) -> std::string {
+    const std::string text = read_text(grainlaw::test::data_file("rve400.toml")) +
+                             "\n[boundary]\n" + boundary + "\n[solver]\ninertia = true\n" + solver;
+    try {
+      (void)parse_material(text, grainlaw::test::data_folder(), "sand.toml");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_EQ(message("", ""), "");
+  for (const auto& [boundary, solver, named] :
+       std::vector<std::array<const char*, 3>>{{"", "viscous_number = 1e-3", "viscous_number"},
+                                               {"", "method = \"advancing\"", "method"},
+                                               {"", "loose_tolerance = 1e-3", "loose_tolerance"},
+                                               {"type = \"frame-t\"", "", "under a stress"}}) {
+    const std::string told = message(boundary, solver);
+    EXPECT_NE(told.find("solver.inertia: found true with"), std::string::npos) << told;
+    EXPECT_NE(told.find(named), std::string::npos) << told;
   }
 }
 

@@ -70,9 +70,9 @@ void study_waves_with_inertia(WaveStudy& study) {
   };
   bool any = false;
   for (const auto& [kind, elements] :
-       {std::pair{"loose", 208}, std::pair{"loose_coarse", 52}, std::pair{"loose_short", 52},
-        std::pair{"loose_long", 52}, std::pair{"loose_periodic", 52}, std::pair{"bonded", 320},
-        std::pair{"bonded_coarse", 160}}) {
+       {std::pair{"loose", 208}, std::pair{"loose_coarse", 52}, std::pair{"loose_fine", 416},
+        std::pair{"loose_short", 52}, std::pair{"loose_long", 52}, std::pair{"loose_periodic", 52},
+        std::pair{"bonded", 320}, std::pair{"bonded_coarse", 160}}) {
     const std::string name = fmt::format("inertia_{}", kind);
     const WaveStudy::Run particles = study.load(name + "_dns"),
                          mesh = study.load(fmt::format("{}_fe{}", name, elements));
