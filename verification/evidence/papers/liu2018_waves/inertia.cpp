@@ -82,7 +82,7 @@ void study_waves_with_inertia(WaveStudy& study) {
     study.facts.add(fact + "_near", apart(*mesh, *particles, near));
     study.facts.add(fact + "_far", apart(*mesh, *particles, far));
     const std::string shown(kind);
-    if (shown == "loose" || shown == "bonded") row("particles, " + shown, 0, *particles, {});
+    if (shown == "loose" || shown == "bonded") row("particles " + shown, 0, *particles, {});
     row(shown, elements, *mesh, particles);
     if (shown == "loose")
       study.facts.add("inertia.agitation_of_volumes_over_particles",
