@@ -181,12 +181,15 @@ typedef struct grainlaw_report {
   char message[256];      /* one line of text, "" after plain success */
   int broken_bonds;       /* bonds that broke in this evaluation [-] */
   double unbalanced;      /* with solver.viscous_number: largest drag on a particle / mean contact
-                             normal force, 0 at equilibrium [-] */
+                             normal force, 0 at equilibrium; with solver.inertia: largest force of
+                             inertia [-] */
   double viscous_work;    /* with solver.viscous_number: work done on the drag, of which its springs
-                             and masses store a part [J] */
+                             and masses store a part; with solver.inertia: work of the contacts on
+                             the fluctuations [J] */
   int rattlers_loaded;    /* particles that bear now and were left without a contact by an earlier
                              increment [-]. Rounding decides where such a particle is, and P with
-                             it: P(Q F) differs from Q P(F). 0 with solver.viscous_number */
+                             it: P(Q F) differs from Q P(F). 0 with solver.viscous_number, and with
+                             solver.inertia */
 } grainlaw_report;
 
 /* A report with its size set and zeros elsewhere. */
@@ -242,9 +245,9 @@ GRAINLAW_API grainlaw_status grainlaw_evaluate_batch(size_t n, grainlaw_state* c
                                                      double* A, grainlaw_status* status,
                                                      grainlaw_report* reports, int threads);
 
-/* Set the time of the following increments, in the unit of solver.viscous_rate; copies and bytes
- * keep it. A material with that key asks for it: without one, or with 0, F has to stay
- * (BAD_ARGUMENT). To others the strain is the time, and they ignore it. Errors: NULL_POINTER,
+/* Set the time of the following increments, in the unit of solver.viscous_rate, with solver.inertia
+ * in s; copies and bytes keep it. A material with one of these keys asks for it: without one, or
+ * with 0, F has to stay (BAD_ARGUMENT). To others the strain is the time, and they ignore it. Errors: NULL_POINTER,
  * BAD_HANDLE, BAD_ARGUMENT (not finite, or below 0). */
 GRAINLAW_API grainlaw_status grainlaw_state_set_time_step(grainlaw_state*, double time_step);
 
@@ -295,7 +298,8 @@ GRAINLAW_API grainlaw_status grainlaw_state_load(grainlaw_state*, const void* by
   X(GRAINLAW_PARTICLES, 14, 1, "number of particles, images of a frame counted once [-]")         \
   X(GRAINLAW_REFERENCE_VOLUME, 15, 1, "volume at F = I [m3]")                                     \
   X(GRAINLAW_DEFORMATION_GRADIENT, 16, -2, "F of this state, found components included [-]")      \
-  X(GRAINLAW_ESCAPED_PARTICLES, 17, 1, "inner particles outside the polygon of the frame [-]")
+  X(GRAINLAW_ESCAPED_PARTICLES, 17, 1, "inner particles outside the polygon of the frame [-]")    \
+  X(GRAINLAW_KINETIC_ENERGY, 18, 1, "of the fluctuations, with solver.inertia [J]")
 
 typedef GRAINLAW_ENUM(grainlaw_measure){
 #define GRAINLAW_X(name, value, count, text) name = (value),

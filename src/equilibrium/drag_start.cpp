@@ -2,6 +2,7 @@
 
 #include "base/constants.hpp"
 #include "equilibrium/stages.hpp"
+#include "increment/particle_masses.hpp"
 #include "math/inner_product.hpp"
 
 #include <algorithm>
@@ -89,10 +90,38 @@ Reversal<D> reversal_of(const Straining<D>& at, double kept, double slowest) {
   return result;
 }
 
+// Time step x frequency of a contact around which inertia is damped: explicit steps become unstable.
+constexpr double damped_step = 2;
+// The shortest such step: W of a shorter one is no larger.
+constexpr double shortest_step = 1e-3;
+
+// Steps that no explicit integration could take have a weight above 1/2, which damps what they do not
+// resolve. Shorter steps than the shortest go where acceleration is as before.
+template <int D>
+DragStart<D> start_inertia(const Request<D>& request, Increment<D>& increment) {
+  const Problem<D>& problem = *request.problem;
+  increment.begin(problem, *request.from, request.from->deformation);
+  increment.find_first_drag(true);
+  const double radius = 0.5 * increment.motion().mean_branch();
+  const double frequency = std::sqrt(problem.law->stiffness(radius, radius) /
+                                     particle_mass<D>(*problem.packing, radius));
+  const double ratio = request.duration * frequency / damped_step;
+  const double resolved = std::max(request.duration, shortest_step / frequency);
+  DragStart<D> how;
+  how.theta = 1 - 0.5 / (1 + ratio * ratio * ratio * ratio);
+  how.stiffness = 1 / (how.theta * resolved * how.theta * resolved);
+  how.follow = request.duration;
+  const double share = request.duration / resolved;
+  how.spring_share = 1 - share * share / how.theta;
+  how.turn = request.turn;
+  return how;
+}
+
 }  // namespace
 
 template <int D>
 DragStart<D> start_drag(const Request<D>& request, int parts, Increment<D>& increment) {
+  if (request.problem->inertia) return start_inertia(request, increment);
   increment.begin(*request.problem, *request.from, request.from->deformation);
   const auto& stress = request.from->stress;
   increment.find_first_drag(
@@ -116,6 +145,7 @@ DragStart<D> start_drag(const Request<D>& request, int parts, Increment<D>& incr
   how.duration = std::min(reversal.share * at.duration / parts, tuned::longest_drag);
   const double bend = std::tanh(how.duration / tuned::longest_follow);
   how.follow = tuned::longest_follow * bend;
+  how.spring_share = 1 - how.duration;
   how.follow_by_duration = 1 - bend * bend;
   for (std::size_t k = 0; k < how.turn.size(); ++k) how.turn[k] = request.turn[k] / parts;
   for (std::size_t k = 0; k < squared<D>; ++k) {

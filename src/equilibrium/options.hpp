@@ -33,7 +33,12 @@ struct SolverOptions {
   double increment_limit = 1;  // Pi above which an increment is split [-]
   ContactsLost contacts_lost = ContactsLost::error;
   Viscosity viscosity;
+  // The fluctuations have the mass of the particles, and time is the host's. @formula inertia
+  bool inertia = false;
   PublishedOptions published;
+
+  // True if a state keeps velocities, and takes the time of its host into account.
+  [[nodiscard]] bool keeps_velocities() const { return viscosity.number > 0 || inertia; }
 };
 
 }  // namespace grainlaw::core

@@ -170,7 +170,7 @@ void Relaxation<D>::step() {
   const double stiffness = power_ - before.power;  // sum v (r_previous - r)
   power_ = before.next_power;
   residual_ = std::numeric_limits<double>::infinity();
-  if (increment_.scale().touching() > 0 && std::isfinite(stiffness + before.largest)) {
+  if (increment_.held() && std::isfinite(stiffness + before.largest)) {
     residual_ = before.largest / increment_.scale().relative();
   }
   const double inertia = std::max(before.inertia, std::numeric_limits<double>::min());

@@ -64,13 +64,14 @@ bool flew_away(const Request<D>& request, Increment<D>& increment) {
 template <int D>
 bool exploded(const Request<D>& request, double given, Increment<D>& increment) {
   if (increment.problem().space->finds_deformation) return false;
-  return increment.scale().mean_force() > tuned::largest_gain * given ||
-         flew_away(request, increment);
+  // Inertia holds forces in their place, however much an impact makes of them.
+  const bool gained = increment.scale().mean_force() > tuned::largest_gain * given;
+  return (gained && !request.problem->inertia) || flew_away(request, increment);
 }
 
 template <int D>
 bool has_drag(const Request<D>& request) {
-  return request.options->viscosity.number > 0;
+  return request.options->viscosity.number > 0 || request.problem->inertia;
 }
 
 // Tolerance, raised to what rounding leaves [-]. It changes while forces fade.

@@ -29,10 +29,10 @@ bool solve_whole(Request<D> request, Workspace<D>& workspace, Outcome& outcome);
 
 // Properties of a request that several stages use.
 
-// True if the packing may lose its contacts.
+// True if the packing may lose its contacts, and with them what holds it.
 template <int D>
 bool may_be_free(const Request<D>& request) {
-  return request.options->contacts_lost == ContactsLost::stress_free;
+  return request.options->contacts_lost == ContactsLost::stress_free && !request.problem->inertia;
 }
 
 // Mean force of the packing at F = I, or its substitute [N].

@@ -74,6 +74,10 @@ class Stages {
       add({Stage::advancing});
       return;
     }
+    if (request.problem->inertia) {  // one step: the host cuts its own time
+      add({Stage::parts});
+      return;
+    }
     const Viscosity& viscosity = request.options->viscosity;
     if (viscosity.number > 0) {
       // P depends a little on the number of parts, so that number is constant in F as long as it

@@ -8,7 +8,10 @@ namespace grainlaw::core {
 // Tolerance that rounding leaves [-].
 template <int D>
 double least_tolerance(const Increment<D>& increment) {
-  return std::min(increment.scale().relative_rounding(), tuned::largest_rounding);
+  double rounding = increment.scale().relative_rounding();
+  const auto& drag = increment.motion().drag();
+  if (drag.has_inertia()) rounding += drag.rounding() / increment.scale().relative();
+  return std::min(rounding, tuned::largest_rounding);
 }
 
 // Solves an increment from its affine start so that its own change of the forces is right, where

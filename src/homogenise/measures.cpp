@@ -1,6 +1,7 @@
 #include "homogenise/measures.hpp"
 
 #include "frame/frame_space.hpp"
+#include "homogenise/kinetic_stress.hpp"
 #include "homogenise/plane_measures.hpp"
 #include "homogenise/space_measures.hpp"
 #include "packing/geometry.hpp"
@@ -246,6 +247,9 @@ void measure(const Problem<D>& problem, const Configuration<D>& at, grainlaw_mea
       return;
     case GRAINLAW_DEFORMATION_GRADIENT:
       return copy(at.deformation);
+    case GRAINLAW_KINETIC_ENERGY:
+      *value = kinetic_energy(problem, at);
+      return;
     case GRAINLAW_ESCAPED_PARTICLES:
       *value = 0;
       if constexpr (D == 2) *value = escaped_particles(problem, at);

@@ -1,6 +1,7 @@
 #include "homogenise/stress.hpp"
 
 #include "contact/contact_point.hpp"
+#include "homogenise/kinetic_stress.hpp"
 #include "increment/contact_state.hpp"
 
 #include <cmath>
@@ -65,6 +66,7 @@ Tensor<D> piola_stress(const Increment<D>& increment) {
       for (std::size_t j = 0; j < D; ++j) p[D * i + j] -= force[i] * branch[j] / volume;
     }
   });
+  add_kinetic_stress(increment, p);
   return p;
 }
 
@@ -101,6 +103,7 @@ Tensor4<D> changes_of_stress(const Increment<D>& increment, const Sensitivity<D>
       }
     }
   });
+  add_kinetic_changes(increment, sensitivity, lanes, tangent);
   return tangent;
 }
 

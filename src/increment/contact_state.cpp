@@ -24,6 +24,7 @@ bool bears_load(const Increment<D>& increment, std::size_t c) {
 
 template <int D>
 bool loaded(const Increment<D>& increment) {
+  if (increment.problem().inertia) return true;
   for (std::size_t c = 0; c < increment.contacts().size(); ++c) {
     if (bears_load(increment, c)) return true;
   }
@@ -57,7 +58,7 @@ bool collapsed(Increment<D>& increment) {
 
 template <int D>
 bool lost(Increment<D>& increment) {
-  return increment.scale().touching() == 0 || collapsed(increment);
+  return !increment.held() || collapsed(increment);
 }
 
 #define GRAINLAW_FOR(D)                                                           \

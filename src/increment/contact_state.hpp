@@ -46,7 +46,7 @@ double overlap_of(const ForceBalance<D>& balance, std::size_t c);
 template <int D>
 bool bears_load(const Increment<D>& increment, std::size_t c);
 
-// True if any contact is load bearing.
+// True if any contact is load bearing, or particles may be by their inertia.
 template <int D>
 bool loaded(const Increment<D>& increment);
 

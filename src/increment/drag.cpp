@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace grainlaw::core {
 
@@ -30,12 +31,24 @@ MassRecord<3> stiffness_of(const LeastMass<3>& least, double share, bool rotatin
   return {x, x, x, spin, spin, spin, {0, 0}};
 }
 
+// Factor x the mass, without rotations likewise.
+template <class Mass>
+Mass stiffness_of(Mass mass, double factor, bool rotating) {
+  constexpr std::size_t unknowns = components_of<Mass>.size();
+  constexpr std::size_t translations = unknowns / 2 + unknowns % 2;
+  for (std::size_t k = 0; k < unknowns; ++k) {
+    component(mass, k) *= k < translations || rotating ? factor : 0;
+  }
+  return mass;
+}
+
 }  // namespace
 
 template <int D>
 void Drag<D>::begin(const DragStart<D>& how, const BoundarySpace<D>& space, bool rotating,
-                    std::span<const LeastMass<D>> least, const std::vector<double>& start,
-                    const Tensor<D>& from, const Tensor<D>& stretch, std::span<const double> affine,
+                    std::span<const LeastMass<D>> least, std::span<const MassRecord<D>> mass,
+                    const std::vector<double>& start, const Tensor<D>& from,
+                    const Tensor<D>& stretch, std::span<const double> affine,
                     std::span<const double> velocity) {
   how_ = how;
   from_ = from;
@@ -52,9 +65,12 @@ void Drag<D>::begin(const DragStart<D>& how, const BoundarySpace<D>& space, bool
   resize_with_capacity(stiffness_, nodes);
   const std::size_t components = affine.size() / n;
   const double decay = std::exp(-how.duration);
+  rounding_ = 0;
   for (std::size_t q = 0; q < nodes; ++q) {
     const auto p = static_cast<std::size_t>(particle_[q]);
-    stiffness_[q] = stiffness_of(least[q], decay * how.stiffness / least[q].x, rotating);
+    stiffness_[q] = has_inertia()
+                        ? stiffness_of(mass[q], how.stiffness, rotating)
+                        : stiffness_of(least[q], decay * how.stiffness / least[q].x, rotating);
     expected_[q] = velocity_[q] = spring_[q] = {};
     ForceRecord<D> force = first_[q];
     for (std::size_t k = 0; k < D; ++k) {
@@ -71,7 +87,11 @@ void Drag<D>::begin(const DragStart<D>& how, const BoundarySpace<D>& space, bool
       if (!velocity.empty()) component(velocity_[q], k) = length * velocity[k * n + p];
       component(expected_[q], k) = length * affine[k * n + p] +
                                    how.follow * component(velocity_[q], k) -
-                                   (1 - how.duration) * component(spring_[q], k);
+                                   how.spring_share * component(spring_[q], k);
+      if (!has_inertia()) continue;
+      const double ulp =
+          std::numeric_limits<double>::epsilon() * std::abs(component(expected_[q], k));
+      rounding_ = std::max(rounding_, 2 * ulp * component(stiffness_[q], k));
     }
   }
 }
@@ -107,6 +127,29 @@ auto Drag<D>::excess(std::size_t q, std::span<const Place> particles) const -> P
   Place result;
   simd::store(&result.x,
               load<D>(particles[static_cast<std::size_t>(particle_[q])]) - load<D>(expected_[q]));
+  return result;
+}
+
+template <int D>
+auto Drag<D>::carried_excess(std::size_t q, std::span<const Place> particles) const -> Place {
+  Place result = excess(q, particles);
+  if (!has_inertia()) return result;
+  for (std::size_t k = 0; k < D; ++k) {
+    component(result, k) +=
+        how_.follow * component(velocity_[q], k) - how_.spring_share * component(spring_[q], k);
+  }
+  return result;
+}
+
+template <int D>
+auto Drag<D>::free_velocity(std::size_t q, std::span<const Place> particles) const -> Place {
+  const Place distance = excess(q, particles);
+  Place result = velocity_[q];
+  for (std::size_t k = 0; k < Dimension<D>::unknowns; ++k) {
+    component(result, k) +=
+        velocity_by_excess() *
+        ((1 / how_.theta - 1) * component(spring_[q], k) + component(distance, k));
+  }
   return result;
 }
 
@@ -172,17 +215,33 @@ MeanPull mean_pull(double h) {
   return result;
 }
 
-// u = exp(-h) ((1 + h) u_0 + h f_0 / k) + mean_pull(h) (displacement beyond affine motion)
 template <int D>
 void Drag<D>::find_velocity(const BoundarySpace<D>& space, std::span<const Place> particles,
-                            std::span<const double> affine, std::span<double> velocity) {
+                            std::span<const double> affine, const Tensor<D>& stretch,
+                            std::span<double> velocity) {
+  const std::size_t n = particles.size();
+  const std::size_t nodes = expected_.size();
+  const std::size_t components = affine.size() / n;
+  resize_with_capacity(node_velocity_, components * nodes);
+  has_inertia() ? find_particle_velocity(space, particles, stretch)
+                : find_mass_velocity(particles, affine);
+  if constexpr (D == 2) AverageMasses::project_out_velocity(space, nodes, node_velocity_);
+  for (std::size_t k = 0; k < components; ++k) {
+    for (std::size_t p = 0; p < n; ++p) {
+      velocity[k * n + p] = node_velocity_[k * nodes + static_cast<std::size_t>(space.node[p])];
+    }
+  }
+}
+
+// u = exp(-h) ((1 + h) u_0 + h f_0 / k) + mean_pull(h) (displacement beyond affine motion)
+template <int D>
+void Drag<D>::find_mass_velocity(std::span<const Place> particles, std::span<const double> affine) {
   const std::size_t n = particles.size();
   const std::size_t nodes = expected_.size();
   const std::size_t components = affine.size() / n;
   const double h = how_.duration;
   const double decay = std::exp(-h);
   const double pull = mean_pull(h).value;
-  resize_with_capacity(node_velocity_, components * nodes);
   for (std::size_t q = 0; q < nodes; ++q) {
     const auto p = static_cast<std::size_t>(particle_[q]);
     for (std::size_t k = 0; k < components; ++k) {
@@ -192,10 +251,25 @@ void Drag<D>::find_velocity(const BoundarySpace<D>& space, std::span<const Place
       node_velocity_[k * nodes + q] = (decay * start + pull * moved) / length;
     }
   }
-  if constexpr (D == 2) AverageMasses::project_out_velocity(space, nodes, node_velocity_);
-  for (std::size_t k = 0; k < components; ++k) {
-    for (std::size_t p = 0; p < n; ++p) {
-      velocity[k * n + p] = node_velocity_[k * nodes + static_cast<std::size_t>(space.node[p])];
+}
+
+// v = w - (1 - G^-T) (v_0 + w) / 2 with the free velocity w; rotations w.  @formula inertia-velocity
+template <int D>
+void Drag<D>::find_particle_velocity(const BoundarySpace<D>& space,
+                                     std::span<const Place> particles, const Tensor<D>& stretch) {
+  const std::size_t nodes = expected_.size();
+  const Tensor<D> carry = transpose<D>(inverse<D>(stretch));
+  for (std::size_t q = 0; q < nodes; ++q) {
+    const unsigned char fixed = space.fixed.empty() ? 0 : space.fixed[q];
+    const Place free = free_velocity(q, particles);
+    Vec<D> both{};
+    for (std::size_t k = 0; k < D; ++k) both[k] = component(velocity_[q], k) + component(free, k);
+    const Vec<D> carried = product<D>(carry, both);
+    const double radius = particles[static_cast<std::size_t>(particle_[q])].radius;
+    for (std::size_t k = 0; k * nodes < node_velocity_.size(); ++k) {
+      double velocity = component(free, k) / (k < D ? 1 : radius);
+      if (k < D) velocity += 0.5 * (carried[k] - both[k]);
+      node_velocity_[k * nodes + q] = (fixed & fixed_bit(k)) != 0 ? 0 : velocity;
     }
   }
 }

@@ -146,7 +146,7 @@ void ForceBalance<D>::add_missing_stress(std::span<ForceRecord<D>> forces) const
 
 template <int D>
 double ForceBalance<D>::residual_norm() const {
-  if (scale_.touching() == 0) return std::numeric_limits<double>::infinity();
+  if (!held()) return std::numeric_limits<double>::infinity();
   const auto m = problem_->nodes();
   const double* r = residual_.data();
   double largest = 0;

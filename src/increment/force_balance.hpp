@@ -49,8 +49,11 @@ class ForceBalance {
   // masses of their own.
   void relinearise(HalfContacts<D>& half_contacts);
 
-  // Largest residual force (moment / R) of update_forces over the force scale [-]. Infinite without
-  // contacts or if a number is not finite.
+  // True if contacts or inertia hold particles.
+  [[nodiscard]] bool held() const { return scale_.touching() > 0 || problem_->inertia; }
+
+  // Largest residual force (moment / R) of update_forces over the force scale [-]. Infinite where
+  // nothing holds the particles or if a number is not finite.
   [[nodiscard]] double residual_norm() const;
 
   [[nodiscard]] const Problem<D>& problem() const { return *problem_; }

@@ -1,6 +1,7 @@
 #include "increment/motion.hpp"
 
 #include "base/capacity.hpp"
+#include "increment/particle_masses.hpp"
 #include "increment/records.hpp"
 #include "packing/geometry.hpp"
 
@@ -240,17 +241,17 @@ void Motion<D>::restart_rotations() {
 template <int D>
 void Motion<D>::begin_drag(const DragStart<D>& how, std::span<const LeastMass<D>> contact_stiffness,
                            std::span<const double> velocity, bool as_expected) {
-  const auto n = problem_->particles();
   copy_with_capacity(start_, affine_);
   carry_affinely(start_deformation_, deformation_, affine_.data());
-  resize_with_capacity(velocity_, velocity.size());
-  std::copy(velocity.begin(), velocity.end(), velocity_.begin());
+  velocity_.assign(velocity.begin(), velocity.end());
   Tensor<D> stretch = identity<D>();
-  if (!problem_->space->bound_to_axes()) {
+  if (how.theta > 0) {
+    find_particle_masses(*problem_->packing, *problem_->space, masses_);
+  } else if (!problem_->space->bound_to_axes()) {
     stretch = product<D>(deformation_, inverse<D>(start_deformation_));
-    if (!velocity.empty()) map_positions<D>(stretch, n, velocity_.data());
+    if (!velocity.empty()) map_positions<D>(stretch, problem_->particles(), velocity_.data());
   }
-  drag_.begin(how, *problem_->space, problem_->law->rotating(), contact_stiffness, start_,
+  drag_.begin(how, *problem_->space, problem_->law->rotating(), contact_stiffness, masses_, start_,
               start_deformation_, stretch, affine_, velocity_);
   if (!as_expected) return;
   coordinates_ = affine_;
@@ -263,7 +264,7 @@ double Motion<D>::end_drag(std::vector<double>& velocity) {
   carry_affinely(drag_.from(), deformation_, affine_.data());
   load_records();
   resize_with_capacity(velocity, coordinates_.size());
-  drag_.find_velocity(*problem_->space, records_, affine_, velocity);
+  drag_.find_velocity(*problem_->space, records_, affine_, part_deformation(), velocity);
   const double work = drag_.work(records_, affine_);
   drag_.set_first_force(records_);
   return work;

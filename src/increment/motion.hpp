@@ -49,14 +49,19 @@ class Motion {
 
   // Takes contact forces on the nodes at the start of the increment as the drag there.
   void set_first_drag(std::span<const ForceRecord<D>> forces) { drag_.set_first_force(forces); }
-  // Begins drag from the start of the history to the present F. `velocity` is that of its masses
-  // there (empty: 0). `contact_stiffness` is that of one contact, per node. With `as_expected`,
+  // Begins drag or inertia from the start of the history to the present F. `velocity` is that of its
+  // masses there (empty: 0). `contact_stiffness` is that of one contact, per node. With `as_expected`,
   // particles go on as the masses move.
   void begin_drag(const DragStart<D>& how, std::span<const LeastMass<D>> contact_stiffness,
                   std::span<const double> velocity, bool as_expected);
   // Ends the part: writes the velocity of the masses and returns the work of the drag [J].
   double end_drag(std::vector<double>& velocity);
   [[nodiscard]] const Drag<D>& drag() const { return drag_; }
+  // Deformation since drag began, as positions follow it.
+  [[nodiscard]] Tensor<D> part_deformation() const {
+    if (problem_->space->bound_to_axes()) return identity<D>();
+    return product<D>(deformation_, inverse<D>(drag_.from()));
+  }
 
   // Largest distance of a particle from its affine image since `from`, but for rigid translation [m].
   [[nodiscard]] double largest_fluctuation(const Configuration<D>& from);
@@ -103,6 +108,7 @@ class Motion {
   std::vector<double> carried_;
   Drag<D> drag_;
   std::vector<double> affine_, velocity_;
+  std::vector<MassRecord<D>> masses_;  // of the particles, with inertia
   std::vector<double> node_radius_;
   double deformation_scale_ = 1;
   double mean_branch_ = 0;

@@ -21,6 +21,7 @@ struct Problem {
   double force_floor = 0;    // lower bound of the force scale, else the mean normal force [N]
   double tolerance = 0;      // of equilibria; weaker contacts are not load bearing [-]
   double hertz_overlap = 0;  // mean at F = I over the radius; 0: another law, or not known yet [-]
+  bool inertia = false;      // increments take time, in which particles have their mass
 
   [[nodiscard]] std::size_t particles() const { return packing->size(); }
   [[nodiscard]] std::size_t nodes() const { return space->nodes; }

@@ -149,7 +149,12 @@ std::uint64_t fingerprint_of(const Material<D>& material) {
     }
   }
   if (material.space.options.inner_rotation == InnerRotation::fixed) add("inner", 5);
-  if (material.solver.viscosity.number > 0) add("drag", 4);  // drag saves velocities
+  // Both save velocities, of different things.
+  if (material.solver.viscosity.number > 0) add("drag", 4);
+  if (material.solver.inertia) {
+    add("inertia", 7);
+    add(&material.packing.density, sizeof material.packing.density);
+  }
   add(material.packing.cell.data(), sizeof material.packing.cell);
   add_all(material.packing.radius);
   add_all(material.packing.position);

@@ -30,7 +30,7 @@ struct Material {
     const double floor =
         solver.force_floor > 0 ? solver.force_floor : relative_floor * initial_mean_force;
     const double overlap = law.hertzian() ? law.typical_overlap : 0;
-    return {&packing, &law, &space, floor, solver.tolerance, overlap};
+    return {&packing, &law, &space, floor, solver.tolerance, overlap, solver.inertia};
   }
 };
 

@@ -60,7 +60,7 @@ void members(auto& words, Of<PublishedOptions> auto& p) {
 }
 void members(auto& words, Of<SolverOptions> auto& s) {
   each(words, s.tolerance, s.loose_tolerance, s.start, s.method, s.force_floor, s.increment_limit,
-       s.contacts_lost, s.viscosity, s.published);
+       s.contacts_lost, s.viscosity, s.inertia, s.published);
 }
 template <class T>
 concept AnyHistory = Of<T, ContactHistory<2>> || Of<T, ContactHistory<3>>;
@@ -83,7 +83,7 @@ void members(auto& words, AnyOfMaterial auto& m) {
 #if defined(__x86_64__) && defined(__GLIBCXX__)
 static_assert(sizeof(InitialContact) == 96 && sizeof(Frame) == 224 && sizeof(Packing) == 432);
 static_assert(sizeof(ContactLaw) == 176 && sizeof(BoundaryOptions) == 200);
-static_assert(sizeof(SolverOptions) == 104 && sizeof(Configuration<3>) == 352);
+static_assert(sizeof(SolverOptions) == 112 && sizeof(Configuration<3>) == 352);
 #endif
 
 namespace {

@@ -58,6 +58,21 @@ void read_viscosity(TomlTable& table, SolverOptions& solver) {
                "0: with drag every increment is balanced");
 }
 
+void read_inertia(TomlTable& table, const BoundaryOptions& boundary, SolverOptions& solver) {
+  table.optional("inertia", boolean(), solver.inertia);
+  if (!solver.inertia) return;
+  const auto refuse = [&](const char* found, const char* expected) {
+    table.fail("inertia", fmt::format("true with {}", found), expected);
+  };
+  if (solver.viscosity.number > 0)
+    refuse("viscous_number", "one of them: both say how fluctuations take time");
+  if (solver.method != Method::direct) refuse("another method", "method = \"direct\"");
+  if (solver.loose_tolerance > 0) refuse("loose_tolerance", "loose_tolerance = 0");
+  if (boundary.type == BoundaryType::frame_t || prescribes_stress(boundary))
+    refuse("a boundary under a stress",
+           "a periodic cell, \"frame-p\", \"frame-d\", or sides of D and P");
+}
+
 // Reads the solver options; the published servo works with the published relaxation alone.
 SolverOptions read_solver(TomlTable table, const BoundaryOptions& boundary) {
   const bool servo = boundary.method == BoundaryMethod::servo;
@@ -93,6 +108,7 @@ SolverOptions read_solver(TomlTable table, const BoundaryOptions& boundary) {
         "contacts_lost", "\"stress_free\" with a boundary under a stress",
         "\"error\": without contacts nothing carries what \"T\" or boundary.stress asks for");
   read_viscosity(table, solver);
+  read_inertia(table, boundary, solver);
   solver.published = read_published(table.optional_table("published"));
   if (solver.method != Method::published && table.has("published"))
     table.fail("published", "a table", "none but with method = \"published\"");

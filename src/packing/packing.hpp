@@ -49,8 +49,8 @@ struct Frame {
 struct Packing {
   int dimension = 2;
   double thickness = 1;          // out of plane, 2D only [m]
-  double density = 2650;         // density of the grains [kg/m3]; used by the reference methods
-                                 // alone
+  double density = 2650;         // density of the grains [kg/m3]; counts with solver.inertia, and
+                                 // in the reference methods
   std::array<double, 9> cell{};  // H, dim x dim row-major: columns are the lattice vectors [m]
   std::vector<double> position;  // component-major: position[c * size + p] [m], not wrapped
   std::vector<double> radius;    // [m]

@@ -46,7 +46,7 @@ void add_drag(const Increment<D>& increment, grainlaw_report& report) {
   if (!drag.acts()) return;
   report.unbalanced = drag.largest(increment.motion().records()) / increment.scale().relative();
   report.viscous_work = increment.losses().dragged();
-  if (report.unbalanced > tuned::much_drag) {
+  if (report.unbalanced > tuned::much_drag && !drag.has_inertia()) {
     describe(report,
              "drag carries part of the load (unbalanced above 0.1); a smaller "
              "solver.viscous_number lowers it");

@@ -4,11 +4,11 @@
 //   coordinates [number of the material's];
 //   contacts: i32 i  i32 j  i16 shift[dim]  u8 1 sliding, 2 bonded;
 //             tangential force, of spheres three  [moment]  [gap of the bond];
-//   [mean strain rate  velocities of the drag's masses  time step];
+//   [mean strain rate  velocities of the drag's masses, or of the particles  time step];
 //   [F of the packing where that of the host is I, dim*dim];
 //   u64 XXH3 of everything before.
-// Parts in brackets exist only with a law that has bonds, moments or drag, and of a state that was
-// consolidated. Versions: 2, with drag 4, consolidated 5, both 6; 3 was of an earlier drag.
+// Parts in brackets exist only with a law that has bonds, moments, drag or inertia, and of a state
+// that was consolidated. Versions: 2, with velocities 4, consolidated 5, both 6; 3 was of an earlier drag.
 #include "state/serialise.hpp"
 
 #include "base/error.hpp"
@@ -30,15 +30,10 @@ constexpr std::size_t plain_contact_size =
     2 * sizeof(std::int32_t) + D * sizeof(std::int16_t) +
     sizeof(std::uint8_t) + Dimension<D>::tangents * sizeof(double);
 
-template <int D>
-bool has_drag(const Material<D>& material) {
-  return material.solver.viscosity.number > 0;
-}
-
 // Version of the bytes, which tells of a reference.
-std::uint32_t version_of(bool drag, bool reference) {
-  if (reference) return drag ? 6 : 5;
-  return drag ? 4 : saved_state.version;
+std::uint32_t version_of(bool velocities, bool reference) {
+  if (reference) return velocities ? 6 : 5;
+  return velocities ? 4 : saved_state.version;
 }
 
 // Number of doubles of the velocities: of positions, and rotations as vectors.
@@ -50,10 +45,11 @@ std::size_t velocities(const Material<D>& material) {
 
 template <int D>
 std::size_t size_without_contacts(const Material<D>& material) {
-  const std::size_t drag = has_drag(material) ? squared<D> + velocities(material) + 1 : 0;
+  const std::size_t moving =
+      material.solver.keeps_velocities() ? squared<D> + velocities(material) + 1 : 0;
   return header_size + checksum_size +
          sizeof(double) * (2 * squared<D> + (material.law.bonds() ? 2 : 1) +
-                           material.initial.coordinates.size() + drag);
+                           material.initial.coordinates.size() + moving);
 }
 
 template <int D>
@@ -97,7 +93,7 @@ void save_configuration(const Material<D>& material, const Configuration<D>& con
   const std::size_t spins = material.law.moments() ? Dimension<D>::spins : 0;
   ByteWriter out(bytes);
   SavedKind written = saved_state;
-  written.version = version_of(has_drag(material), reference.has_value());
+  written.version = version_of(material.solver.keeps_velocities(), reference.has_value());
   out.begin(written);
   out.put(static_cast<std::uint32_t>(configuration.contacts.size()));
   out.put(material.fingerprint);
@@ -118,7 +114,7 @@ void save_configuration(const Material<D>& material, const Configuration<D>& con
       out.put(configuration.bond_gaps.empty() ? 0.0 : configuration.bond_gaps[c]);
     }
   }
-  if (has_drag(material)) {
+  if (material.solver.keeps_velocities()) {
     for (const double component : configuration.strain_rate) out.put(component);
     for (std::size_t k = 0; k < velocities(material); ++k) {
       out.put(configuration.velocity.empty() ? 0.0 : configuration.velocity[k]);
@@ -139,9 +135,9 @@ SavedStateOf<D> load_configuration(const Material<D>& material, std::span<const 
   const std::size_t contacts = in.get<std::uint32_t>();
   require(in.get<std::uint64_t>() == material.fingerprint, GRAINLAW_WRONG_MATERIAL,
           "of another material");
-  const bool has_reference = version == version_of(has_drag(material), true);
-  require(has_reference || version == version_of(has_drag(material), false), GRAINLAW_WRONG_VERSION,
-          "of another format version");
+  const bool has_reference = version == version_of(material.solver.keeps_velocities(), true);
+  require(has_reference || version == version_of(material.solver.keeps_velocities(), false),
+          GRAINLAW_WRONG_VERSION, "of another format version");
   require(!has_reference || !material.space.finds_deformation, GRAINLAW_WRONG_MATERIAL,
           "consolidated, which boundary.stress does not take");
   const std::size_t fixed_size =
@@ -174,7 +170,7 @@ SavedStateOf<D> load_configuration(const Material<D>& material, std::span<const 
     if (material.law.bonds()) found.bond_gaps.push_back(in.get_finite());
   }
   double& step = saved.time_step;
-  if (has_drag(material)) {
+  if (material.solver.keeps_velocities()) {
     for (double& component : found.strain_rate) component = in.get_finite();
     found.velocity.resize(velocities(material));
     for (double& component : found.velocity) component = in.get_finite();

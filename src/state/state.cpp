@@ -184,7 +184,8 @@ grainlaw_status State<D>::follow(const Tensor<D>& F, std::optional<double> durat
     describe(report, "the stretch since the committed state is more than 30 %");
     return GRAINLAW_STEP_TOO_LARGE;
   }
-  const Problem<D> problem = material_->problem();
+  Problem<D> problem = material_->problem();
+  if (duration) problem.inertia = false;  // the caller looks for equilibria
   const double lasts = duration ? *duration : duration_of(*material_, committed_, F, time_step_);
   const auto request = request_of(problem, split, kind, lasts, had_trial, w);
   const auto outcome = solve(request, w);
@@ -264,6 +265,8 @@ void State<D>::keep_trial(const Outcome& outcome, Workspace<D>& w, grainlaw_repo
   if (drag.acts()) {
     trial_.velocity = w.velocity;  // whose size stays
     trial_.strain_rate = drag.how().strain_rate;
+  } else {
+    trial_.velocity.clear();
   }
   trial_loose_ = outcome.loose;
   trial_advanced_ = outcome.history_advanced;

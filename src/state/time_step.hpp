@@ -10,7 +10,7 @@ namespace grainlaw::core {
 // The time step of a state that no host has told one.
 inline constexpr double untold = -1;
 
-// Duration of the increment from `committed` to F [memories], or `by_strain`. Throws Error
+// Duration of the increment from `committed` to F [memories; with inertia s], or `by_strain`. Throws Error
 // (BAD_ARGUMENT) where the material asks for a time step, F moves and there is none above 0.
 template <int D>
 [[nodiscard]] double duration_of(const Material<D>& material, const Configuration<D>& committed,

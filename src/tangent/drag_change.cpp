@@ -25,12 +25,6 @@ Lanes<D> change_of(const Tensor<D>& by, const Increment<D>& increment) {
   return result;
 }
 
-template <int D>
-Tensor<D> part_deformation(const Increment<D>& increment) {
-  if (increment.problem().space->bound_to_axes()) return identity<D>();
-  return product<D>(increment.motion().deformation(), inverse<D>(increment.motion().drag().from()));
-}
-
 }  // namespace
 
 template <>
@@ -65,7 +59,7 @@ void DragDerivatives<D>::find_changes(const Increment<D>& increment, std::size_t
   changes.log_stiffness = log_spring - changes.duration;
   changes.start = changes.velocity = changes.spring = {};
   if (carried_) {
-    const Tensor<D> g = part_deformation(increment);
+    const Tensor<D> g = increment.motion().part_deformation();
     const auto push = [&](std::span<const ByDeformation<D>> from, auto& to) {
       for (std::size_t k = 0; k < D; ++k) {
         for (std::size_t l = 0; l < D; ++l) to[k] += g[D * k + l] * load<D>(from[l]);
@@ -84,7 +78,7 @@ void DragDerivatives<D>::find_changes(const Increment<D>& increment, std::size_t
     if (stiffness > 0) changes.spring[k] *= 1 / stiffness;
     changes.spring[k] -= spring * log_spring;
     changes.expected[k] = changes.start[k] + how.follow * changes.velocity[k] -
-                          (1 - how.duration) * changes.spring[k] +
+                          how.spring_share * changes.spring[k] +
                           (how.follow_by_duration * velocity + spring) * changes.duration;
   }
 }
@@ -102,7 +96,8 @@ void DragDerivatives<D>::add_to(const Increment<D>& increment, const Deformation
     const auto distance = drag.excess(q, increment.motion().records());
     if (affine) {
       Vec<D> reference{};
-      for (std::size_t k = 0; k < D; ++k) reference[k] = component(distance, k);
+      const auto carried = drag.carried_excess(q, increment.motion().records());
+      for (std::size_t k = 0; k < D; ++k) reference[k] = component(carried, k);
       reference = product<D>(back, reference);
       for (std::size_t k = 0; k < D; ++k) {
         for (std::size_t l = 0; l < D; ++l) {

@@ -187,7 +187,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         std::size_t count = 4;
         const auto status = grainlaw_state_measure(state.get(), static_cast<grainlaw_measure>(what),
                                                    values, &count);
-        EXPECT((status == GRAINLAW_OK) == (what >= 0 && what <= GRAINLAW_ESCAPED_PARTICLES));
+        EXPECT((status == GRAINLAW_OK) == (what >= 0 && what <= GRAINLAW_KINETIC_ENERGY));
         break;
       }
       case 5:

@@ -59,7 +59,12 @@ void add(Hash& hash, const grainlaw_report& report) {
 }
 
 void add_measures(Hash& hash, const State& state) {
-#define GRAINLAW_X(name, value, count, text) hash.add(std::span<const double>(state.measure(name)));
+  const auto add = [&](grainlaw_measure what) {
+    const std::vector<double> values = state.measure(what);
+    // Inertia alone has it.
+    if (what != GRAINLAW_KINETIC_ENERGY || values[0] != 0) hash.add(std::span(values));
+  };
+#define GRAINLAW_X(name, value, count, text) add(name);
   GRAINLAW_MEASURE_LIST(GRAINLAW_X)
 #undef GRAINLAW_X
 }

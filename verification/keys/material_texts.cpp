@@ -136,6 +136,12 @@ constexpr KeyText texts[] = {
      "viscous_rate, and the host has to tell its time step (`grainlaw_state_set_time_step`), or "
      "the first increment is refused; 0: the strain is the time"},
     {"solver.viscous_steps", "-", "parts of an increment with `viscous_number`"},
+    {"solver.inertia", "",
+     "fluctuations have the mass of the particles, by `packing.density`, for waves: the host has "
+     "to "
+     "tell its time step in s, and an increment is one step; not with \"T\", a prescribed stress "
+     "or "
+     "`viscous_number`"},
     {"solver.published.damping", "-", "of \"published\": local damping"},
     {"solver.published.time_step_ratio", "-", "of \"published\": time step / critical one"},
     {"solver.published.energy_tolerance", "-",

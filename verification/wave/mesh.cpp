@@ -90,6 +90,14 @@ class MeshGauges {
   const Mesh* mesh_;
 };
 
+// Kinetic energy of the fluctuations in one volume, mean of all [J].
+double mean_kinetic_energy(const PointField& points) {
+  double sum = 0;
+  for (std::size_t p = 0; p < points.size(); ++p)
+    sum += measure_scalar(points.state(p), GRAINLAW_KINETIC_ENERGY);
+  return sum / static_cast<double>(points.size());
+}
+
 }  // namespace
 
 WaveRun run_mesh(const WaveCase& one, const WaveDomain& domain, int divisions) {
@@ -124,9 +132,11 @@ WaveRun run_mesh(const WaveCase& one, const WaveDomain& domain, int divisions) {
       const double stored = of_points * step.record.elastic_energy;
       if (step.record.step == 0) at_rest = stored;
       row.work = domain.thickness * energies.external;
-      row.kinetic = row.coherent = domain.thickness * energies.kinetic;
+      const double agitation = of_points * mean_kinetic_energy(now.points());
+      row.coherent = domain.thickness * energies.kinetic;
+      row.kinetic = row.coherent + agitation;
       row.stored = stored - at_rest;
-      row.dissipated = domain.thickness * energies.internal - row.stored;
+      row.dissipated = domain.thickness * energies.internal - row.stored - agitation;
       row.contacts = step.record.contacts;
       run.rows.push_back(row);
       run.steps += step.record.effort.iterations;

@@ -31,10 +31,11 @@ struct WaveRow {
   std::vector<double> stress;        // normal to the top in the windows, tension positive [Pa]
   double work = 0;                   // by the right end [J]
   double kinetic = 0;                // [J]
-  double coherent = 0;               // kinetic energy of the mean motion of cross-sections [J]
+  double coherent = 0;               // kinetic energy of the mean motion of cross-sections, of the
+                                     // nodes of a mesh [J]
   double stored = 0;                 // in contacts, relative to the start [J]
-  double dissipated = 0;  // by friction, broken bonds, damping; meshes: all but stored [J]
-  double contacts = 0;    // touching contacts; meshes: mean per point
+  double dissipated = 0;             // by friction, broken bonds, damping; meshes: what is left [J]
+  double contacts = 0;               // touching contacts; meshes: mean per point
 };
 
 struct WaveRun {

@@ -4,7 +4,8 @@
 
 scenes_liu2017_boundary=(figure_02 figure_05 figure_08 figure_10 sizes sizes_rough order_regular order_irregular figure_12 figure_12_more
   layer_strength layer_rows rolling locked_rotation servo_regular servo_irregular servo_layer published)
-scenes_liu2018_waves=(figure_4_4 figure_4_5 figure_4_6 figure_4_7 figure_4_8 figure_4_8_650 figure_4_10 why shear_wave)
+scenes_liu2018_waves=(figure_4_4 figure_4_5 figure_4_6 figure_4_7 figure_4_8 figure_4_8_650 figure_4_10 why inertia
+  shear_wave)
 scenes_liu2019_biaxial=(biaxial_1x1 biaxial_1x2 biaxial_2x4 biaxial_4x8 biaxial_4x8_membrane friction_02 friction_06 locked
   anisotropy dns_a dns_b dns_packings published_explicit published_newton)
 short_guo2014_multiscale=(biaxial_2x4 element_perturbed element_elastic element_exact biaxial_2x4_hexagonal cyclic_stress_column

@@ -68,13 +68,20 @@ void study_wave_cost(WaveStudy& study) {
               {"run[-]", "elements[-]", "particles[-]", "steps[-]", "cuts[-]", "core_seconds[s]",
                "wall[s]", "error_near[% of A]", "error_far[% of A]"});
   double total = 0;
-  for (const char* name : {"figure_4_4",      "figure_4_5_0.5ms", "figure_4_5_1ms",
-                           "figure_4_5_2ms",  "figure_4_5_5ms",   "figure_4_6_layer",
-                           "figure_4_6_free", "figure_4_7_layer", "figure_4_7_free",
-                           "figure_4_8",      "figure_4_10",      "why_plain",
-                           "why_damped",      "why_free",         "why_half",
-                           "why_quarter",     "why_confined",     "why_confined_damped",
-                           "why_periodic",    "why_bonded"}) {
+  for (const char* name : {"figure_4_4",         "figure_4_5_0.5ms",
+                           "figure_4_5_1ms",     "figure_4_5_2ms",
+                           "figure_4_5_5ms",     "figure_4_6_layer",
+                           "figure_4_6_free",    "figure_4_7_layer",
+                           "figure_4_7_free",    "figure_4_8",
+                           "figure_4_10",        "why_plain",
+                           "why_damped",         "why_free",
+                           "why_half",           "why_quarter",
+                           "why_confined",       "why_confined_damped",
+                           "why_periodic",       "why_bonded",
+                           "inertia_loose",      "inertia_loose_coarse",
+                           "inertia_loose_fine", "inertia_loose_short",
+                           "inertia_loose_long", "inertia_loose_periodic",
+                           "inertia_bonded",     "inertia_bonded_coarse"}) {
     const WaveStudy::Run run = study.load(std::string(name) + "_cost");
     if (!run) continue;
     const CsvTable& cost = run->history;
@@ -97,6 +104,7 @@ void add_liu2018_waves_study(CLI::App& study, const std::shared_ptr<StudyOptions
     study_string_waves(waves);
     study_packing_waves(waves);
     study_why_waves_differ(waves);
+    study_waves_with_inertia(waves);
     study_further_waves(waves, std::filesystem::path(options->scenes) / "liu2018_waves");
     study_wave_cost(waves);
     waves.facts.write(waves.results);

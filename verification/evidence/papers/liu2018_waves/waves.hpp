@@ -47,6 +47,7 @@ Curve wave_curve(const PaperRun& run, const char* column, double factor, const c
 void study_string_waves(WaveStudy& study);   // figures 4.4 and 4.5, dispersion
 void study_packing_waves(WaveStudy& study);  // figures 4.6 to 4.11
 void study_why_waves_differ(WaveStudy& study);
+void study_waves_with_inertia(WaveStudy& study);
 // Section 4.4.4, late oscillations, a shear wave; scenes of liu2018_waves.
 void study_further_waves(WaveStudy& study, const std::filesystem::path& scenes);
 void study_wave_cost(WaveStudy& study);
