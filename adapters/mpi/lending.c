@@ -545,7 +545,11 @@ grainlaw_status grainlaw_lending_evaluate(grainlaw_lending* l, const double* F, 
   grainlaw_status checked = reserve(l) ? check(l, &call, want) : GRAINLAW_OUT_OF_MEMORY;
   if (unknown) checked = GRAINLAW_BAD_REPORT;
   if (checked != GRAINLAW_OK) {
-    refuse(&call, checked, grainlaw_status_text(checked));
+    grainlaw_summary why = grainlaw_summary_default();
+    /* The library, which refuses the same call, says why. */
+    if (checked == GRAINLAW_NULL_POINTER || checked == GRAINLAW_BAD_ARGUMENT)
+      grainlaw_points_evaluate(l->set, F, want, NULL, NULL, NULL, NULL, 1, &why);
+    refuse(&call, checked, why.message[0] != 0 ? why.message : grainlaw_status_text(checked));
     l->points = 0;
     for (size_t k = 0; statuses != NULL && !unknown && k < grainlaw_points_size(l->set); ++k)
       statuses[k] = checked;

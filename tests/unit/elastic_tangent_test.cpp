@@ -62,7 +62,8 @@ Tangent sum_over_contacts(const State& state) {
   const auto& radius = material.packing.radius;
   Tangent tangent{};
   for (const ContactView& c : contact_views(material.problem(), state.current())) {
-    const auto [kn, kt] = stiffnesses(material.law, radius[static_cast<std::size_t>(c.i)],
+    const ContactLaw law = c.bonded ? material.law.of_bonds() : material.law;
+    const auto [kn, kt] = stiffnesses(law, radius[static_cast<std::size_t>(c.i)],
                                       radius[static_cast<std::size_t>(c.j)], c.overlap);
     const double d = std::hypot(c.branch[0], c.branch[1]);
     const std::array<double, 2> n{c.branch[0] / d, c.branch[1] / d};
