@@ -38,7 +38,7 @@ std::array<double, 2> stiffnesses(const ContactLaw& law, double a, double b, dou
     const double kt = law.friction > 0 ? 2 * law.shear_modulus / (2 - law.poisson) * root : 0;
     return {law.shear_modulus / (1 - law.poisson) * root, kt};
   }
-  const double kn = law.young * r;
+  const double kn = law.stiffness(a, b);
   return {kn, law.friction > 0 ? law.ratio * kn : 0};
 }
 
