@@ -1,4 +1,5 @@
 // When bonds break (Liu, Bosco & Suiker 2017, eq. 8), and what becomes of their energy.
+#include "bonded_lattice.hpp"
 #include "boundary_support.hpp"
 #include "law_support.hpp"
 
@@ -101,19 +102,7 @@ TEST(bond_failure, is_put_off_by_compression) {
   });
 }
 
-// A disc bonded to its images to the right and above, a square lattice of bonds without stress.
-MaterialDescription lattice() {
-  MaterialDescription description;
-  auto& packing = description.packing;
-  packing.cell = {2, 0, 0, 2};
-  packing.radius = {1};
-  packing.position = {0.3, 0.4};
-  packing.thickness = 0.5;
-  description.law = law_of_bonds();
-  description.law.bond.gap = 1e-6;
-  description.solver.tolerance = 1e-10;
-  return description;
-}
+MaterialDescription lattice() { return bonded_lattice(law_of_bonds()); }
 
 TEST(bond_failure, bonds_longer_than_a_diameter_are_refused_by_name) {
   MaterialDescription description = lattice();

@@ -1,5 +1,6 @@
 // Bonds with springs of their own, kb_n and kb_s (Liu, Bosco & Suiker 2017, eq. 7): in closed form, and where
 // one breaks.
+#include "bonded_lattice.hpp"
 #include "discs.hpp"
 #include "few_spheres.hpp"
 #include "law_support.hpp"
@@ -60,19 +61,7 @@ TEST(bond_springs, of_spheres_bear_in_closed_form) {
   EXPECT_NEAR(forces[1].x / (-of_bond_n * 1e-3), 1, 1e-7);
 }
 
-// A disc bonded to its images to the right and above, a square lattice.
-MaterialDescription lattice() {
-  MaterialDescription description;
-  auto& packing = description.packing;
-  packing.cell = {2, 0, 0, 2};
-  packing.radius = {1};
-  packing.position = {0.3, 0.4};
-  packing.thickness = 0.5;
-  description.law = law_of_bonds();
-  description.law.bond.gap = 1e-6;
-  description.solver.tolerance = 1e-10;
-  return description;
-}
+MaterialDescription lattice() { return bonded_lattice(law_of_bonds()); }
 
 TEST(bond_springs, make_the_stress_the_tangent_and_the_energy_of_a_lattice) {
   State state(make_material(lattice()));
