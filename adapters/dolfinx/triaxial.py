@@ -27,9 +27,10 @@ def main(material, prefix="triaxial", count="5", shortening="5e-4"):
     top = fem.locate_dofs_geometrical(V, lambda x: np.isclose(x[2], HEIGHT))
     bottom = fem.locate_dofs_geometrical(V, lambda x: np.isclose(x[2], 0))
     top_displacement = fem.Constant(domain, np.zeros(3))
-    sides = mesh.locate_entities_boundary(
-        domain, 2, lambda x: np.any(np.isclose(x[:2], 0) | np.isclose(x[:2], WIDTH), axis=0))
-    tags = mesh.meshtags(domain, 2, np.sort(sides), np.ones(len(sides), np.int32))
+    sides = np.unique(np.concatenate([
+        mesh.locate_entities_boundary(domain, 2, lambda x: np.isclose(x[axis], place))
+        for axis in (0, 1) for place in (0, WIDTH)]))
+    tags = mesh.meshtags(domain, 2, sides, np.ones(len(sides), np.int32))
     ds = ufl.Measure("ds", domain, subdomain_data=tags)
 
     def shorten(load):
