@@ -100,7 +100,8 @@ class States:
         return int(library.grainlaw_points_size(self._handle))
 
     def __repr__(self) -> str:
-        return f"<{type(self).__name__} of {len(self)} points, {self.material!r}>"
+        points = "point" if len(self) == 1 else "points"
+        return f"<{type(self).__name__} of {len(self)} {points}, {self.material!r}>"
 
     def clone(self) -> Self:
         """An independent copy, committed and trial."""
