@@ -90,7 +90,7 @@ Reversal<D> reversal_of(const Straining<D>& at, double kept, double slowest) {
   return result;
 }
 
-// Time step x frequency of a contact around which inertia is damped: explicit steps become unstable.
+// Time step x frequency of a contact, or of a stiffer bond, around which inertia is damped: explicit steps become unstable.
 constexpr double damped_step = 2;
 // The shortest such step: W of a shorter one is no larger.
 constexpr double shortest_step = 1e-3;
@@ -103,7 +103,7 @@ DragStart<D> start_inertia(const Request<D>& request, Increment<D>& increment) {
   increment.begin(problem, *request.from, request.from->deformation);
   increment.find_first_drag(true);
   const double radius = 0.5 * increment.motion().mean_branch();
-  const double frequency = std::sqrt(problem.law->stiffness(radius, radius) /
+  const double frequency = std::sqrt(problem.law->largest_stiffness(radius, radius) /
                                      particle_mass<D>(*problem.packing, radius));
   const double ratio = request.duration * frequency / damped_step;
   const double resolved = std::max(request.duration, shortest_step / frequency);

@@ -2,6 +2,7 @@
 
 #include "base/constants.hpp"
 #include "contact/contact_forces.hpp"
+#include "increment/mass_factor.hpp"
 #include "increment/records.hpp"
 
 #include <algorithm>
@@ -36,8 +37,8 @@ void ForceBalance<D>::sum_masses() {
 
 template <int D>
 void ForceBalance<D>::relinearise(HalfContacts<D>& half_contacts) {
-  scale_.take(
-      half_contacts.relinearise(motion_.records(), *problem_->law, tuned::mass_factor, contacts_));
+  const ContactLaw& law = *problem_->law;
+  scale_.take(half_contacts.relinearise(motion_.records(), law, mass_factor(law), contacts_));
   if (motion_.drag().acts()) {
     half_contacts.add_drag(motion_.records(), motion_.drag().of_nodes(), tuned::mass_factor);
   }

@@ -1,6 +1,7 @@
 #include "increment/masses.hpp"
 
 #include "base/constants.hpp"
+#include "increment/mass_factor.hpp"
 #include "increment/records.hpp"
 
 #include <algorithm>
@@ -53,9 +54,9 @@ template <int D>
 ContactTotals Masses<D>::sum(const Problem<D>& problem, const Motion<D>& motion,
                              ContactList<D>& contacts) {
   const auto totals = sum_stiffnesses<D>(motion.records(), *problem.law, contacts, stiffness_);
-  const double factor = stiffening(problem, motion);
+  const double stiffer = stiffening(problem, motion), factor = mass_factor(*problem.law);
   for (std::size_t q = 0; q < problem.nodes(); ++q) {
-    records_[q] = mass_of(stiffness_[q], times(factor, least_[q]), tuned::mass_factor);
+    records_[q] = mass_of(stiffness_[q], times(stiffer, least_[q]), factor);
   }
   if (motion.drag().acts()) motion.drag().add_to(std::span(records_), tuned::mass_factor);
   if (problem.space->identity) return totals;
@@ -90,7 +91,7 @@ void Masses<D>::project_out_averages(const BoundarySpace<D>& space,
 
 // Finds the masses of found components of F. Two particles and the components of a row share the
 // stretch (w_j - w_i + dF L) of a contact. Masses 0.8 sum kn L^2 times their number keep the unit
-// step stable.
+// step stable, and larger ones where kt is.
 template <int D>
 void Masses<D>::find_rows(const Problem<D>& problem, const Motion<D>& motion,
                           const ContactList<D>& contacts) {
@@ -102,6 +103,7 @@ void Masses<D>::find_rows(const Problem<D>& problem, const Motion<D>& motion,
     const auto branch = motion.fixed_branch(contacts.i[c], contacts.j[c]);
     for (std::size_t k = 0; k < D; ++k) sum[k] += kn * branch[k] * branch[k];
   }
+  const double factor = tuned::deformation_mass_factor * largest_over_normal(*problem.law);
   const double scale = motion.deformation_scale() * motion.deformation_scale();
   const double least = mean_stiffness() * motion.mean_branch() * motion.mean_branch() / scale;
   for (std::size_t i = 0; i < D; ++i) {
@@ -109,7 +111,7 @@ void Masses<D>::find_rows(const Problem<D>& problem, const Motion<D>& motion,
     for (std::size_t j = 0; j < D; ++j) number += space.found[D * i + j] ? 1 : 0;
     MassRecord<D> row{};
     for (std::size_t j = 0; j < D; ++j) {
-      component(row, j) = tuned::deformation_mass_factor * std::max(number * sum[j] / scale, least);
+      component(row, j) = factor * std::max(number * sum[j] / scale, least);
     }
     records_[problem.nodes() + i] = row;
   }

@@ -115,6 +115,13 @@ class Choose(unittest.TestCase):
             status, out, err = self.place.run("choose", "soft.toml", *options)
             self.assertEqual((status, out), (2, ""), err)
             self.assertIn(words, err)
+        self.place.write("inertia.toml", MATERIALS["soft"] + "[solver]\ninertia = true\n")
+        self.place.write("no_folder", "")
+        for arguments, words in ((("inertia.toml",), "inertia.toml: solver.inertia: found true, expected a material without it"),
+                                 (("soft.toml", "--output", "no_folder/out"), "--output no_folder/out: the directory cannot be made")):
+            status, out, err = self.place.run("choose", *arguments, "--error", "1")
+            self.assertEqual((status, out), (2, ""), err)
+            self.assertIn(words, err)
 
 
 if __name__ == "__main__":

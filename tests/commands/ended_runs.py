@@ -176,6 +176,10 @@ class EndedRuns(unittest.TestCase):
         status, out, err = self.place.run("compare", f"a={good}", f"a={good}", "--output", "out")
         self.assertEqual((status, out), (2, ""), err)
         self.assertIn("found the NAME a twice", err)
+        for table in ("a=", f"={good}", good):
+            status, out, err = self.place.run("compare", table, f"b={good}", "--output", "out")
+            self.assertEqual((status, out), (2, ""), err)
+            self.assertIn(f"found {table}, expected NAME=TABLE", err)
         for option in ("--stress-within", "--peak-within", "--volume-within"):
             for bound in ("nan", "-1"):
                 status, out, err = self.place.run("compare", f"a={good}", f"b={good}", "--output", "out",

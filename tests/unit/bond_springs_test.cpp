@@ -120,6 +120,22 @@ TEST(bond_springs, a_hundred_times_as_stiff_as_contacts_are_relaxed_as_published
   EXPECT_LE(relative_difference(found[1], found[0]), 1e-3);
 }
 
+// Tangential springs then decide how far a step of a relaxation may go.
+TEST(bond_springs, that_shear_ten_times_as_stiff_as_they_bear_find_their_equilibrium) {
+  ContactLaw bonds = springy_bonded_law(1e6), contacts = rough_law();
+  bonds.bond.tangential_stiffness = 10 * bonds.bond.normal_stiffness;
+  contacts.ratio = 10;
+  for (const ContactLaw& law : {bonds, contacts}) {
+    MaterialDescription description = describe_law(without_rattlers(small_packing()), law);
+    description.packing.contacts.clear();
+    State state(make_material(description));
+    const Evaluation at = evaluate(state, {1.0002, 1e-4, 0, 0.9996}, TangentKind::exact);
+    ASSERT_EQ(at.status, GRAINLAW_OK) << at.report.message;
+    EXPECT_LE(at.report.residual, description.solver.tolerance);
+    EXPECT_LT(at.report.relaxation_steps, 5000);
+  }
+}
+
 TEST(bond_springs, of_another_stiffness_are_another_material) {
   auto description = lattice();
   const auto one = make_material(description);

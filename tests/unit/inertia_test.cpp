@@ -264,6 +264,23 @@ TEST(inertia, a_long_step_is_equilibrium) {
   EXPECT_LT(last, 1e-6);
 }
 
+// Where bonds are stiffer than contacts, their period tells what a step resolves.
+TEST(inertia, stiff_bonds_that_a_step_does_not_resolve_come_to_rest) {
+  ContactLaw law = springy_bonded_law(1e9);
+  law.bond.normal_stiffness = 2e10;
+  law.bond.tangential_stiffness = 1e10;
+  State state(make_material(with_inertia(describe_law(small_packing(), law))));
+  const auto& packing = state.material().packing;
+  const double period = std::sqrt(particle_mass<2>(packing, mean_radius(packing.radius)) / 2e10);
+  state.set_time_step(5 * period);
+  const Tensor F = sum(identity, 1, squeeze);
+  advance(state, F);
+  const double start = measure(state, GRAINLAW_KINETIC_ENERGY);
+  EXPECT_GT(start, 0);
+  for (int n = 0; n < 20; ++n) advance(state, F);
+  EXPECT_LT(measure(state, GRAINLAW_KINETIC_ENERGY), 1e-6 * start);
+}
+
 TEST(inertia, any_time_step_is_solved_from_rest) {
   const auto material = make_material(with_inertia(describe(small_packing(), rough_law())));
   const double period = 1 / frequency_of(*material);

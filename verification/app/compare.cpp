@@ -195,7 +195,7 @@ void compare(const Arguments& arguments) {
   std::vector<std::filesystem::path> inputs;
   for (const std::string& table : arguments.tables) {
     const std::size_t end = table.rfind('=');
-    if (end == std::string::npos || end == 0)
+    if (end == std::string::npos || end == 0 || end + 1 == table.size())
       throw InputError(fmt::format("found {}, expected NAME=TABLE", table));
     const std::string name = table.substr(0, end);
     if (std::any_of(runs.begin(), runs.end(), [&](const Curves& run) { return run.name == name; }))

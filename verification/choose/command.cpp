@@ -93,6 +93,7 @@ void run_choose(const ChooseArguments& asked) {
   Outputs outputs;
   outputs.add(name, name, {".csv"});
   const OwnFiles own = asked.destination.claim(outputs, files_of(source));
+  const std::string file = asked.destination.stem(name).string() + ".csv";
   const Interrupt interrupt;
   Trial trial;
   {
@@ -113,7 +114,6 @@ void run_choose(const ChooseArguments& asked) {
     }
     return table;
   };
-  const auto file = asked.destination.stem(name).string() + ".csv";
   rows_of(trial.tried, "").write(file);
   const std::vector<Tried> best = best_choices(trial);
   rows_of(
