@@ -46,6 +46,15 @@ def _guarded(answer_on_failure):
     return decorate
 
 
+def _threads():
+    text = os.environ.get("GRAINLAW_THREADS")
+    if text is None:
+        return len(os.sched_getaffinity(0))
+    if not text.isdecimal() or int(text) < 1:
+        raise ValueError(f"GRAINLAW_THREADS is '{text}', expected a number of threads >= 1")
+    return int(text)
+
+
 class _Run:
     def __init__(self, material, loads, history, dimension, **options):
         self.material = grainlaw.Material(material)
@@ -63,7 +72,7 @@ class _Run:
         forces = ",".join(f"top_{axis}_force[{unit}]" for axis in axes)
         self.lines = {"_force.csv": [f"step[-],fraction[-],top_{axes[-1]}_displacement[m],{forces}"],
                       "_newton.csv": ["step[-],iteration[-],relative_residual[-]"]}
-        self.threads = int(os.environ.get("GRAINLAW_THREADS", len(os.sched_getaffinity(0))))
+        self.threads = _threads()
         self.rows = {}        # (element, point) -> number of the point
         self.states = None    # made when the first pass has told how many there are
         self.gradients = {}   # of this pass, by number of the point

@@ -24,7 +24,11 @@ class MicroSimulation:
         return self._output(self._state.answer(grainlaw.Tangent.EXACT))
 
     def solve(self, macro_data, dt):
-        F = np.array([macro_data[f"F{i + 1}"] for i in range(self._state.dimension)])
+        rows = [f"F{i + 1}" for i in range(self._state.dimension)]
+        if not all(row in macro_data for row in rows):
+            raise ValueError(f"micro simulation {self._id}: found {', '.join(macro_data)}, expected "
+                             f"{', '.join(rows)} in read_data_names")
+        F = np.array([macro_data[row] for row in rows])
         self._state.set_time_step(dt)
         answer = self._state.evaluate(F, grainlaw.Tangent.EXACT)   # from the start of the window
         self._solved = bool(answer.ok)

@@ -117,7 +117,7 @@ class Windows(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "micro simulation 0: .*0.1 times this one"):
             one.solve(macro(1.5 * ONE), 1.0)
         self.assertEqual(one.get_state(), before)
-        with self.assertRaises(KeyError):
+        with self.assertRaisesRegex(ValueError, "micro simulation 0: found F1, expected F1, F2 in read_data_names"):
             one.solve({"F1": ONE[0]}, 1.0)
         with self.assertRaises(grainlaw.Error):
             one.set_state({"bytes": before["bytes"][:-1]})
