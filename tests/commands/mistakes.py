@@ -3,7 +3,7 @@
 import os
 import unittest
 
-from command import MATERIAL, POINT, SOLVE, Place
+from command import MATERIAL, POINT, SOLVE, WAVE, Place
 
 SEGMENT = POINT.format(steps=2, stretch=0.9999)
 SCENE = "figure = false\n" + SEGMENT + MATERIAL
@@ -71,6 +71,19 @@ class Mistakes(unittest.TestCase):
     def test_pictures_that_the_path_does_not_reach_are_told(self):
         self.place.write("far.toml", "pictures = [5e-5, 0.5]\n" + SCENE)
         self.assertIn("reaches 1 of 2", self.told("point", "far.toml", status=0))
+
+    def test_a_material_of_a_wave_is_told_once(self):
+        self.place.write("w.toml", WAVE.format(repeat=3, duration=1e-4).replace("density = 2000", "density = 0"))
+        err = self.told("wave", "w.toml")
+        self.assertIn("packing.density: found 0, expected a number > 0", err)
+        self.assertEqual(err.count("w.toml"), 1, err)
+
+    def test_a_wave_without_sections_tells_no_differences_from_particles(self):
+        self.place.write("w.toml", WAVE.format(repeat=3, duration=1e-4).replace("[0.02]", "[]"))
+        found, out, err = self.place.run("wave", "w.toml")
+        self.assertEqual(found, 0, err)
+        self.assertIn("core-seconds\n", out)
+        self.assertNotIn("against particles", out)
 
 
 if __name__ == "__main__":

@@ -109,7 +109,7 @@ void run_case(const WaveCase& one, const std::filesystem::path& stem) {
     table.row(row);
     fmt::print("{}: {}, {} particles, {} steps, {:.2f} core-seconds{}{}\n", one.name,
                particles ? "particles" : run.name + " elements", run.particles, run.steps, run.cpu,
-               particles ? "" : "; largest |du| / A against particles:" + errors,
+               particles || errors.empty() ? "" : "; largest |du| / A against particles:" + errors,
                run.stopped ? fmt::format("\n  ended after {:.4g} of {:.4g} ms{}",
                                          run.rows.empty() ? 0 : 1e3 * run.rows.back().time,
                                          1e3 * one.duration, run.reason())

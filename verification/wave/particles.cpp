@@ -43,7 +43,11 @@ std::shared_ptr<const grainlaw::core::Material<2>> inner_material(const Material
     return grainlaw::core::material_of_discs(description.text, description.base,
                                              description.origin);
   } catch (const Error& error) {
-    fail(error, fmt::format("{}: {} ({})", description.origin, error.what(),
+    std::string told = error.what();
+    // Without the line, which is that of a text that nobody has.
+    if (told.starts_with(description.origin + ":"))
+      told.erase(0, told.find(": ", description.origin.size()) + 2);
+    fail(error, fmt::format("{}: {} ({})", description.origin, told,
                             grainlaw_status_text(error.status)));
   }
 }
