@@ -274,8 +274,8 @@ void WaveMotion::find_largest_time_step() {
     const double kn = std::max(list_.normal_stiffness[c], without_bond);
     const double kt =
         std::max(list_.tangential_stiffness[c], law_.tangential() ? law_.ratio * without_bond : 0);
-    const double kr_without = law_.ratio * without_bond *
-                              law_.rolling_ratio(specimen_->radius[i], specimen_->radius[j]);
+    const double kr_without =
+        law_.ratio * without_bond * law_.rolling_ratio(specimen_->radius[i], specimen_->radius[j]);
     const double kr =
         list_.bending_stiffness.empty() ? 0 : std::max(list_.bending_stiffness[c], kr_without);
     // A row of |K|: twice the normal and tangential stiffness for a node and its neighbour, kt for
