@@ -1,7 +1,6 @@
 #include "choose/choices.hpp"
 
 #include "app/cpu_time.hpp"
-#include "app/library.hpp"
 #include "app/packing_source.hpp"
 #include "app/scratch.hpp"
 #include "app/state_files.hpp"
@@ -197,11 +196,6 @@ Trial try_choices(const MaterialSource& material, double strain,
   const ScratchDirectory scratch;
   // The packing is made once.
   const Material as_it_is = make_material(material, dimension);
-  if (unfold(material).changes["solver"]["inertia"].value_or(false))
-    throw InputError(fmt::format(
-        "{}: solver.inertia: found true, expected a material without it: the host's time step says "
-        "how long an increment is, and no choice of these does",
-        material.file.string()));
   const State state(as_it_is);
   write_packing(state.get(), scratch / "packing");
   const MaterialSource source = with_packing(material, scratch / "packing");

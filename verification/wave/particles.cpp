@@ -47,8 +47,8 @@ std::shared_ptr<const grainlaw::core::Material<2>> inner_material(const Material
     // Without the line, which is that of a text that nobody has.
     if (told.starts_with(description.origin + ":"))
       told.erase(0, told.find(": ", description.origin.size()) + 2);
-    fail(error, fmt::format("{}: {} ({})", description.origin, told,
-                            grainlaw_status_text(error.status)));
+    fail(error,
+         fmt::format("{}: {} ({})", description.origin, told, grainlaw_status_text(error.status)));
   }
 }
 
