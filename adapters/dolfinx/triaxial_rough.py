@@ -3,7 +3,7 @@
 DOLFINx 0.5: verification/scenes/triaxial_rough.toml with plain hexahedra (-order 1) or with the quadratic ones of
 20 nodes (-order 2, the default).
 
-    OMP_NUM_THREADS=1 [mpirun -n 2] triaxial_rough.py triaxial_spheres.toml -cells 1 1 2 -steps 20 -output run
+    OMP_NUM_THREADS=1 [mpirun -n 2] triaxial_rough.py ../../verification/scenes/spheres200.toml -cells 1 1 2 -steps 20 -output run
 
 Writes run.csv: displacement of the upper platen, force on it, volumetric strain, residual, solves, cuts and
 core time. A load step is one unit of time.

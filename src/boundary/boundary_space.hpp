@@ -59,6 +59,7 @@ struct BoundarySpace {
   double solid_volume = 0;      // volume of the particles, copies counted once [m3]
   std::vector<int> source;      // [particles] identity of the particle; copies share it
   std::size_t sources = 0;
+  std::vector<int> copies;  // [sources] particles of each identity; empty: one
 
   // Reference of a condition bound to the axes of space, such as a layer between plates. It does
   // not rotate with the increment. Empty for all other conditions.

@@ -170,7 +170,7 @@ void WaveMotion::settle() {
   constexpr long most_steps = 50000;
   // Tolerance: a thousandth of the forces at a strain of 1 %.
   const double r = specimen_->mean_radius();
-  const double rest = 1e-5 * law_.stiffness(r, r) * r;
+  const double rest = 1e-5 * law_.of_bonds().stiffness(r, r) * r;
   double largest = 0;
   for (long step = 0; step < most_steps; ++step) {
     largest = 0;
@@ -274,7 +274,10 @@ void WaveMotion::find_largest_time_step() {
     const double kn = std::max(list_.normal_stiffness[c], without_bond);
     const double kt =
         std::max(list_.tangential_stiffness[c], law_.tangential() ? law_.ratio * without_bond : 0);
-    const double kr = list_.bending_stiffness.empty() ? 0 : list_.bending_stiffness[c];
+    const double kr_without =
+        law_.ratio * without_bond * law_.rolling_ratio(specimen_->radius[i], specimen_->radius[j]);
+    const double kr =
+        list_.bending_stiffness.empty() ? 0 : std::max(list_.bending_stiffness[c], kr_without);
     // A row of |K|: twice the normal and tangential stiffness for a node and its neighbour, kt for
     // both rotations R theta.
     for (const std::int32_t end : {list_.i[c], list_.j[c]}) {

@@ -2,8 +2,8 @@
 
 #include "base/constants.hpp"
 #include "equilibrium/stages.hpp"
-#include "increment/particle_masses.hpp"
 #include "math/inner_product.hpp"
+#include "packing/geometry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -90,7 +90,8 @@ Reversal<D> reversal_of(const Straining<D>& at, double kept, double slowest) {
   return result;
 }
 
-// Time step x frequency of a contact around which inertia is damped: explicit steps become unstable.
+// Time step x frequency of the stiffer of contacts and bonds, around which inertia is damped: explicit
+// steps become unstable.
 constexpr double damped_step = 2;
 // The shortest such step: W of a shorter one is no larger.
 constexpr double shortest_step = 1e-3;
@@ -103,8 +104,9 @@ DragStart<D> start_inertia(const Request<D>& request, Increment<D>& increment) {
   increment.begin(problem, *request.from, request.from->deformation);
   increment.find_first_drag(true);
   const double radius = 0.5 * increment.motion().mean_branch();
-  const double frequency = std::sqrt(problem.law->stiffness(radius, radius) /
-                                     particle_mass<D>(*problem.packing, radius));
+  const Packing& packing = *problem.packing;
+  const double frequency = std::sqrt(problem.law->largest_stiffness(radius, radius) /
+                                     particle_mass<D>(packing.density, radius, packing.thickness));
   const double ratio = request.duration * frequency / damped_step;
   const double resolved = std::max(request.duration, shortest_step / frequency);
   DragStart<D> how;
@@ -141,7 +143,7 @@ DragStart<D> start_drag(const Request<D>& request, int parts, Increment<D>& incr
   const double radius = 0.5 * increment.motion().mean_branch();
   how.stiffness = reversal.share * tuned::drag_stiffness<D> *
                   (increment.scale().mean_force() / radius +
-                   floor * request.problem->law->stiffness(radius, radius));
+                   floor * request.problem->law->of_bonds().stiffness(radius, radius));
   how.duration = std::min(reversal.share * at.duration / parts, tuned::longest_drag);
   const double bend = std::tanh(how.duration / tuned::longest_follow);
   how.follow = tuned::longest_follow * bend;

@@ -64,9 +64,11 @@ bool flew_away(const Request<D>& request, Increment<D>& increment) {
 template <int D>
 bool exploded(const Request<D>& request, double given, Increment<D>& increment) {
   if (increment.problem().space->finds_deformation) return false;
-  // Inertia holds forces in their place, however much an impact makes of them.
+  // Where a step resolves it, inertia holds forces in their place, however much an impact makes of them.
+  const double theta = increment.motion().drag().how().theta;
+  const bool resolves = theta > 0 && theta < 0.75;
   const bool gained = increment.scale().mean_force() > tuned::largest_gain * given;
-  return (gained && !request.problem->inertia) || flew_away(request, increment);
+  return (gained && !resolves) || flew_away(request, increment);
 }
 
 template <int D>

@@ -131,9 +131,9 @@ class Walk {
     if (!find()) {
       if (ran_away_) std::rethrow_exception(ran_away_);
       const auto& increment = workspace_.increment;
-      outcome_.status = collapsed(workspace_.increment)     ? GRAINLAW_COLLAPSED
-                        : increment.scale().touching() == 0 ? GRAINLAW_CONTACTS_LOST
-                                                            : GRAINLAW_NOT_CONVERGED;
+      outcome_.status = collapsed(workspace_.increment) ? GRAINLAW_COLLAPSED
+                        : !increment.held()             ? GRAINLAW_CONTACTS_LOST
+                                                        : GRAINLAW_NOT_CONVERGED;
       outcome_.step_ratio = 0.5;
     }
     workspace_.increment.cost = cost_;

@@ -18,11 +18,10 @@ void count_sources(const Packing& packing, BoundarySpace<2>& space) {
   space.source = packing.frame->source;
   space.sources =
       1 + static_cast<std::size_t>(*std::max_element(space.source.begin(), space.source.end()));
-  std::vector<char> counted(space.sources, 0);
+  space.copies.assign(space.sources, 0);
   for (std::size_t p = 0; p < packing.size(); ++p) {
-    auto& seen = counted[static_cast<std::size_t>(space.source[p])];
-    if (!seen) space.solid_volume += particle_volume<2>(packing.radius[p], packing.thickness);
-    seen = 1;
+    if (space.copies[static_cast<std::size_t>(space.source[p])]++ > 0) continue;
+    space.solid_volume += particle_volume<2>(packing.radius[p], packing.thickness);
   }
 }
 
@@ -53,6 +52,7 @@ BoundarySpace<2> make_boundary_space(const Packing& packing, const BoundaryOptio
     // Sides that do not share their fluctuations are not copies, even if cut as copies.
     space.source = space.node;
     space.sources = space.nodes;
+    space.copies.clear();
   }
   return space;
 }

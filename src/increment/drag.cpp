@@ -51,6 +51,7 @@ void Drag<D>::begin(const DragStart<D>& how, const BoundarySpace<D>& space, bool
                     const Tensor<D>& stretch, std::span<const double> affine,
                     std::span<const double> velocity) {
   how_ = how;
+  in_part_ = true;
   from_ = from;
   copy_with_capacity(start, part_start_);
   const std::size_t n = space.node.size();
@@ -189,6 +190,7 @@ void Drag<D>::set_first_force(std::span<const ForceRecord<D>> forces) {
 
 template <int D>
 void Drag<D>::set_first_force(std::span<const Place> particles) {
+  in_part_ = false;
   for (std::size_t q = 0; q < expected_.size(); ++q) {
     const auto distance =
         load<D>(particles[static_cast<std::size_t>(particle_[q])]) - load<D>(expected_[q]);

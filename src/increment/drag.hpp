@@ -58,6 +58,8 @@ class Drag {
   using Place = ParticleRecord<D>;
 
   void stop() { how_.stiffness = 0; }
+  // True from the start of a part until its end.
+  [[nodiscard]] bool in_part() const { return acts() && in_part_; }
   [[nodiscard]] bool acts() const { return how_.stiffness > 0; }
   [[nodiscard]] bool has_inertia() const { return acts() && how_.theta > 0; }
   [[nodiscard]] const DragStart<D>& how() const { return how_; }
@@ -154,6 +156,7 @@ class Drag {
   std::vector<ForceRecord<D>> first_;  // drag at the start of the part
   std::vector<double> node_velocity_;
   double rounding_ = 0;
+  bool in_part_ = false;
 };
 
 }  // namespace grainlaw::core

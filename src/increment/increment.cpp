@@ -78,7 +78,7 @@ void Increment<D>::advance_contacts_and_history() {
   const auto& law = *problem_->law;
   losses_.dissipate(advance_contacts<D>(motion_.records(), law, contacts_, forces_));
   motion_.restart_rotations();
-  if (losses_.after_break()) losses_.fall_to(potential_energy());
+  if (losses_.after_break()) losses_.fall_to(potential_energy() + dragged());
   history_.clear(pairs(), law);
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     if (bears_load(*this, c))
@@ -173,7 +173,7 @@ double Increment<D>::worst_bond() const {
 template <int D>
 bool Increment<D>::break_bonds() {
   if (!overloads_bonds()) return false;
-  const double energy = potential_energy();
+  const double energy = potential_energy() + dragged();
   continue_history();
   losses_.begin_break(energy);
   const double worst = worst_bond();

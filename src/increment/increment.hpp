@@ -55,6 +55,8 @@ class Increment : public ForceBalance<D> {
   void begin_drag(const DragStart<D>& how, std::span<const double> velocity, bool as_expected) {
     motion_.begin_drag(how, masses_.least(), velocity, as_expected);
   }
+  // Work of drag so far, that of a part that has not ended included [J].
+  [[nodiscard]] double dragged() { return losses_.dragged() + motion_.work_of_drag(); }
   void end_drag(std::vector<double>& velocity) { losses_.drag(motion_.end_drag(velocity)); }
 
   // Breaks overloaded bonds and restarts the history here; returns false if there is none. Breaks

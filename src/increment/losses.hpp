@@ -10,8 +10,8 @@ class Losses {
   void dissipate(double energy) { dissipated_ += energy; }
   // Adds the work of drag [J].
   void drag(double energy) { dragged_ += energy; }
-  // Begins a break of bonds at this potential energy [J]. Until end_break() its decrease is lost,
-  // by friction too.
+  // Begins a break of bonds at this energy [J]: potential energy with the work of drag so far, which
+  // takes up a part of what bonds set free. Until end_break() its decrease is lost, by friction too.
   void begin_break(double energy) {
     after_break_ = true;
     break_energy_ = energy;

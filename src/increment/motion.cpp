@@ -255,17 +255,25 @@ void Motion<D>::begin_drag(const DragStart<D>& how, std::span<const LeastMass<D>
               start_deformation_, stretch, affine_, velocity_);
   if (!as_expected) return;
   coordinates_ = affine_;
-  for (std::size_t k = 0; k < velocity_.size(); ++k) coordinates_[k] += how.follow * velocity_[k];
+  // Particles do not fly on through a step that is too long for what stops them.
+  const double flight = how.theta > 0 ? 2 * (1 - how.theta) * how.follow : how.follow;
+  for (std::size_t k = 0; k < velocity_.size(); ++k) coordinates_[k] += flight * velocity_[k];
+}
+
+template <int D>
+double Motion<D>::work_of_drag() {
+  if (!drag_.in_part()) return 0;
+  copy_with_capacity(drag_.start(), affine_);
+  carry_affinely(drag_.from(), deformation_, affine_.data());
+  load_records();
+  return drag_.work(records_, affine_);
 }
 
 template <int D>
 double Motion<D>::end_drag(std::vector<double>& velocity) {
-  copy_with_capacity(drag_.start(), affine_);
-  carry_affinely(drag_.from(), deformation_, affine_.data());
-  load_records();
+  const double work = work_of_drag();
   resize_with_capacity(velocity, coordinates_.size());
   drag_.find_velocity(*problem_->space, records_, affine_, part_deformation(), velocity);
-  const double work = drag_.work(records_, affine_);
   drag_.set_first_force(records_);
   return work;
 }

@@ -56,6 +56,8 @@ class Motion {
                   std::span<const double> velocity, bool as_expected);
   // Ends the part: writes the velocity of the masses and returns the work of the drag [J].
   double end_drag(std::vector<double>& velocity);
+  // Work of the drag since its part began; 0 between parts [J].
+  [[nodiscard]] double work_of_drag();
   [[nodiscard]] const Drag<D>& drag() const { return drag_; }
   // Deformation since drag began, as positions follow it.
   [[nodiscard]] Tensor<D> part_deformation() const {

@@ -1,9 +1,9 @@
 #include "increment/particle_masses.hpp"
 
 #include "base/capacity.hpp"
+#include "packing/geometry.hpp"
 
 #include <cstddef>
-#include <numbers>
 
 namespace grainlaw::core {
 
@@ -19,30 +19,17 @@ constexpr MassRecord<3> no_mass<3>{0, 0, 0, 0, 0, 0, {0, 0}};
 
 }  // namespace
 
-template <>
-double particle_mass<2>(const Packing& packing, double radius) {
-  return packing.density * packing.thickness * std::numbers::pi * radius * radius;
-}
-
-template <>
-double particle_mass<3>(const Packing& packing, double radius) {
-  return packing.density * 4 / 3 * std::numbers::pi * radius * radius * radius;
-}
-
 template <int D>
 void find_particle_masses(const Packing& packing, const BoundarySpace<D>& space,
                           std::vector<MassRecord<D>>& masses) {
-  constexpr double of_rotation = D == 2 ? 0.5 : 0.4;  // I / (m R^2) of discs and spheres
-  std::vector<double> copies(space.sources, 0.0);
-  for (const int source : space.source) ++copies[static_cast<std::size_t>(source)];
   resize_with_capacity(masses, space.nodes);
   for (auto& mass : masses) mass = no_mass<D>;
   for (std::size_t p = 0; p < space.node.size(); ++p) {
-    const double mass = particle_mass<D>(packing, packing.radius[p]) /
-                        copies[static_cast<std::size_t>(space.source[p])];
+    double mass = particle_mass<D>(packing.density, packing.radius[p], packing.thickness);
+    if (!space.copies.empty()) mass /= space.copies[static_cast<std::size_t>(space.source[p])];
     auto& of_node = masses[static_cast<std::size_t>(space.node[p])];
     for (std::size_t k = 0; k < Dimension<D>::unknowns; ++k) {
-      component(of_node, k) += k < D ? mass : of_rotation * mass;
+      component(of_node, k) += k < D ? mass : inertia_share<D> * mass;
     }
   }
 }

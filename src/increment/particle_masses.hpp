@@ -9,10 +9,6 @@
 
 namespace grainlaw::core {
 
-// Mass of a particle of the packing with this radius [kg].
-template <int D>
-double particle_mass(const Packing& packing, double radius);
-
 // Masses of the nodes; rotations R theta have I / R^2 [kg]. Copies of a particle share its mass.
 template <int D>
 void find_particle_masses(const Packing& packing, const BoundarySpace<D>& space,

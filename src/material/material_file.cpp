@@ -150,6 +150,10 @@ MaterialDescription read_description(TomlTable& top, const std::filesystem::path
   TomlTable packing = top.required_table("packing");
   description.law = read_contact(top.required_table("contact"), dimension);
   description.boundary = read_boundary(top.optional_table("boundary"));
+  if (description.boundary.inner_rotation == InnerRotation::fixed && !description.law.rotating())
+    top.required_table("boundary")
+        .fail("inner_rotation", "\"fixed\" where no particle rotates",
+              "none, or a contact with rotation");
   description.solver = read_solver(top.optional_table("solver"), description.boundary);
   top.finish();
   if (dimension == 3) check_spheres(top, description);

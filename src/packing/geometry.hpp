@@ -53,6 +53,10 @@ double particle_mass(double density, double radius, double thickness) {
   }
 }
 
+// Moment of inertia of a disc or sphere over its mass and the square of its radius [-].
+template <int D>
+constexpr double inertia_share = D == 2 ? 0.5 : 0.4;
+
 // Out-of-plane length that turns a force per length into a pressure: the thickness of discs, one
 // mean diameter of spheres [m].
 template <int D>

@@ -23,8 +23,8 @@ void physical_masses(const Increment<D>& increment, std::vector<double>& mass) {
     const double own = particle_mass<D>(packing.density, r, packing.thickness);
     for (std::size_t k = 0; k < D; ++k) mass[k * m + q] += own;
     if (!problem.law->rotating()) continue;
-    constexpr double share = D == 2 ? 0.5 : 0.4;  // moment of inertia over m R^2
-    for (std::size_t k = D; k < Dimension<D>::unknowns; ++k) mass[k * m + q] += share * own * r * r;
+    for (std::size_t k = D; k < Dimension<D>::unknowns; ++k)
+      mass[k * m + q] += inertia_share<D> * own * r * r;
   }
 }
 

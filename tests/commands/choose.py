@@ -115,6 +115,10 @@ class Choose(unittest.TestCase):
             status, out, err = self.place.run("choose", "soft.toml", *options)
             self.assertEqual((status, out), (2, ""), err)
             self.assertIn(words, err)
+        self.place.write("moving.toml", MATERIALS["soft"] + "[solver]\ninertia = true\n")
+        status, out, err = self.place.run("choose", "moving.toml", "--error", "1e-2")
+        self.assertEqual((status, out), (2, ""), err)
+        self.assertIn("moving.toml: solver.inertia: found true, expected a material that is in equilibrium", err)
 
 
 if __name__ == "__main__":

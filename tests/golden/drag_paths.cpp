@@ -1,4 +1,4 @@
-// Discs and spheres with drag: monotone, reversed, held, in parts and in uneven steps.
+// Discs and spheres with drag: monotone, reversed, held, in parts and in uneven steps; and with inertia.
 #include "path.hpp"
 
 namespace grainlaw::golden {
@@ -51,6 +51,18 @@ void turned(Path& path) {
   path.go_to({0.7984, -0.599, 0.602, 0.798});
 }
 
+// Squeezed fast, then held in steps that resolve the motion and in one that ends it.
+Lead hit(std::size_t dimension) {
+  return [dimension](Path& path) {
+    path.set_time_step(2e-5);
+    for (const double strain : {3e-4, 6e-4, 9e-4, 9e-4, 9e-4}) {
+      path.go_to(compressed(dimension, strain));
+    }
+    path.set_time_step(1e-2);
+    path.go_to(compressed(dimension, 9e-4));
+  };
+}
+
 void spread_and_closed(Path& path) {
   for (const double a : {1.001, 1.01, 1.02, 1.0, 0.999}) path.go_to({a, 0, 0, a});
 }
@@ -98,6 +110,10 @@ void lead_drag_paths(const On& on) {
      through(3, reversed));
   on("drag/spheres/uneven", made_spheres + sand_of_spheres + timed_drag, uneven(3));
   on("drag/spheres/rolling", made_spheres + rolling_sand_of_spheres + drag, through(3, reversed));
+  on("inertia/discs", made_discs + sand + solver("inertia = true"), hit(2));
+  on("inertia/discs/frame",
+     made_discs + sand + "[boundary]\ntype = \"frame-p\"\n" + solver("inertia = true"), hit(2));
+  on("inertia/spheres", made_spheres + sand_of_spheres + solver("inertia = true"), hit(3));
 }
 
 }  // namespace grainlaw::golden

@@ -71,6 +71,7 @@ Tensor after(int increments) {
 // Allocations of every evaluation of `increments`, committed one after the other.
 std::vector<long> allocations(State& state, TangentKind kind, int first, int last) {
   std::vector<long> result;
+  state.set_time_step(1e-5);
   for (int k = first; k <= last; ++k) {
     const Tensor F = after(k);
     Evaluation at;
@@ -121,6 +122,10 @@ std::vector<MaterialDescription> descriptions() {
     all.push_back(describe(small_packing(), rough_law(), boundary, 1e-8));
   }
   all.push_back(describe_layer(small_packing(), -1e5));
+  for (const auto boundary : {BoundaryType::periodic_cell, BoundaryType::frame_p}) {
+    all.push_back(describe(reference_packing(), rough_law(), boundary, 1e-8));
+    all.back().solver.inertia = true;
+  }
   return all;
 }
 

@@ -17,7 +17,7 @@ template <int D>
 double frequency_of(const Material<D>& material) {
   const double radius = mean_radius(material.packing.radius);
   return std::sqrt(material.law.stiffness(radius, radius) /
-                   particle_mass<D>(material.packing, radius));
+                   particle_mass<D>(material.packing.density, radius, material.packing.thickness));
 }
 
 // Compressed along one axis by `strain` within the time 10 and then held, in units of 1 / frequency.

@@ -10,6 +10,7 @@
 #include "increment/particle_masses.hpp"
 #include "io/text_file.hpp"
 #include "material/material_file.hpp"
+#include "math/inner_product.hpp"
 #include "packing/geometry.hpp"
 
 #include <cmath>
@@ -31,7 +32,7 @@ MaterialDescription with_inertia(MaterialDescription description) {
 double frequency_of(const Material& material) {
   const double radius = mean_radius(material.packing.radius);
   return std::sqrt(material.law.stiffness(radius, radius) /
-                   particle_mass<2>(material.packing, radius));
+                   particle_mass<2>(material.packing.density, radius, material.packing.thickness));
 }
 
 // States that were squeezed so fast that their particles lag behind.
@@ -305,6 +306,52 @@ TEST(inertia, long_steps_are_stable) {
     }
     EXPECT_LT(last, start);
   }
+}
+
+// Such a step damps all of the motion: what is left is an equilibrium, with no particle pushed through
+// another.
+TEST(inertia, steps_far_too_long_for_motion_end_it_without_a_gain) {
+  for (const double step : {1e2, 1e3}) {
+    SCOPED_TRACE(step);
+    State state(make_material(with_inertia(describe(small_packing(), smooth_law()))));
+    shake(state, 10, 0.5);
+    const Tensor F = state.committed().deformation;
+    const double kinetic = measure(state, GRAINLAW_KINETIC_ENERGY);
+    const double start = measure(state, GRAINLAW_ELASTIC_ENERGY) + kinetic;
+    const double overlap = measure(state, GRAINLAW_MEAN_OVERLAP);
+    state.set_time_step(step / frequency_of(state.material()));
+    for (int n = 0; n < 3; ++n) advance(state, F);
+    EXPECT_LT(measure(state, GRAINLAW_KINETIC_ENERGY), 1e-2 * kinetic);
+    EXPECT_LT(measure(state, GRAINLAW_ELASTIC_ENERGY), start);
+    EXPECT_LT(measure(state, GRAINLAW_MEAN_OVERLAP), 1.5 * overlap);
+  }
+}
+
+// Bonds that break set energy free. What particles take up as motion is not dissipated too.
+TEST(inertia, what_broken_bonds_set_free_counts_once) {
+  State state(make_material(with_inertia(describe_law(small_packing(), bonded_law(1)))));
+  state.set_time_step(0.2 / frequency_of(state.material()));
+  const Packing& packing = state.material().packing;
+  const double volume = determinant<2>(packing.cell.data()) * packing.thickness;
+  const auto energy = [&] {
+    return measure(state, GRAINLAW_ELASTIC_ENERGY) + measure(state, GRAINLAW_KINETIC_ENERGY) +
+           measure(state, GRAINLAW_DISSIPATED_ENERGY);
+  };
+  const double start = energy();
+  const Tensor change{0, 0, 0, 2e-5};
+  Tensor F = state.committed().deformation, last{};
+  double work = 0;
+  for (int n = 0; n < 400; ++n) {
+    const Evaluation at = evaluate(state, F);
+    ASSERT_EQ(at.status, GRAINLAW_OK);
+    state.commit();
+    if (n > 0) work += 0.5 * volume * inner<2>(sum(at.stress, 1, last), change);
+    last = at.stress;
+    F = sum(F, 1, change);
+  }
+  const double dissipated = measure(state, GRAINLAW_DISSIPATED_ENERGY);
+  EXPECT_GT(measure(state, GRAINLAW_BROKEN_BONDS), 5);
+  EXPECT_NEAR(energy() - start, work, 0.02 * dissipated);
 }
 
 TEST(inertia, refuses_what_contradicts_it) {

@@ -134,6 +134,10 @@ bool has_drag(const MaterialSource& source) {
   return unfold(source).changes["solver"]["viscous_number"].value_or(0.0) > 0;
 }
 
+bool has_inertia(const MaterialSource& source) {
+  return unfold(source).changes["solver"]["inertia"].value_or(false);
+}
+
 Material make_material(const MaterialSource& source, int dimension) {
   const bool as_it_is = source.changes.empty() && !source.file.empty();
   const MaterialText text = as_it_is ? MaterialText{} : material_text(source);

@@ -53,6 +53,7 @@ std::vector<std::filesystem::path> files_of(const MaterialSource& source);
 int dimension_of(const MaterialSource& source);
 // Whether its law is one in time.
 bool has_drag(const MaterialSource& source);
+bool has_inertia(const MaterialSource& source);
 
 // Creates the material. Throws InputError for a wrong description or dimension, ComputationError
 // without an equilibrium at F = I.

@@ -93,6 +93,12 @@ void run_choose(const ChooseArguments& asked) {
   Outputs outputs;
   outputs.add(name, name, {".csv"});
   const OwnFiles own = asked.destination.claim(outputs, files_of(source));
+  if (has_inertia(source))
+    throw InputError(
+        fmt::format("{}: solver.inertia: found true, expected a material that is in equilibrium or "
+                    "has drag: the "
+                    "error of inertia is by the host's time step",
+                    asked.material));
   const Interrupt interrupt;
   Trial trial;
   {

@@ -187,15 +187,11 @@ class Ground:
             raise ValueError("geostatic: the ground has its weight already, expected this call once")
         self._check_held()
         self._make()
-        weights = self._weigh()
-        self._lead(weights, surcharge, 0.5)
-        self._lead(weights, surcharge, 1, route="k0", overconsolidation=overconsolidation)
-        for _ in range(10):
-            former, weights = weights, self._weigh()
-            if np.abs(weights / former - 1).max() < 1e-9:
-                break
-            self._lead(weights, surcharge, 1, route="k0")
-        self.unit_weights = weights
+        try:
+            weights = self.unit_weights = self._weights_at_rest(surcharge, overconsolidation)
+        except Exception:
+            self._made = False   # another call begins anew
+            raise
         self._unit.x.array[:] = self.points.scalars(weights[self.points.layer]).x.array
         self._load.x.array[:] += self._body(self._unit).x.array
         self._evaluate()
@@ -329,6 +325,18 @@ class Ground:
         dofs = self._nodes(where, component, "force")
         left = self._residual_function(self.fraction).x.array
         return float(-self.comm.allreduce(left[dofs[dofs < self.owned]].sum()))
+
+    def _weights_at_rest(self, surcharge: float, overconsolidation: float) -> Array:
+        """Lead points to the stress of the weights above them, which follow from void ratios there."""
+        weights = self._weigh()
+        self._lead(weights, surcharge, 0.5)
+        self._lead(weights, surcharge, 1, route="k0", overconsolidation=overconsolidation)
+        for _ in range(10):
+            former, weights = weights, self._weigh()
+            if np.abs(weights / former - 1).max() < 1e-9:
+                break
+            self._lead(weights, surcharge, 1, route="k0")
+        return weights
 
     def _make(self) -> None:
         """Points of the layers, and what is assembled over them."""

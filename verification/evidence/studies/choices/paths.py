@@ -51,7 +51,7 @@ def lead(material, increment, nudge=0.0, tangent=None, ranges=tuple(RANGES), fin
             steps = max(1, round((look - at) / (fine if finest else increment)))
             for strain in np.linspace(at, look, steps + 1)[1:]:
                 F = deformation(strain, state.dimension)
-                F[0, 0] += nudge if strain < 0.002 else 0
+                F[0, 0] += nudge if strain < 0.002 or at == 0 and steps == 1 else 0
                 found = state.evaluate(F, tangent)
                 if not found.ok:
                     return led
