@@ -93,7 +93,7 @@ Reversal<D> reversal_of(const Straining<D>& at, double kept, double slowest) {
 // Time step x frequency of the stiffer of contacts and bonds, around which inertia is damped: explicit
 // steps become unstable.
 constexpr double damped_step = 2;
-// The shortest such step: W of a shorter one is no larger.
+// Shorter steps have the weight of this one: beside a larger one rounding would hide contact forces.
 constexpr double shortest_step = 1e-3;
 
 // Steps that no explicit integration could take have a weight above 1/2, which damps what they do not

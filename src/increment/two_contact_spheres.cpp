@@ -175,13 +175,18 @@ void TwoContactSpheres::stop(const ForceBalance<3>& balance) {
     arbitrary_ = arbitrary_ || count_[neighbour] < two;
   }
   arbitrary_ = arbitrary_ || std::ranges::any_of(spheres_, [this](const TwoContactSphere& sphere) {
-                 return sphere.stopped() && stopped_by(sphere.third_neighbour) == sphere.third;
+                 return sphere.stopped() && stops_itself(sphere);
                });
 }
 
-// The contact that stops this node, if it is a two-contact sphere that is stopped.
-std::size_t TwoContactSpheres::stopped_by(std::size_t node) const {
-  return index_[node] == none ? none : spheres_[index_[node]].third;
+// True where those that stop this sphere, one after the other, lead back to it.
+bool TwoContactSpheres::stops_itself(const TwoContactSphere& sphere) const {
+  std::size_t node = sphere.third_neighbour;
+  for (std::size_t k = 0; k < spheres_.size() && node != sphere.node; ++k) {
+    if (index_[node] == none || !spheres_[index_[node]].stopped()) return false;
+    node = spheres_[index_[node]].third_neighbour;
+  }
+  return node == sphere.node;
 }
 
 void TwoContactSpheres::add_to(std::size_t nodes, std::span<double> residual) const {

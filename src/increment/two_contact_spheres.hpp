@@ -78,7 +78,7 @@ class TwoContactSpheres {
   void limit_by_third(const ForceBalance<3>& balance, std::size_t contact, std::size_t node,
                       double side);
   void stop(const ForceBalance<3>& balance);
-  [[nodiscard]] std::size_t stopped_by(std::size_t node) const;
+  [[nodiscard]] bool stops_itself(const TwoContactSphere& sphere) const;
 
   std::vector<TwoContactSphere> spheres_;
   std::vector<unsigned char> count_;  // contacts of a node, at most three

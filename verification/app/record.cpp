@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace verification {
 
@@ -58,14 +59,18 @@ RecordOf<D> make_record(const grainlaw_state* state, const TensorOf<D>& deformat
 }
 
 template <int D>
-RecordOf<D> mean(const std::vector<RecordOf<D>>& records) {
+RecordOf<D> mean(const std::vector<RecordOf<D>>& records, std::vector<double> weight) {
   using Record = RecordOf<D>;
   Record sum;
   if (records.empty()) return sum;
   sum.deformation.setZero();
+  const auto [least, most] = std::minmax_element(weight.begin(), weight.end());
+  const bool alike = *most - *least < 1e-9 * *most;  // but for rounding
+  if (alike) weight.assign(records.size(), 1.0);
+  const double total = std::accumulate(weight.begin(), weight.end(), 0.0);
   const auto add = [&](auto member) {
-    for (const Record& record : records) sum.*member += record.*member;
-    sum.*member /= static_cast<double>(records.size());
+    for (std::size_t p = 0; p < records.size(); ++p) sum.*member += weight[p] * (records[p].*member);
+    sum.*member /= total;
   };
   for (const auto member :
        {&Record::deformation, &Record::stress, &Record::cauchy, &Record::fabric})
@@ -144,8 +149,8 @@ template RecordOf<2> make_record<2>(const grainlaw_state*, const TensorOf<2>&, c
                                     const grainlaw_report&);
 template RecordOf<3> make_record<3>(const grainlaw_state*, const TensorOf<3>&, const TensorOf<3>&,
                                     const grainlaw_report&);
-template RecordOf<2> mean<2>(const std::vector<RecordOf<2>>&);
-template RecordOf<3> mean<3>(const std::vector<RecordOf<3>>&);
+template RecordOf<2> mean<2>(const std::vector<RecordOf<2>>&, std::vector<double>);
+template RecordOf<3> mean<3>(const std::vector<RecordOf<3>>&, std::vector<double>);
 template std::vector<std::string> record_columns<2>(bool);
 template std::vector<std::string> record_columns<3>(bool);
 template std::vector<double> record_values<2>(const RecordOf<2>&, bool);

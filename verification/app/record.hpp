@@ -79,9 +79,10 @@ template <int D>
 RecordOf<D> make_record(const grainlaw_state* state, const TensorOf<D>& deformation,
                         const TensorOf<D>& stress, const grainlaw_report& report);
 
-// Mean over points, except for step, effort and numbers derived from F; of `unbalanced` the largest.
+// Mean over points of these weights, except for step, effort and numbers derived from F; of
+// `unbalanced` the largest.
 template <int D>
-RecordOf<D> mean(const std::vector<RecordOf<D>>& records);
+RecordOf<D> mean(const std::vector<RecordOf<D>>& records, std::vector<double> weight);
 
 // With drag the last one is `unbalanced`.
 template <int D = 2>

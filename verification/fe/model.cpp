@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 namespace verification {
 
@@ -248,14 +249,16 @@ Effort PointField::effort() const {
 BodyRecord PointField::record() {
   BodyRecord record = in_dimension(dimension_, [&]<int D>() {
     std::vector<RecordOf<D>> records;
+    std::vector<double> volume;
     for (std::size_t p = 0; p < points_.size(); ++p) {
       // F is that of the mesh, whose mean is that of the body; the Cauchy stress is the packing's.
       records.push_back(make_record<D>(state(p), tensor<D>(mesh_deformation_, p),
                                        mean_volume_[p].on_mesh(tensor<D>(stress_, p)),
                                        reports_[p]));
       records.back().external_work = points_[p].work;
+      volume.push_back(points_[p].geometry.weight);
     }
-    return BodyRecord(mean(records));
+    return BodyRecord(mean(records, std::move(volume)));
   });
   record.effort = effort();
   for (Point& point : points_) point.effort = {};
