@@ -13,7 +13,8 @@
 //   grainlawAnswer(sand, P [, A])                      P and A as they were committed, without an
 //                                                      increment: after grainlawLoad
 //   grainlawSetTimeStep(sand, time)                    how long increments take from now on, for a
-//                                                      material with solver.viscous_rate
+//                                                      material with solver.viscous_rate or
+//                                                      solver.inertia (then in s)
 //   grainlawStepRatio(sand), grainlawFirstFailed(sand), grainlawMessage(sand)
 //       of the last evaluation: by how much to shorten the step, which point failed first (-1:
 //       none) and why

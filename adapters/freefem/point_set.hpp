@@ -41,7 +41,8 @@ class PointSet {
   void consolidate(const Array& sigma, const Array& reached, const std::string& route,
                    double overconsolidation);
 
-  // How long increments take from now on: a material with solver.viscous_rate asks for it.
+  // How long increments take from now on: a material with solver.viscous_rate or solver.inertia asks
+  // for it.
   void set_time_step(double step);
 
   // All points, or none: refused unless the last evaluation found an equilibrium in each of them.

@@ -19,8 +19,9 @@ using namespace grainlaw::core;
 
 namespace {
 
-// Evaluates points of a set unless they are refused, with the outcome of all ranks. call(points, order)
-// returns the summary of points numbered as in the call; why() says what is wrong with one refused.
+// Evaluates points of a set unless they are refused, with the outcome of all ranks. call(points,
+// order) returns the summary of points numbered as in the call; why() says what is wrong with one
+// refused.
 template <class Why, class Call>
 grainlaw_status evaluate(grainlaw_points& set, api::SomePoints some, grainlaw_status checked,
                          const Why& why, grainlaw_status* status, grainlaw_summary* summary,

@@ -5,8 +5,8 @@
 
 namespace grainlaw::core {
 
-// Finds the forces at the start of the increment and returns the drag of one of `parts` equal parts,
-// or the inertia of the increment. It begins anew afterwards. @formula viscous, inertia-step
+// Finds the forces at the start of the increment and returns the drag of one of `parts` equal
+// parts, or the inertia of the increment. It begins anew afterwards. @formula viscous, inertia-step
 template <int D>
 DragStart<D> start_drag(const Request<D>& request, int parts, Increment<D>& increment);
 

@@ -24,7 +24,7 @@ struct Workspace {
   NewtonMemory<D> newton;
   Sensitivity<D> sensitivity;
   std::vector<double> guess, guess_step;
-  std::vector<double> velocity;       // of the drag's masses at the end of the last part
+  std::vector<double> velocity;       // of the Configuration at the end of the last part
   std::vector<unsigned char> loaded;  // nodes that bear, while the report counts them
 };
 
@@ -44,7 +44,7 @@ struct Request {
   std::array<double, Dimension<D>::spins> turn{};  // that rotation [rad]
   double tolerance = 1e-6;
   double loose_tolerance = 0;   // for this request, see SolverOptions
-  double duration = by_strain;  // of the increment [memories]
+  double duration = by_strain;  // of the increment [memories; with inertia s]
   Trying trying = Trying::all;
   bool sensitivities = false;
   // Coordinates at guess_deformation from which the iteration starts, rotations relative to `from`.

@@ -6,10 +6,9 @@
 
 namespace grainlaw::core {
 
-// P at V of F = I, tension positive [Pa], row-major, @formula stress with f_c on j, and with inertia
-// its kinetic part. At equilibrium
-// it equals @formula boundary-stress of a frame (Liu, Bosco & Suiker 2017, eq. 23). In the cell it
-// is Love's formula (Guo & Zhao 2014, eq. 5).
+// P at V of F = I, tension positive [Pa], row-major, @formula stress with f_c on j, and with
+// inertia its kinetic part. At equilibrium it equals @formula boundary-stress of a frame (Liu,
+// Bosco & Suiker 2017, eq. 23). In the cell it is Love's formula (Guo & Zhao 2014, eq. 5).
 template <int D>
 Tensor<D> piola_stress(const Increment<D>& increment);
 

@@ -27,10 +27,10 @@ struct Configuration {
   std::vector<double> bond_gaps;  // stress-free branch - (R_i + R_j), one per contact; empty unless
                                   // bonds span gaps [m]
   double broken_bonds = 0;        // since F = I, weighted as their contacts [-]
-  // Velocity of the drag's masses, as positions [m] and rotation vectors [rad] per memory, and the
-  // mean strain rate [1 / memory]. Empty without drag.
+  // Velocity of the drag's masses, as positions [m] and rotation vectors [rad] per memory. With
+  // inertia that of the particles' fluctuations, per s. Empty without both.
   std::vector<double> velocity;
-  Tensor<D> strain_rate{};
+  Tensor<D> strain_rate{};  // mean, of drag [1 / memory]
 };
 
 // True if no value is infinite or NaN.

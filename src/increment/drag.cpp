@@ -255,7 +255,7 @@ void Drag<D>::find_mass_velocity(std::span<const Place> particles, std::span<con
   }
 }
 
-// v = w - (1 - G^-T) (v_0 + w) / 2 with the free velocity w; rotations w.  @formula inertia-velocity
+// v = w - (1 - G^-T) (v_0 + w) / 2 with the free velocity w; rotations w. @formula inertia-velocity
 template <int D>
 void Drag<D>::find_particle_velocity(const BoundarySpace<D>& space,
                                      std::span<const Place> particles, const Tensor<D>& stretch) {

@@ -1,14 +1,15 @@
 // What holds back the fluctuations where they take time: drag, or the inertia of the particles.
 //
-// Drag is by a spring, a dashpot and a mass in series. A part of an increment solves their equations
-// exactly for a constant velocity of the fluctuations.
+// Drag is by a spring, a dashpot and a mass in series. A part of an increment solves their
+// equations exactly for a constant velocity of the fluctuations.
 //   r(z) = f = W (z - z*),  W = k exp(-h),  z* = G (x + t u - (1 - h) f_0 / k)   @formula viscous
 // x: positions at the start of the part [m]. u: velocity of the masses there [m per memory]. f_0:
-// drag there [N]. G: deformation of the part. h: its duration, t: h, bounded [memories]. k: stiffness of
-// the springs [N/m]. Rotations likewise, without G. Rearrangements, which are jumps between equilibria,
-// then take time.
+// drag there [N]. G: deformation of the part. h: its duration, t: h, bounded [memories]. k:
+// stiffness of the springs [N/m]. Rotations likewise, without G. Rearrangements, which are jumps
+// between equilibria, then take time.
 //
-// Inertia is that of the particles' masses, by an implicit step of the time t with the weight theta.
+// Inertia is that of the particles' masses, by an implicit step of the time t with the weight
+// theta.
 //   r(z) = W (z - z*),  W = m / (theta t)^2,  z* = G x + t v + (1 / theta - 1) f_0 / W
 // v: velocity of the fluctuations [m/s]. f_0: contact forces at the start.   @formula inertia-step
 #pragma once
@@ -115,13 +116,14 @@ class Drag {
   // Distance of node q from its expected position that F carries along: all of it, but with inertia
   // that from affine motion [m].
   [[nodiscard]] Place carried_excess(std::size_t q, std::span<const Place> particles) const;
-  // Velocity of the mass of node q at the start of the part; rotations as lengths [m per memory].
+  // Velocity of the mass of node q at the start of the part; rotations as lengths [m per memory;
+  // with inertia m/s].
   [[nodiscard]] const Place& velocity(std::size_t q) const { return velocity_[q]; }
   // Length of the spring of node q at the start of the part, f_0 / k [m].
   [[nodiscard]] const Place& spring(std::size_t q) const { return spring_[q]; }
 
-  // With inertia: velocity of node q at the end of the part, component k [m/s]. It is found from the
-  // free velocity, before F acts on it. @formula inertia-velocity
+  // With inertia: velocity of node q at the end of the part, component k [m/s]. It is found from
+  // the free velocity, before F acts on it. @formula inertia-velocity
   [[nodiscard]] double end_velocity(std::size_t q, std::size_t k) const {
     return node_velocity_[k * expected_.size() + q];
   }

@@ -49,9 +49,9 @@ class Motion {
 
   // Takes contact forces on the nodes at the start of the increment as the drag there.
   void set_first_drag(std::span<const ForceRecord<D>> forces) { drag_.set_first_force(forces); }
-  // Begins drag or inertia from the start of the history to the present F. `velocity` is that of its
-  // masses there (empty: 0). `contact_stiffness` is that of one contact, per node. With `as_expected`,
-  // particles go on as the masses move.
+  // Begins drag or inertia from the start of the history to the present F. `velocity` is that of
+  // its masses there (empty: 0). `contact_stiffness` is that of one contact, per node. With
+  // `as_expected`, particles go on as the masses move.
   void begin_drag(const DragStart<D>& how, std::span<const LeastMass<D>> contact_stiffness,
                   std::span<const double> velocity, bool as_expected);
   // Ends the part: writes the velocity of the masses and returns the work of the drag [J].

@@ -8,7 +8,8 @@
 //   [F of the packing where that of the host is I, dim*dim];
 //   u64 XXH3 of everything before.
 // Parts in brackets exist only with a law that has bonds, moments, drag or inertia, and of a state
-// that was consolidated. Versions: 2, with velocities 4, consolidated 5, both 6; 3 was of an earlier drag.
+// that was consolidated. Versions: 2, with velocities 4, consolidated 5, both 6; 3 was of an
+// earlier drag.
 #include "state/serialise.hpp"
 
 #include "base/error.hpp"

@@ -16,13 +16,22 @@ struct Law {
   const char* name;
   const char* file;
   const char* more;
+  const char* of_bonds = "";  // more keys of `bond`
 };
+
+std::string text_of(const Law& law) {
+  std::string text = read_text(data_directory + "/" + law.file) + law.more;
+  const std::string bond = "bond = {";
+  if (*law.of_bonds != 0) text.insert(text.find(bond) + bond.size(), law.of_bonds);
+  return text;
+}
+
+constexpr const char* springs = " normal_stiffness = 4e7, tangential_stiffness = 1.5e7,";
 
 class saved_material : public testing::TestWithParam<Law> {};
 
 TEST_P(saved_material, gives_the_bits_of_the_one_that_was_read) {
-  const Material read = Material::parse(
-      read_text(data_directory + "/" + GetParam().file) + GetParam().more, data_directory);
+  const Material read = Material::parse(text_of(GetParam()), data_directory);
   const Bytes bytes = read.save();
   const Material made = Material::load_saved(bytes);
   EXPECT_EQ(made.fingerprint(), read.fingerprint());
@@ -34,6 +43,7 @@ TEST_P(saved_material, gives_the_bits_of_the_one_that_was_read) {
     F[k] = k % (d + 1) == 0 ? 1 - 3e-4 * static_cast<double>(k) : 1e-4 * static_cast<double>(k);
   }
   State state(read), other(made);
+  for (State* one : {&state, &other}) one->set_time_step(1e-6);  // inertia asks for it
   for (int step = 0; step < 2; ++step) {
     ASSERT_TRUE(state.evaluate(F, P, GRAINLAW_WANT_TANGENT_EXACT, A));
     ASSERT_TRUE(other.evaluate(F, other_P, GRAINLAW_WANT_TANGENT_EXACT, other_A));
@@ -49,9 +59,14 @@ INSTANTIATE_TEST_SUITE_P(
     laws, saved_material,
     testing::Values(Law{"friction", "rve400.toml", ""},
                     Law{"drag", "rve400.toml", "[solver]\nviscous_number = 1e-3\n"},
+                    Law{"inertia", "rve400.toml", "[solver]\ninertia = true\n"},
                     Law{"frame", "rve400.toml", "[boundary]\ntype = \"frame-p\"\n"},
+                    Law{"locked_inside", "rve400.toml",
+                        "[boundary]\ntype = \"frame-p\"\ninner_rotation = \"fixed\"\n"},
                     Law{"uniform_stress", "rve400.toml", "[boundary]\ntype = \"frame-t\"\n"},
-                    Law{"bonds", "bonded100.toml", ""}, Law{"spheres", "spheres500.toml", ""}),
+                    Law{"bonds", "bonded100.toml", ""},
+                    Law{"bond_springs", "bonded100.toml", "", springs},
+                    Law{"spheres", "spheres500.toml", ""}),
     [](const auto& law) { return std::string(law.param.name); });
 
 TEST(material_fingerprint, tells_any_other_key) {
@@ -61,10 +76,15 @@ TEST(material_fingerprint, tells_any_other_key) {
   EXPECT_EQ(all[0], all[1]);
   for (const char* more :
        {"[solver]\ntolerance = 1e-7\n", "[solver]\nviscous_number = 1e-3\n",
-        "[solver]\ncontacts_lost = \"stress_free\"\n", "[boundary]\ntype = \"frame-p\"\n"})
+        "[solver]\ninertia = true\n", "[solver]\ncontacts_lost = \"stress_free\"\n",
+        "[boundary]\ntype = \"frame-p\"\n",
+        "[boundary]\ntype = \"frame-p\"\ninner_rotation = \"fixed\"\n"})
     all.push_back(Material::parse(text + more, data_directory).fingerprint());
+  for (const char* of_bonds : {"", springs})
+    all.push_back(Material::parse(text_of({"", "bonded100.toml", "", of_bonds}), data_directory)
+                      .fingerprint());
   std::sort(all.begin(), all.end());
-  EXPECT_EQ(std::unique(all.begin(), all.end()) - all.begin(), 5);
+  EXPECT_EQ(std::unique(all.begin(), all.end()) - all.begin(), 9);
 }
 
 TEST(material_fingerprint, of_a_law_without_its_files) {

@@ -33,8 +33,7 @@ class PointField {
   // Throws ComputationError when F = I cannot be evaluated.
   PointField(const Model& model, const Material& material);
 
-  // Sets the duration of the following evaluations; with solver.viscous_rate the drag depends on
-  // it.
+  // Sets the duration of the following evaluations, for solver.viscous_rate and solver.inertia.
   void set_time_step(double step);
   // Evaluates F at every point for these displacements in one batch. Returns the status of the
   // first failed point.

@@ -16,7 +16,7 @@ constexpr KeyText texts[] = {
      "contacts are found and the packing relaxed"},
     {"packing.cell", "", "table of the cell"},
     {"packing.density", "kg/m3",
-     "of the particles; only the reference methods and dynamics use it"},
+     "of the particles; `solver.inertia`, the reference methods and dynamics use it, nothing else"},
     {"packing.count", "-", "particles, of compaction and growth"},
     {"packing.radii", "m", "uniform by number between the two, of compaction and growth"},
     {"packing.seed", "-", "of chance: the same seed makes the same packing"},
@@ -138,10 +138,8 @@ constexpr KeyText texts[] = {
     {"solver.viscous_steps", "-", "parts of an increment with `viscous_number`"},
     {"solver.inertia", "",
      "fluctuations have the mass of the particles, by `packing.density`, for waves: the host has "
-     "to "
-     "tell its time step in s, and an increment is one step; not with \"T\", a prescribed stress "
-     "or "
-     "`viscous_number`"},
+     "to tell its time step in s, and an increment is one step; not with \"T\", a prescribed "
+     "stress or `viscous_number`"},
     {"solver.published.damping", "-", "of \"published\": local damping"},
     {"solver.published.time_step_ratio", "-", "of \"published\": time step / critical one"},
     {"solver.published.energy_tolerance", "-",

@@ -38,7 +38,8 @@ _MOST_CUTS = 1000
 class March:
     """A way through load steps that are cut where they fail, and whose parts grow again after it.
     Options are those of grainlaw_march_options, with their defaults. A set of points is told the time
-    of each part, for a material with solver.viscous_rate; where it is shared by ranks they decide alike."""
+    of each part, for a material with solver.viscous_rate or solver.inertia; where it is shared by ranks they
+    decide alike."""
 
     load: float       #: to be reached now
     time: float       #: that it takes, over the time of the load step [-]

@@ -269,9 +269,9 @@ class States:
               message.value.decode(errors="replace"))
 
     def set_time_step(self, step: float) -> None:
-        """How long increments take from now on, in the host's unit: a material with
-        solver.viscous_rate asks for it before it deforms; a March tells it. 0: they take no time,
-        and F has to stay."""
+        """How long increments take from now on, in the unit of solver.viscous_rate, with
+        solver.inertia in s: a material with either asks for it before it deforms; a March tells it.
+        0: they take no time, and F has to stay."""
         step = number("time step", step, bad_argument)
         if step < 0:
             raise bad_argument(f"time step {step!r}: expected a number of at least 0")

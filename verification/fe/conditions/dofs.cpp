@@ -194,8 +194,7 @@ Dofs number_dofs(const Model& model) {
   if (dofs.prescribed_at(0).any())
     throw InputError(
         fmt::format("{}: found a displacement or jump that is not 0 at time 0, expected 0 there: a "
-                    "run starts at "
-                    "F = I",
+                    "run starts at F = I",
                     moved_at_start(model)));
   return dofs;
 }

@@ -50,8 +50,9 @@ typedef struct grainlaw_calculix_material {
 } grainlaw_calculix_material;
 
 /* One call of CalculiX. F0, F1[9]: deformation gradient at the start and the end of the increment,
- * column by column. dtime: its time, for solver.viscous_rate. stress_only: icmd is 3. stress[6]: second Piola-Kirchhoff stress 11 22 33 12 13
- * 23 [Pa]. stiffness[21]: dS/dE, upper triangle column by column, of the symmetric part [Pa].
+ * column by column. dtime: its time, for solver.viscous_rate or solver.inertia (then in s).
+ * stress_only: icmd is 3. stress[6]: second Piola-Kirchhoff stress 11 22 33 12 13 23 [Pa].
+ * stiffness[21]: dS/dE, upper triangle column by column, of the symmetric part [Pa].
  * pnewdt: set to a number in 0..1 when the increment has to be cut; stress and stiffness are then
  * those of the start, the stiffness elastic, since CalculiX solves once more before it cuts. What
  * is wrong otherwise is printed as CalculiX prints its own errors, once, and asks for cuts too,

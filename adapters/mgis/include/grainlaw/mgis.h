@@ -61,7 +61,7 @@ typedef struct grainlaw_mgis_state {
 /* The struct that a host hands over: mfront_gb_BehaviourData, mgis_bv_BehaviourDataView. */
 typedef struct grainlaw_mgis_data {
   char* error_message;    /* NULL or 512 characters */
-  double dt;              /* time increment, for solver.viscous_rate */
+  double dt;              /* time increment, for solver.viscous_rate or solver.inertia */
   double* K;              /* in: request, stress, tangent; out: tangent, row by row [Pa] */
   double* rdt;            /* factor on the time step */
   double* speed_of_sound; /* not computed */
