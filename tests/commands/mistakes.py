@@ -6,6 +6,21 @@ import unittest
 from command import MATERIAL, POINT, SOLVE, WAVE, Place
 
 SEGMENT = POINT.format(steps=2, stretch=0.9999)
+MESH_WITHOUT_NAMES = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+4
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+$EndNodes
+$Elements
+1
+1 3 2 1 1 1 2 3 4
+$EndElements
+"""
 SCENE = "figure = false\n" + SEGMENT + MATERIAL
 
 
@@ -71,6 +86,15 @@ class Mistakes(unittest.TestCase):
     def test_pictures_that_the_path_does_not_reach_are_told(self):
         self.place.write("far.toml", "pictures = [5e-5, 0.5]\n" + SCENE)
         self.assertIn("reaches 1 of 2", self.told("point", "far.toml", status=0))
+
+    def test_a_set_of_a_mesh_without_names_is_told_that_it_has_none(self):
+        self.place.write("plain.msh", MESH_WITHOUT_NAMES)
+        self.place.write("mesh.toml", 'steps = 1\n[mesh]\nfile = "plain.msh"\n[[displacement]]\non = "base"\n'
+                         + 'component = "x"\nvalue = 0.0\n' + MATERIAL)
+        err = self.told("solve", "mesh.toml")
+        if "built without Gmsh" in err:
+            self.skipTest(err)
+        self.assertIn('found "base", expected a mesh with sets: the physical groups of its file are none', err)
 
     def test_a_material_of_a_wave_is_told_once(self):
         self.place.write("w.toml", WAVE.format(repeat=3, duration=1e-4).replace("density = 2000", "density = 0"))

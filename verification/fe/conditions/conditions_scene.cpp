@@ -20,6 +20,8 @@ std::vector<std::string_view> names(const Sets& sets) {
 template <class Sets>
 std::string read_set(SceneTable& table, const Sets& sets) {
   const std::string set = table.text("on");
+  if (sets.empty())
+    table.fail("on", '"' + set + '"', "a mesh with sets: the physical groups of its file are none");
   return table.choice_or("on", set, names(sets));
 }
 
