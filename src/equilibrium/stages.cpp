@@ -66,9 +66,8 @@ bool exploded(const Request<D>& request, double given, Increment<D>& increment) 
   if (increment.problem().space->finds_deformation) return false;
   // Where a step resolves it, inertia holds forces in their place, however much an impact makes of them.
   const double theta = increment.motion().drag().how().theta;
-  const bool resolves = theta > 0 && theta < 0.75;
   const bool gained = increment.scale().mean_force() > tuned::largest_gain * given;
-  return (gained && !resolves) || flew_away(request, increment);
+  return (gained && !(theta > 0 && theta < 0.75)) || flew_away(request, increment);
 }
 
 template <int D>

@@ -221,8 +221,7 @@ template <int D>
 void Drag<D>::find_velocity(const BoundarySpace<D>& space, std::span<const Place> particles,
                             std::span<const double> affine, const Tensor<D>& stretch,
                             std::span<double> velocity) {
-  const std::size_t n = particles.size();
-  const std::size_t nodes = expected_.size();
+  const std::size_t n = particles.size(), nodes = expected_.size();
   const std::size_t components = affine.size() / n;
   resize_with_capacity(node_velocity_, components * nodes);
   has_inertia() ? find_particle_velocity(space, particles, stretch)

@@ -4,6 +4,8 @@ import os
 import pathlib
 import re
 import shutil
+import signal
+import time
 import unittest
 
 from command import DNS, LATTICE, PERIODIC, POINT, SOLVE, WAVE, Place
@@ -266,6 +268,24 @@ class OwnFiles(unittest.TestCase):
         status, _, err = self.place.run("solve", scene, "--restart", "--output", "out")
         self.assertEqual(status, 2, err)
         self.assertEqual((self.place.path / "out/s.checkpoint").read_text(), "mine\n")
+
+    def test_a_second_run_leaves_what_a_first_one_is_writing(self):
+        scene = self.place.write("s.toml", "steps = 400\n" + PERIODIC + SOLVE.format(value=-1e-5))
+        first = self.place.start("solve", scene, "--output", "out")
+        table = self.place.path / "out/s_force.csv"
+        while not table.exists():
+            self.assertIsNone(first.poll())
+            time.sleep(0.01)
+        first.send_signal(signal.SIGSTOP)
+        status, _, err = self.place.run("solve", scene, "--output", "out")
+        self.assertEqual(status, 1, err)
+        self.assertRegex(err, r"out/s\w*\.csv: another run is writing it, expected one at a time: wait for its end, or give another")
+        self.run_well("point", self.place.write("q.toml", "figure = false\n" + PERIODIC + POINT.format(steps=1, stretch=0.999)))
+        first.send_signal(signal.SIGCONT)
+        _, err = first.communicate(timeout=300)
+        self.assertEqual(first.returncode, 0, err)
+        self.assertEqual(len(table.read_text().splitlines()), 402)
+        self.run_well("solve", scene)
 
 
 if __name__ == "__main__":

@@ -13,14 +13,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <fstream>
 #include <limits>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace verification {
@@ -90,12 +93,44 @@ class DirectoryLock {
   int number_;
 };
 
+// Names of a directory's files that the process writes, from the first time until its end.
+class NamesInUse {
+ public:
+  explicit NamesInUse(fs::path file) : file_(std::move(file)) {}
+  ~NamesInUse() {
+    if (number_ >= 0) ::close(number_);
+  }
+  NamesInUse(const NamesInUse&) = delete;
+  NamesInUse& operator=(const NamesInUse&) = delete;
+
+  // False where another process has the name. File systems without locks know of none.
+  [[nodiscard]] bool take(const std::string& name) {
+    if (!taken_.insert(name).second) return true;
+    if (number_ < 0) number_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (number_ < 0) return true;
+    struct flock byte {};
+    byte.l_type = F_WRLCK;
+    byte.l_whence = SEEK_SET;
+    byte.l_start = static_cast<off_t>(checksum(name) >> 2);  // not below 0
+    byte.l_len = 1;
+    if (::fcntl(number_, F_OFD_SETLK, &byte) == 0) return true;
+    return errno != EAGAIN && errno != EACCES;
+  }
+
+ private:
+  fs::path file_;
+  int number_ = -1;
+  std::set<std::string> taken_;
+};
+
 // The list of one directory. Of a file it has what it was and what it is about to be, so that the
 // process may be killed at any time.
 class List {
  public:
   explicit List(const fs::path& directory)
-      : directory_(directory / hidden), path_(directory_ / "written") {
+      : directory_(directory / hidden),
+        path_(directory_ / "written"),
+        in_use_(directory_ / "in_use") {
     const DirectoryLock lock(directory_);
     std::ifstream file(path_, std::ios::binary);
     std::size_t lines = 0;
@@ -111,13 +146,18 @@ class List {
   }
 
   void add(const std::string& name, const Mark& mark) {
-    if (const auto& marks = marks_[name]; !marks.empty() && marks.back() == mark) return;
-    learn(name, mark);
     std::error_code error;
     fs::create_directory(directory_, error);
     if (error)
       throw ComputationError(
           fmt::format("{}: cannot be made: {}", directory_.string(), error.message()));
+    if (!in_use_.take(name))
+      throw ComputationError(
+          fmt::format("{}: another run is writing it, expected one at a time: wait for its end, or "
+                      "give another --output",
+                      (directory_.parent_path() / name).string()));
+    if (const auto& marks = marks_[name]; !marks.empty() && marks.back() == mark) return;
+    learn(name, mark);
     const DirectoryLock lock(directory_);
     const auto size = fs::file_size(path_, error);
     const bool old = !error && size > 0;
@@ -158,6 +198,7 @@ class List {
   }
 
   fs::path directory_, path_;
+  NamesInUse in_use_;
   std::map<std::string, std::vector<Mark>> marks_;
 };
 
