@@ -69,7 +69,8 @@ RecordOf<D> mean(const std::vector<RecordOf<D>>& records, std::vector<double> we
   if (alike) weight.assign(records.size(), 1.0);
   const double total = std::accumulate(weight.begin(), weight.end(), 0.0);
   const auto add = [&](auto member) {
-    for (std::size_t p = 0; p < records.size(); ++p) sum.*member += weight[p] * (records[p].*member);
+    for (std::size_t p = 0; p < records.size(); ++p)
+      sum.*member += weight[p] * (records[p].*member);
     sum.*member /= total;
   };
   for (const auto member :
