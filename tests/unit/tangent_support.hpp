@@ -56,15 +56,25 @@ inline std::optional<Tangent> differences_without_change(State& state, const Ten
 // Differences err too: by the curvature of P over a wide stencil, or a change of status in a
 // sub-increment on the way; by the solver's tolerance over a narrow one. A tangent that is wrong
 // agrees with none of them.
-inline void expect_derivative(State& state, const Tensor& F) {
+inline double difference_from_stencils(State& state, const Tensor& F) {
   const Evaluation at = evaluate(state, F, TangentKind::exact);
-  ASSERT_EQ(at.status, GRAINLAW_OK);
+  EXPECT_EQ(at.status, GRAINLAW_OK);
   EXPECT_EQ(at.report.tangent_exact, 1);
   double least = std::numeric_limits<double>::infinity();
   for (const double step : {1e-6, 3e-7, 1e-7, 3e-8}) {
     const auto differences = differences_without_change(state, F, step);
     if (differences) least = std::min(least, relative_difference(at.tangent, *differences));
     if (least <= bar) break;
+  }
+  return least;
+}
+
+// A contact may change its status at this very F, by chance; then not a little before it too.
+inline void expect_derivative(State& state, const Tensor& F) {
+  double least = difference_from_stencils(state, F);
+  if (std::isinf(least)) {
+    const Tensor& from = state.committed().deformation;
+    least = difference_from_stencils(state, sum(from, 0.99, sum(F, -1, from)));
   }
   EXPECT_LE(least, bar) << "infinite when a contact changes status in every stencil";
 }
