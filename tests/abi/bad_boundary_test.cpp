@@ -108,6 +108,9 @@ TEST(bad_boundary, keys_are_told_with_file_and_line) {
       header + "inner_rotation = \"fixed\"\n",
       ":11: boundary.inner_rotation: found \"fixed\" in a periodic cell, expected a frame or mixed "
       "type with it, or contact.rotation = false");
+  std::string locked = header + "type = \"frame-d\"\ninner_rotation = \"fixed\"\n";
+  locked.insert(locked.find("[boundary]"), "rotation = false\n");
+  wrong(locked, ":13: boundary.inner_rotation: found \"fixed\" where no particle rotates");
 }
 
 TEST(bad_boundary, frames_are_told) {
