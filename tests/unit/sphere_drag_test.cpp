@@ -6,10 +6,6 @@
 namespace grainlaw::core::sphere_test {
 namespace {
 
-Deformation at(double strain) {
-  return {1 + 0.35 * strain, 0.1 * strain, 0, 0, 1 + 0.35 * strain, 0, 0.1 * strain, 0, 1 - strain};
-}
-
 std::shared_ptr<const Material<3>> with_drag(long steps) {
   MaterialDescription description = describe();
   description.solver.viscosity.number = 1e-3;
@@ -21,14 +17,14 @@ TEST(sphere_drag, tangent_matches_central_differences) {
   for (const long steps : {1L, 2L}) {
     State<3> state(with_drag(steps));
     for (int n = 1; n <= 2; ++n) {
-      evaluate(state, at(1e-3 * n));
+      evaluate(state, compressed(1e-3 * n));
       state.commit();
     }
-    const auto found = evaluate(state, at(3e-3), TangentKind::exact);
+    const auto found = evaluate(state, compressed(3e-3), TangentKind::exact);
     EXPECT_EQ(found.report.tangent_exact, 1);
     double least = 1;
     for (const double step : {1e-6, 1e-7}) {
-      const auto differences = central_differences(state, at(3e-3), step);
+      const auto differences = central_differences(state, compressed(3e-3), step);
       least = std::min(least, relative_difference(found.tangent, differences));
     }
     EXPECT_LE(least, 1e-6) << steps;
@@ -38,14 +34,7 @@ TEST(sphere_drag, tangent_matches_central_differences) {
 TEST(sphere_drag, turns_with_the_increment) {
   const auto material = with_drag(1);
   State<3> straight(material), turned(material);
-  for (int n = 1; n <= 3; ++n) {
-    const Deformation Q = rotation({1, -2, 0.5}, 0.8 * n);
-    const auto stress = evaluate(straight, at(1e-3 * n)).stress;
-    const auto found = evaluate(turned, product<3>(Q, at(1e-3 * n))).stress;
-    EXPECT_LT(relative_difference(found, product<3>(Q, stress)), 1e-8) << n;
-    straight.commit();
-    turned.commit();
-  }
+  expect_to_turn(straight, turned, 1e-3, 1e-8);
 }
 
 }  // namespace

@@ -76,6 +76,24 @@ inline Deformation rotation(Vec<3> axis, double angle) {
   return result;
 }
 
+// Compressed along one axis, and sheared.
+inline Deformation compressed(double strain) {
+  return {1 + 0.35 * strain, 0.1 * strain, 0, 0, 1 + 0.35 * strain, 0, 0.1 * strain, 0, 1 - strain};
+}
+
+// Both states have had the same increments, the second one turned.
+inline void expect_to_turn(State<3>& straight, State<3>& turned, double strain, double bound) {
+  for (int n = 1; n <= 3; ++n) {
+    const Deformation Q = rotation({1, -2, 0.5}, 0.8 * n);
+    const Deformation F = compressed(strain * n);
+    const auto stress = evaluate(straight, F).stress;
+    const auto found = evaluate(turned, product<3>(Q, F)).stress;
+    EXPECT_LT(relative_difference(found, product<3>(Q, stress)), bound) << n;
+    straight.commit();
+    turned.commit();
+  }
+}
+
 inline Tensor4<3> central_differences(State<3>& state, const Deformation& F, double step) {
   Tensor4<3> tangent{};
   for (std::size_t k = 0; k < 9; ++k) {
